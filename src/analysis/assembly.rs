@@ -1,0 +1,361 @@
+//! From the estimates of the file to a position that satisfies every equation at the first time.
+//!
+//! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
+//! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
+
+use super::errors;
+use super::kinematics::{Fault, Kinematics, State};
+use super::singular;
+use crate::diag::Diagnostic;
+use crate::ir::{ConstraintSystem, CoordinateKind};
+
+/// Newton steps at most.
+const NEWTON_STEPS: usize = 200;
+/// Largest Newton step, scaled: small enough to stay with the branch of the estimates.
+const LARGEST_STEP: f64 = 0.3;
+/// Smallest damping of a Newton step before another method is tried.
+const SMALLEST_DAMPING: f64 = 1e-3;
+/// A correction below this leaves nothing to the next one.
+const SETTLED: f64 = 1e-7;
+/// Steps of the least-squares method at most.
+const LEAST_SQUARES_STEPS: usize = 300;
+/// Systems up to this size are assembled as a whole by the least-squares method, larger ones block by block.
+const LARGEST_DENSE: usize = 300;
+/// How far estimates are perturbed, scaled, one attempt after another.
+const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
+/// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.
+const SINGULAR_START: f64 = 1e-5;
+/// A smallest pivot above this needs no closer look.
+const SAFE_PIVOT: f64 = 1e-3;
+
+/// How far assembly moved the bodies from their estimates.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Moved {
+    /// Largest move of a body's origin in x or y [m].
+    pub length: f64,
+    /// Index of that body.
+    pub length_body: usize,
+    /// Largest turn [rad].
+    pub angle: f64,
+    /// Index of that body.
+    pub angle_body: usize,
+}
+
+/// Assembles at time `t`.
+pub(super) fn assemble(
+    kinematics: &mut Kinematics<'_>,
+    t: f64,
+) -> Result<(State, Moved), Box<Diagnostic>> {
+    let system = kinematics.system();
+    let estimates = kinematics.estimates();
+    kinematics.set_time(t);
+    if let Err(Fault::NotFinite { row }) = kinematics.set_position(&estimates) {
+        return Err(Box::new(errors::not_finite(system, row, t)));
+    }
+    let q = match newton(kinematics, &estimates) {
+        Some(q) => q,
+        None => by_least_squares(kinematics, &estimates, t)?,
+    };
+    let moved = moved(system, &estimates, &q);
+    refuse_singular(kinematics, &q, t)?;
+    Ok((State::new(t, q), moved))
+}
+
+fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
+    let mut moved = Moved::default();
+    for (coordinate, (a, b)) in system.coordinates.iter().zip(from.iter().zip(to)) {
+        let way = (b - a).abs();
+        match coordinate.kind {
+            CoordinateKind::Length if way > moved.length => {
+                (moved.length, moved.length_body) = (way, coordinate.body);
+            }
+            CoordinateKind::Angle if way > moved.angle => {
+                (moved.angle, moved.angle_body) = (way, coordinate.body)
+            }
+            _ => {}
+        }
+    }
+    moved
+}
+
+/// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
+/// Nonlinear Problems*, 2004, section 3.3): the judgement does not depend on how rows are scaled.
+fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
+    let n = start.len();
+    let (mut q, mut trial) = (start.to_vec(), start.to_vec());
+    let (mut delta, mut next) = (vec![0.0; n], vec![0.0; n]);
+    kinematics.set_position(&q).ok()?;
+    for _ in 0..NEWTON_STEPS {
+        kinematics.factor().ok()?;
+        let size = kinematics.correction(&mut delta);
+        if !size.is_finite() {
+            return None;
+        }
+        let mut damping = f64::min(1.0, LARGEST_STEP / size);
+        loop {
+            for k in 0..n {
+                trial[k] = q[k] + damping * delta[k];
+            }
+            let smaller = kinematics.set_position(&trial).is_ok() && {
+                let next_size = kinematics.correction(&mut next);
+                next_size <= (1.0 - 0.25 * damping) * size || size <= SETTLED
+            };
+            if smaller {
+                break;
+            }
+            damping *= 0.5;
+            if damping < SMALLEST_DAMPING {
+                return None;
+            }
+        }
+        q.copy_from_slice(&trial);
+        if size <= SETTLED && kinematics.violated().is_none() {
+            return Some(q);
+        }
+    }
+    None
+}
+
+fn by_least_squares(
+    kinematics: &mut Kinematics<'_>,
+    estimates: &[f64],
+    t: f64,
+) -> Result<Vec<f64>, Box<Diagnostic>> {
+    let mut nearest = None;
+    let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
+    for size in std::iter::once(0.0).chain(PERTURBATIONS) {
+        let start: Vec<f64> = (0..estimates.len())
+            .map(|k| estimates[k] + size * kinematics.linear().column_scale(k) * noise.next())
+            .collect();
+        let q = least_squares(kinematics, start);
+        if let Some(polished) = newton(kinematics, &q) {
+            return Ok(polished);
+        }
+        let _ = kinematics.set_position(&q);
+        let _ = kinematics.factor();
+        if kinematics.violated().is_none() {
+            // assembled, but Newton does not settle: a singular position
+            return Ok(q);
+        }
+        nearest.get_or_insert(q);
+    }
+    let q = nearest.unwrap_or_else(|| estimates.to_vec());
+    Err(Box::new(explain(kinematics, &q, t)))
+}
+
+/// The rows that stay open, worst first.
+fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
+    if let Err(Fault::NotFinite { row }) = kinematics.set_position(q) {
+        return errors::not_finite(kinematics.system(), row, t);
+    }
+    let _ = kinematics.factor();
+    let mut rows: Vec<(usize, f64, f64)> = (0..q.len())
+        .map(|row| {
+            let off = kinematics.phi(row).abs();
+            let norm = kinematics.linear().row_norm(row);
+            (row, off, if norm > 0.0 { off / norm } else { off })
+        })
+        .collect();
+    rows.sort_by(|a, b| b.2.total_cmp(&a.2));
+    let worst = rows.first().map_or(0.0, |row| row.2);
+    rows.retain(|row| row.2 > 0.1 * worst);
+    errors::cannot_assemble(kinematics.system(), &rows, t)
+}
+
+/// The equations must be independent where the motion starts.
+fn refuse_singular(
+    kinematics: &mut Kinematics<'_>,
+    q: &[f64],
+    t: f64,
+) -> Result<(), Box<Diagnostic>> {
+    let system = kinematics.system();
+    let regular = kinematics
+        .set_position(q)
+        .and_then(|()| kinematics.factor())
+        .is_ok();
+    if regular && kinematics.linear().smallest_pivot() > SAFE_PIVOT {
+        return Ok(());
+    }
+    let vectors = kinematics.smallest_singular();
+    if regular && vectors.sigma > SINGULAR_START {
+        return Ok(());
+    }
+    Err(Box::new(singular::name_start(
+        system,
+        &vectors.left,
+        &vectors.right,
+        t,
+    )))
+}
+
+/// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
+fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
+    let determined = kinematics.determined();
+    let n = q.len();
+    if n <= LARGEST_DENSE {
+        let all: Vec<u32> = (0..n as u32).collect();
+        levenberg_marquardt(kinematics, &mut q, &all, &all);
+    } else {
+        for block in determined
+            .blocks()
+            .iter()
+            .filter(|block| block.rows.len() <= LARGEST_DENSE)
+        {
+            levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
+        }
+    }
+    q
+}
+
+fn levenberg_marquardt(
+    kinematics: &mut Kinematics<'_>,
+    q: &mut [f64],
+    rows: &[u32],
+    columns: &[u32],
+) {
+    let m = rows.len();
+    let mut place = vec![usize::MAX; q.len()];
+    for (k, &column) in columns.iter().enumerate() {
+        place[column as usize] = k;
+    }
+    let scale: Vec<f64> = columns
+        .iter()
+        .map(|&column| kinematics.linear().column_scale(column as usize))
+        .collect();
+    let Some((mut residual, mut jacobian, weights)) =
+        linearize(kinematics, q, rows, &place, &scale, None)
+    else {
+        return;
+    };
+    let mut damping = 1e-3;
+    for _ in 0..LEAST_SQUARES_STEPS {
+        let norm = square(&residual);
+        if norm.sqrt() < 1e-15 {
+            return;
+        }
+        let step = damped_solution(&jacobian, &residual, damping, m);
+        let before: Vec<f64> = q.to_vec();
+        let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
+        let cut = if longest > LARGEST_STEP {
+            LARGEST_STEP / longest
+        } else {
+            1.0
+        };
+        for (k, &column) in columns.iter().enumerate() {
+            q[column as usize] += cut * step[k] * scale[k];
+        }
+        match linearize(kinematics, q, rows, &place, &scale, Some(&weights)) {
+            Some((new_residual, new_jacobian, _)) if square(&new_residual) < norm => {
+                let gained = 1.0 - square(&new_residual) / norm;
+                (residual, jacobian) = (new_residual, new_jacobian);
+                damping = f64::max(damping * 0.3, 1e-12);
+                if gained < 1e-10 {
+                    return;
+                }
+            }
+            _ => {
+                q.copy_from_slice(&before);
+                damping *= 4.0;
+                if damping > 1e12 {
+                    return;
+                }
+            }
+        }
+    }
+}
+
+fn square(v: &[f64]) -> f64 {
+    v.iter().map(|x| x * x).sum()
+}
+
+/// Scaled residual and dense Jacobian of some rows by some columns; `None` where Φ is not finite. Without weights the
+/// rows' norms there become the weights.
+#[allow(clippy::type_complexity)] // three plain arrays
+fn linearize(
+    kinematics: &mut Kinematics<'_>,
+    q: &[f64],
+    rows: &[u32],
+    place: &[usize],
+    scale: &[f64],
+    weights: Option<&[f64]>,
+) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
+    kinematics.set_position(q).ok()?;
+    let pattern = &kinematics.system().phi_q;
+    let m = rows.len();
+    let mut jacobian = vec![0.0; m * m];
+    let mut residual = vec![0.0; m];
+    let mut used = vec![1.0; m];
+    for (k, &row) in rows.iter().enumerate() {
+        let row = row as usize;
+        let line = &mut jacobian[k * m..(k + 1) * m];
+        for (position, &(column, _)) in pattern.range(row).zip(pattern.row(row)) {
+            if let Some(&scale) = scale.get(place[column as usize]) {
+                line[place[column as usize]] = kinematics.phi_q(position) * scale;
+            }
+        }
+        let norm = square(line).sqrt();
+        used[k] = weights.map_or(if norm > 0.0 { norm } else { 1.0 }, |weights| weights[k]);
+        line.iter_mut().for_each(|x| *x /= used[k]);
+        residual[k] = kinematics.phi(row) / used[k];
+    }
+    jacobian
+        .iter()
+        .all(|x| x.is_finite())
+        .then_some((residual, jacobian, used))
+}
+
+/// The x of least |J x + r|² + λ|x|², by Householder reflections of J above √λ I.
+fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, m: usize) -> Vec<f64> {
+    let height = 2 * m;
+    // column by column, with the right side as the last one
+    let mut a = vec![0.0; height * (m + 1)];
+    for i in 0..m {
+        for j in 0..m {
+            a[j * height + i] = jacobian[i * m + j];
+        }
+        a[i * height + m + i] = damping.sqrt();
+        a[m * height + i] = -residual[i];
+    }
+    for k in 0..m {
+        let (done, rest) = a.split_at_mut((k + 1) * height);
+        let column = &mut done[k * height..];
+        let norm = square(&column[k..]).sqrt();
+        let pivot = if column[k] > 0.0 { -norm } else { norm };
+        column[k] -= pivot;
+        let length = square(&column[k..]);
+        for other in rest.chunks_exact_mut(height) {
+            let share: f64 = column[k..]
+                .iter()
+                .zip(&other[k..])
+                .map(|(x, y)| x * y)
+                .sum();
+            for (x, y) in column[k..].iter().zip(&mut other[k..]) {
+                *y -= 2.0 * share / length * x;
+            }
+        }
+        column[k] = pivot;
+    }
+    let mut x = vec![0.0; m];
+    for i in (0..m).rev() {
+        let mut sum = a[m * height + i];
+        for j in i + 1..m {
+            sum -= a[j * height + i] * x[j];
+        }
+        x[i] = sum / a[i * height + i];
+    }
+    x
+}
+
+/// Numbers in [−1, 1] that are the same on every run (G. Steele et al., *SplitMix*, 2014).
+struct Noise(u64);
+
+impl Noise {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^= z >> 31;
+        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    }
+}

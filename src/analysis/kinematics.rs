@@ -1,0 +1,336 @@
+//! Everything that can be said of one state: residual, correction, velocity, acceleration.
+
+use super::errors;
+use super::linear::{BlockLu, Factored, Singular};
+use crate::diag::Diagnostic;
+use crate::ir::{ConstraintSystem, Measure};
+use crate::program::{Program, Registers, Stage};
+use crate::structure::Determined;
+
+/// Largest irreducible block that the dense factors can hold.
+const LARGEST_BLOCK: usize = 4000;
+
+/// A time with the coordinates and their derivatives.
+#[derive(Clone, Debug)]
+pub(super) struct State {
+    /// [s]
+    pub t: f64,
+    /// [m, rad]
+    pub q: Vec<f64>,
+    /// [m/s, rad/s]
+    pub qd: Vec<f64>,
+    /// [m/s², rad/s²]
+    pub qdd: Vec<f64>,
+    /// [m/s³, rad/s³]; zero where no measure needs it.
+    pub qddd: Vec<f64>,
+}
+
+impl State {
+    pub fn new(t: f64, q: Vec<f64>) -> State {
+        let zero = vec![0.0; q.len()];
+        State {
+            t,
+            q,
+            qd: zero.clone(),
+            qdd: zero.clone(),
+            qddd: zero,
+        }
+    }
+
+    /// Takes over another state without allocating.
+    pub fn copy_from(&mut self, other: &State) {
+        self.t = other.t;
+        self.q.copy_from_slice(&other.q);
+        self.qd.copy_from_slice(&other.qd);
+        self.qdd.copy_from_slice(&other.qdd);
+        self.qddd.copy_from_slice(&other.qddd);
+    }
+}
+
+/// Why a state cannot be computed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Fault {
+    /// An entry of Φ, Φ_q or a right side is not finite: its row.
+    NotFinite { row: usize },
+    /// Φ_q is singular, or nearer to it than can be trusted.
+    Singular,
+    /// Newton does not arrive, or asks for more than the predictor allows.
+    TooFar,
+    /// A formula that must be positive is not: its number.
+    Condition { index: usize },
+}
+
+/// A mechanism's program with its registers and factors.
+pub(super) struct Kinematics<'d> {
+    determined: &'d Determined,
+    program: &'d Program,
+    registers: Registers,
+    linear: BlockLu,
+    tolerance: f64,
+}
+
+impl<'d> Kinematics<'d> {
+    pub fn new(
+        determined: &'d Determined,
+        program: &'d Program,
+        tolerance: f64,
+    ) -> Result<Kinematics<'d>, Box<Diagnostic>> {
+        let system = determined.system();
+        if let Some(block) = determined
+            .blocks()
+            .iter()
+            .find(|block| block.rows.len() > LARGEST_BLOCK)
+        {
+            return Err(Box::new(errors::too_large(
+                system,
+                block.rows.len(),
+                LARGEST_BLOCK,
+            )));
+        }
+        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        Ok(Kinematics {
+            determined,
+            program,
+            registers: program.start(&params),
+            linear: BlockLu::new(system, determined.blocks()),
+            tolerance,
+        })
+    }
+
+    pub fn system(&self) -> &'d ConstraintSystem {
+        self.determined.system()
+    }
+
+    pub fn determined(&self) -> &'d Determined {
+        self.determined
+    }
+
+    pub fn linear(&self) -> &BlockLu {
+        &self.linear
+    }
+
+    /// The estimates of the file [m, rad].
+    pub fn estimates(&self) -> Vec<f64> {
+        self.program
+            .outputs
+            .estimates
+            .iter()
+            .map(|&register| self.registers.get(register))
+            .collect()
+    }
+
+    pub fn set_time(&mut self, t: f64) {
+        self.registers.set(self.program.inputs.time, t);
+        self.program.run(Stage::Time, &mut self.registers);
+    }
+
+    /// Evaluates Φ and Φ_q at a position.
+    pub fn set_position(&mut self, q: &[f64]) -> Result<(), Fault> {
+        self.registers
+            .set_all(self.program.inputs.coordinates[0], q);
+        self.program.run(Stage::Position, &mut self.registers);
+        match (0..q.len()).find(|&row| !self.phi(row).is_finite()) {
+            Some(row) => Err(Fault::NotFinite { row }),
+            None => Ok(()),
+        }
+    }
+
+    /// An entry of Φ where the position was set.
+    pub fn phi(&self, row: usize) -> f64 {
+        self.registers.get(self.program.outputs.phi[row])
+    }
+
+    /// An entry of Φ_q, by its position in the pattern.
+    pub fn phi_q(&self, position: usize) -> f64 {
+        self.registers.get(self.program.outputs.phi_q[position])
+    }
+
+    /// Factors Φ_q where the position was set.
+    pub fn factor(&mut self) -> Result<(), Fault> {
+        let (registers, outputs) = (&self.registers, &self.program.outputs);
+        match self
+            .linear
+            .factor(|position| registers.get(outputs.phi_q[position]))
+        {
+            Factored::Regular => Ok(()),
+            Factored::Singular => match self.not_finite_slope() {
+                Some(row) => Err(Fault::NotFinite { row }),
+                None => Err(Fault::Singular),
+            },
+        }
+    }
+
+    fn not_finite_slope(&self) -> Option<usize> {
+        let pattern = &self.system().phi_q;
+        (0..self.system().rows.len()).find(|&row| {
+            pattern
+                .range(row)
+                .any(|position| !self.phi_q(position).is_finite())
+        })
+    }
+
+    /// Newton's correction of the position, and its largest scaled entry.
+    pub fn correction(&mut self, delta: &mut [f64]) -> f64 {
+        let (registers, outputs) = (&self.registers, &self.program.outputs);
+        self.linear
+            .solve(|row| -registers.get(outputs.phi[row]), delta)
+    }
+
+    /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
+    ///
+    /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
+    /// coordinates that it depends on.
+    pub fn violated(&mut self) -> Option<(usize, f64)> {
+        let n = self.system().rows.len();
+        let beyond = |this: &Self, row: usize| {
+            this.phi(row).abs() > this.tolerance * this.linear.row_norm(row)
+        };
+        if !(0..n).any(|row| beyond(self, row)) {
+            return None;
+        }
+        self.program.run(Stage::Terms, &mut self.registers);
+        let mut worst: Option<(usize, f64)> = None;
+        for row in 0..n {
+            let norm = self.linear.row_norm(row);
+            let excess = self.phi(row).abs() - self.tolerance * norm - self.rounding(row);
+            let residual = self.phi(row).abs() / norm;
+            if excess > 0.0 && worst.is_none_or(|(_, known)| residual > known) {
+                worst = Some((row, residual));
+            }
+        }
+        worst
+    }
+
+    /// 8 eps times the largest term of a row, the steps of its coordinates included.
+    fn rounding(&self, row: usize) -> f64 {
+        let pattern = &self.system().phi_q;
+        let terms = self.program.outputs.terms[row]
+            .iter()
+            .map(|&register| self.registers.get(register).abs());
+        let steps = pattern
+            .range(row)
+            .zip(pattern.row(row))
+            .map(|(position, &(column, _))| {
+                let q = self
+                    .registers
+                    .get(self.program.inputs.coordinates[0] + column);
+                (self.phi_q(position) * q).abs()
+            });
+        8.0 * f64::EPSILON * terms.chain(steps).fold(0.0, f64::max)
+    }
+
+    /// The formula that must be positive and is not.
+    fn broken_condition(&self) -> Option<usize> {
+        // a formula that is not a number is no better
+        self.program
+            .outputs
+            .conditions
+            .iter()
+            .position(|&register| {
+                let value = self.registers.get(register);
+                value.is_nan() || value <= 0.0
+            })
+    }
+
+    /// Velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
+    pub fn derivatives(&mut self, state: &mut State) -> Result<(), Fault> {
+        let program = self.program;
+        let [_, qd, qdd, qddd] = program.inputs.coordinates;
+        let outputs = &program.outputs;
+        program.run(Stage::Velocity, &mut self.registers);
+        if let Some(index) = self.broken_condition() {
+            return Err(Fault::Condition { index });
+        }
+        let (linear, registers) = (&mut self.linear, &mut self.registers);
+        linear.solve(|row| registers.get(outputs.nu[row]), &mut state.qd);
+        registers.set_all(qd, &state.qd);
+        program.run(Stage::Acceleration, registers);
+        linear.solve(|row| registers.get(outputs.gamma[row]), &mut state.qdd);
+        if !outputs.jerk.is_empty() {
+            registers.set_all(qdd, &state.qdd);
+            program.run(Stage::Jerk, registers);
+            linear.solve(|row| registers.get(outputs.jerk[row]), &mut state.qddd);
+            registers.set_all(qddd, &state.qddd);
+        }
+        self.all_finite(state)
+    }
+
+    fn all_finite(&self, state: &State) -> Result<(), Fault> {
+        let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
+        if finite(&state.qd) && finite(&state.qdd) && finite(&state.qddd) {
+            return Ok(());
+        }
+        let outputs = &self.program.outputs;
+        let row = [&outputs.nu, &outputs.gamma, &outputs.jerk]
+            .into_iter()
+            .find_map(|list| {
+                list.iter()
+                    .position(|&register| !self.registers.get(register).is_finite())
+            });
+        Err(row.map_or(Fault::Singular, |row| Fault::NotFinite { row }))
+    }
+
+    /// Writes a result row of a state whose derivatives were just computed.
+    pub fn write_row(&mut self, state: &State, row: &mut [f64]) {
+        let (program, registers) = (self.program, &mut self.registers);
+        let [_, _, qdd, _] = program.inputs.coordinates;
+        registers.set_all(qdd, &state.qdd);
+        program.run(Stage::Measures, registers);
+        let outputs = &program.outputs;
+        let lists = [
+            (&state.q, &outputs.measures),
+            (&state.qd, &outputs.measures_d),
+            (&state.qdd, &outputs.measures_dd),
+        ];
+        let mut cells = row.iter_mut();
+        let mut put = |value: f64| {
+            if let Some(cell) = cells.next() {
+                // −0 would surprise a reader
+                *cell = value + 0.0;
+            }
+        };
+        put(state.t);
+        for (coordinates, measures) in lists {
+            coordinates.iter().for_each(|&value| put(value));
+            measures
+                .iter()
+                .for_each(|&register| put(registers.get(register)));
+        }
+    }
+
+    /// The measure behind a column of a result row, which must be one of a measure.
+    pub fn measure_of_column(&self, column: usize) -> usize {
+        let system = self.system();
+        let n = system.coordinates.len();
+        let having = |has: fn(&Measure) -> bool| {
+            (0..system.measures.len()).filter(move |&k| has(&system.measures[k]))
+        };
+        let columns = std::iter::repeat_n(0, 1 + n)
+            .chain(having(|_| true))
+            .chain(std::iter::repeat_n(0, n))
+            .chain(having(|measure| measure.first.is_some()))
+            .chain(std::iter::repeat_n(0, n))
+            .chain(having(|measure| measure.second.is_some()));
+        columns.skip(column).next().unwrap_or(0)
+    }
+
+    /// Length of a result row.
+    pub fn row_length(&self) -> usize {
+        let outputs = &self.program.outputs;
+        let measures =
+            outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
+        1 + 3 * self.system().coordinates.len() + measures
+    }
+
+    /// Evaluates and factors at a state again.
+    pub fn restore(&mut self, state: &State) {
+        self.set_time(state.t);
+        // the state was computed once, so that neither can fail now
+        let _ = self.set_position(&state.q);
+        let _ = self.factor();
+    }
+
+    pub fn smallest_singular(&mut self) -> Singular {
+        self.linear.smallest_singular()
+    }
+}

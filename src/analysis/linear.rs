@@ -1,0 +1,391 @@
+//! The linear systems of one state: `Φ_q x = b`, block by block.
+//!
+//! Everything is scaled: lengths by L, rows to unit norm. Within a block the factors are dense, with partial pivoting;
+//! between blocks the solution is substituted forward, so that cost grows with the number of blocks.
+
+use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::structure::Block;
+
+/// One irreducible block with its place in the common storage.
+struct Part {
+    /// Offset of its rows and columns in the lists below.
+    at: usize,
+    size: usize,
+    /// Offset of its dense matrix.
+    matrix: usize,
+    /// Smallest pivot, relative to rows of unit norm.
+    smallest_pivot: f64,
+    /// Sign of the determinant.
+    positive: bool,
+}
+
+/// An entry of `Φ_q`: its position in the pattern, and where it goes.
+#[derive(Clone, Copy)]
+struct Entry {
+    position: u32,
+    column: u32,
+    /// Place in its block's dense matrix, or `OUTSIDE`.
+    dense: u32,
+}
+
+const OUTSIDE: u32 = u32::MAX;
+
+/// The factors of `Φ_q`, and the workspace to compute and use them.
+pub(super) struct BlockLu {
+    parts: Vec<Part>,
+    /// Rows of Φ in block order.
+    rows: Vec<u32>,
+    /// Coordinates in block order.
+    columns: Vec<u32>,
+    /// Entries by row in block order: `starts[k]..starts[k + 1]`.
+    starts: Vec<usize>,
+    entries: Vec<Entry>,
+    /// Scale of each coordinate: L or 1.
+    column_scale: Vec<f64>,
+    /// Norm of each scaled row.
+    row_norm: Vec<f64>,
+    /// Scaled values of the entries.
+    values: Vec<f64>,
+    dense: Vec<f64>,
+    pivots: Vec<u32>,
+    work: Vec<f64>,
+}
+
+/// What a factorisation shows.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Factored {
+    Regular,
+    /// A pivot or a whole row vanishes.
+    Singular,
+}
+
+impl BlockLu {
+    pub fn new(system: &ConstraintSystem, blocks: &[Block]) -> BlockLu {
+        let n = system.coordinates.len();
+        let mut place_of_column = vec![0_u32; n];
+        let mut part_of_column = vec![0_u32; n];
+        let (mut parts, mut rows, mut columns) = (Vec::new(), Vec::new(), Vec::new());
+        let mut matrix = 0;
+        for (k, block) in blocks.iter().enumerate() {
+            let size = block.rows.len();
+            parts.push(Part {
+                at: rows.len(),
+                size,
+                matrix,
+                smallest_pivot: 0.0,
+                positive: true,
+            });
+            for (place, &column) in block.columns.iter().enumerate() {
+                place_of_column[column as usize] = place as u32;
+                part_of_column[column as usize] = k as u32;
+            }
+            rows.extend_from_slice(&block.rows);
+            columns.extend_from_slice(&block.columns);
+            matrix += size * size;
+        }
+        let (mut starts, mut entries) = (vec![0], Vec::new());
+        for (k, part) in parts.iter().enumerate() {
+            for place in 0..part.size {
+                let row = rows[part.at + place] as usize;
+                for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
+                    let inside = part_of_column[column as usize] == k as u32;
+                    let within = place * part.size + place_of_column[column as usize] as usize;
+                    let dense = if inside { within as u32 } else { OUTSIDE };
+                    entries.push(Entry {
+                        position: position as u32,
+                        column,
+                        dense,
+                    });
+                }
+                starts.push(entries.len());
+            }
+        }
+        let column_scale = system
+            .coordinates
+            .iter()
+            .map(|coordinate| match coordinate.kind {
+                CoordinateKind::Length => system.length,
+                CoordinateKind::Angle => 1.0,
+            })
+            .collect();
+        BlockLu {
+            parts,
+            rows,
+            columns,
+            starts,
+            values: vec![0.0; entries.len()],
+            entries,
+            column_scale,
+            row_norm: vec![1.0; n],
+            dense: vec![0.0; matrix],
+            pivots: vec![0; n],
+            work: vec![0.0; 2 * n],
+        }
+    }
+
+    pub fn column_scale(&self, column: usize) -> f64 {
+        self.column_scale[column]
+    }
+
+    /// Norm of a row of the scaled `Φ_q`.
+    pub fn row_norm(&self, row: usize) -> f64 {
+        self.row_norm[row]
+    }
+
+    /// Smallest pivot of all blocks, against rows of unit norm.
+    pub fn smallest_pivot(&self) -> f64 {
+        self.parts
+            .iter()
+            .map(|part| part.smallest_pivot)
+            .fold(f64::INFINITY, f64::min)
+    }
+
+    /// Writes the sign of each block's determinant.
+    pub fn signs(&self, signs: &mut [bool]) {
+        for (sign, part) in signs.iter_mut().zip(&self.parts) {
+            *sign = part.positive;
+        }
+    }
+
+    pub fn blocks(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// Scales and factors; `value` gives the entries of `Φ_q` by their position in the pattern.
+    pub fn factor(&mut self, value: impl Fn(usize) -> f64) -> Factored {
+        self.dense.fill(0.0);
+        let mut regular = true;
+        for k in 0..self.parts.len() {
+            let (at, size, matrix) = (self.parts[k].at, self.parts[k].size, self.parts[k].matrix);
+            for place in 0..size {
+                regular &= self.load_row(at + place, matrix, &value);
+            }
+            let dense = &mut self.dense[matrix..matrix + size * size];
+            let pivots = &mut self.pivots[at..at + size];
+            let (smallest, positive) = factor_dense(dense, pivots, size);
+            self.parts[k].smallest_pivot = smallest;
+            // the matching fixes the order of columns, so that a sign means the same at every state
+            self.parts[k].positive = positive;
+            // also refuses a pivot that is not a number
+            regular &= smallest > 1e-14;
+        }
+        if regular {
+            Factored::Regular
+        } else {
+            Factored::Singular
+        }
+    }
+
+    fn load_row(&mut self, k: usize, matrix: usize, value: impl Fn(usize) -> f64) -> bool {
+        let range = self.starts[k]..self.starts[k + 1];
+        let mut square = 0.0;
+        for index in range.clone() {
+            let entry = self.entries[index];
+            let scaled = value(entry.position as usize) * self.column_scale[entry.column as usize];
+            self.values[index] = scaled;
+            square += scaled * scaled;
+        }
+        let norm = square.sqrt();
+        self.row_norm[self.rows[k] as usize] = norm;
+        if !(norm > 0.0 && norm.is_finite()) {
+            return false;
+        }
+        for index in range {
+            self.values[index] /= norm;
+            if self.entries[index].dense != OUTSIDE {
+                self.dense[matrix + self.entries[index].dense as usize] = self.values[index];
+            }
+        }
+        true
+    }
+
+    /// Solves `Φ_q x = b`, `b` by rows of Φ and `x` by coordinates, both unscaled; returns the largest scaled `|x|`.
+    pub fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) -> f64 {
+        let mut largest: f64 = 0.0;
+        let n = self.rows.len();
+        let (scaled, block) = self.work.split_at_mut(n);
+        for part in &self.parts {
+            let b = &mut block[..part.size];
+            for (place, b) in b.iter_mut().enumerate() {
+                let k = part.at + place;
+                let row = self.rows[k] as usize;
+                let mut sum = right(row) / self.row_norm[row];
+                for index in self.starts[k]..self.starts[k + 1] {
+                    let entry = self.entries[index];
+                    if entry.dense == OUTSIDE {
+                        sum -= self.values[index] * scaled[entry.column as usize];
+                    }
+                }
+                *b = sum;
+            }
+            let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
+            solve_dense(dense, &self.pivots[part.at..part.at + part.size], b);
+            for (place, &value) in b.iter().enumerate() {
+                let column = self.columns[part.at + place] as usize;
+                scaled[column] = value;
+                x[column] = value * self.column_scale[column];
+                // a value that is not a number must win
+                largest = if value.abs() > largest || value.is_nan() {
+                    value.abs()
+                } else {
+                    largest
+                };
+            }
+        }
+        largest
+    }
+
+    /// Solves the transposed scaled system: `b` by coordinates, `w` by rows.
+    fn solve_transposed(&self, b: &[f64], w: &mut [f64]) {
+        let n = self.rows.len();
+        let mut rest = b.to_vec();
+        for part in self.parts.iter().rev() {
+            let mut block: Vec<f64> = (0..part.size)
+                .map(|place| rest[self.columns[part.at + place] as usize])
+                .collect();
+            let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
+            solve_dense_transposed(
+                dense,
+                &self.pivots[part.at..part.at + part.size],
+                &mut block,
+            );
+            for (place, &value) in block.iter().enumerate() {
+                let k = part.at + place;
+                w[self.rows[k] as usize] = value;
+                for index in self.starts[k]..self.starts[k + 1] {
+                    let entry = self.entries[index];
+                    if entry.dense == OUTSIDE {
+                        rest[entry.column as usize] -= self.values[index] * value;
+                    }
+                }
+            }
+        }
+        debug_assert_eq!(w.len(), n);
+    }
+
+    /// The smallest singular value of the scaled `Φ_q` with its left and right vectors (by rows and by coordinates, of
+    /// unit norm), by inverse iteration. Not for the time loop: it allocates.
+    pub fn smallest_singular(&mut self) -> Singular {
+        let n = self.rows.len();
+        let mut right: Vec<f64> = (0..n).map(|k| 1.0 + 0.1 * (k % 7) as f64).collect();
+        let mut left = vec![0.0; n];
+        let mut sigma = 0.0;
+        for _ in 0..4 {
+            normalize(&mut right);
+            self.solve_transposed(&right, &mut left);
+            sigma = 1.0 / normalize(&mut left);
+            let norms = self.row_norm.clone();
+            let scaled_left = left.clone();
+            let mut x = vec![0.0; n];
+            self.solve(|row| scaled_left[row] * norms[row], &mut x);
+            for (column, value) in x.iter().enumerate() {
+                right[column] = value / self.column_scale[column];
+            }
+        }
+        normalize(&mut right);
+        Singular { sigma, left, right }
+    }
+}
+
+/// A smallest singular value with its vectors.
+pub(super) struct Singular {
+    pub sigma: f64,
+    /// By rows of Φ.
+    pub left: Vec<f64>,
+    /// By coordinates, scaled.
+    pub right: Vec<f64>,
+}
+
+fn normalize(v: &mut [f64]) -> f64 {
+    let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+    if norm > 0.0 && norm.is_finite() {
+        for x in v {
+            *x /= norm;
+        }
+    }
+    norm
+}
+
+/// LU with partial pivoting in place, row by row; gives the smallest pivot and the determinant's sign.
+fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
+    let (mut smallest, mut positive) = (f64::INFINITY, true);
+    for k in 0..n {
+        let mut best = k;
+        for i in k + 1..n {
+            if a[i * n + k].abs() > a[best * n + k].abs() {
+                best = i;
+            }
+        }
+        pivots[k] = best as u32;
+        if best != k {
+            positive = !positive;
+            let (upper, lower) = a.split_at_mut(best * n);
+            upper[k * n..k * n + n].swap_with_slice(&mut lower[..n]);
+        }
+        let (upper, lower) = a.split_at_mut((k + 1) * n);
+        let pivot_row = &upper[k * n..];
+        let pivot = pivot_row[k];
+        positive ^= pivot < 0.0;
+        // a pivot that is not a number must win
+        smallest = if pivot.abs() >= smallest {
+            smallest
+        } else {
+            pivot.abs()
+        };
+        if pivot == 0.0 {
+            continue;
+        }
+        for row in lower.chunks_exact_mut(n) {
+            let factor = row[k] / pivot;
+            row[k] = factor;
+            if factor != 0.0 {
+                for (x, p) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..]) {
+                    *x -= factor * p;
+                }
+            }
+        }
+    }
+    (smallest, positive)
+}
+
+fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {
+    let n = b.len();
+    for k in 0..n {
+        b.swap(k, pivots[k] as usize);
+    }
+    for i in 0..n {
+        let mut sum = b[i];
+        for k in 0..i {
+            sum -= a[i * n + k] * b[k];
+        }
+        b[i] = sum;
+    }
+    for i in (0..n).rev() {
+        let mut sum = b[i];
+        for k in i + 1..n {
+            sum -= a[i * n + k] * b[k];
+        }
+        b[i] = sum / a[i * n + i];
+    }
+}
+
+fn solve_dense_transposed(a: &[f64], pivots: &[u32], b: &mut [f64]) {
+    let n = b.len();
+    for i in 0..n {
+        let mut sum = b[i];
+        for k in 0..i {
+            sum -= a[k * n + i] * b[k];
+        }
+        b[i] = sum / a[i * n + i];
+    }
+    for i in (0..n).rev() {
+        let mut sum = b[i];
+        for k in i + 1..n {
+            sum -= a[k * n + i] * b[k];
+        }
+        b[i] = sum;
+    }
+    for k in (0..n).rev() {
+        b.swap(k, pivots[k] as usize);
+    }
+}

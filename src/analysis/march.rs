@@ -1,0 +1,294 @@
+//! From one output time to the next, in steps that the solver chooses by its own error.
+//!
+//! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
+//! first correction is small, so is that of the Hermite midpoint, and no block's determinant changes its sign. Else it is
+//! halved. So the branch followed does not depend on the output times.
+
+use super::errors;
+use super::kinematics::{Fault, Kinematics, State};
+use super::singular;
+use crate::diag::Diagnostic;
+
+/// Largest first correction of a step, scaled.
+const LARGEST_CORRECTION: f64 = 0.05;
+/// Largest correction at the Hermite midpoint, scaled.
+const LARGEST_AT_MIDPOINT: f64 = 1e-3;
+/// Largest predicted motion of a step, scaled: a coordinate's way in lengths L, or its turn in radians.
+const LARGEST_MOTION: f64 = 0.5;
+/// Corrections of a step at most.
+const ITERATIONS: usize = 4;
+/// A correction below this leaves nothing to the next one, convergence being quadratic.
+const SETTLED: f64 = 1e-7;
+/// Smallest step, as a part of the whole span.
+const SMALLEST_STEP: f64 = 1e-12;
+/// A smallest pivot above this needs no closer look for a singular position.
+const SAFE_PIVOT: f64 = 1e-2;
+/// A position nearer to a singular one than this is not stepped to.
+const NEAREST: f64 = 1e-6;
+/// Where a row is printed, rounding (eps/σ in `q`, eps/σ² in `q̇`) must stay below the accuracy promised, 1e-9.
+const NEAREST_PRINTED: f64 = 5e-4;
+
+/// A motion in progress: rows at ascending times, computed without allocating.
+pub struct Motion<'m, 'd> {
+    kinematics: &'m mut Kinematics<'d>,
+    state: &'m mut State,
+    trial: State,
+    delta: Vec<f64>,
+    middle: Vec<f64>,
+    signs: Vec<bool>,
+    trial_signs: Vec<bool>,
+    /// The step that the error allows [s].
+    h: f64,
+    smallest: f64,
+    begun: bool,
+    row: Vec<f64>,
+}
+
+/// How well a step went.
+struct Accepted {
+    first_correction: f64,
+    at_midpoint: f64,
+}
+
+impl<'m, 'd> Motion<'m, 'd> {
+    pub(super) fn new(
+        kinematics: &'m mut Kinematics<'d>,
+        state: &'m mut State,
+        span: f64,
+    ) -> Motion<'m, 'd> {
+        let n = state.q.len();
+        let blocks = kinematics.linear().blocks();
+        let smallest = SMALLEST_STEP * span;
+        Motion {
+            trial: state.clone(),
+            delta: vec![0.0; n],
+            middle: vec![0.0; n],
+            signs: vec![true; blocks],
+            trial_signs: vec![true; blocks],
+            h: span,
+            smallest,
+            begun: false,
+            row: vec![0.0; kinematics.row_length()],
+            kinematics,
+            state,
+        }
+    }
+
+    /// Goes on to time `t` [s], not before the last one, and gives its row, in the order of `Started::columns`.
+    ///
+    /// # Errors
+    /// Why and where the motion cannot go on.
+    pub fn row_at(&mut self, t: f64) -> Result<&[f64], Box<Diagnostic>> {
+        if !self.begun {
+            self.begin()?;
+        }
+        if t <= self.state.t {
+            self.row_at_rest()?;
+        }
+        while self.state.t < t {
+            let left = t - self.state.t;
+            // no crumb at the end
+            let (h, next) = if self.h >= 0.999 * left {
+                (left, t)
+            } else {
+                (self.h, self.state.t + self.h)
+            };
+            match self.try_step(h, next, next >= t) {
+                Ok(accepted) => self.accept(h, &accepted),
+                Err(fault) => self.shorten(h, fault)?,
+            }
+        }
+        match self.row.iter().all(|value| value.is_finite()) {
+            true => Ok(&self.row),
+            false => Err(Box::new(self.explain_row(t))),
+        }
+    }
+
+    /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
+    fn explain_row(&mut self, t: f64) -> Diagnostic {
+        let column = self
+            .row
+            .iter()
+            .position(|value| !value.is_finite())
+            .unwrap_or(0);
+        errors::measure_not_finite(
+            self.kinematics.system(),
+            self.kinematics.measure_of_column(column),
+            t,
+        )
+    }
+
+    /// Derivatives at the start.
+    fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
+        self.begun = true;
+        self.kinematics.restore(self.state);
+        self.kinematics.linear().signs(&mut self.signs);
+        if let Err(fault) = self.kinematics.derivatives(self.state) {
+            let t = self.state.t;
+            return Err(Box::new(singular::explain(
+                self.kinematics,
+                self.state,
+                fault,
+                t,
+            )));
+        }
+        Ok(())
+    }
+
+    /// The row of the state that has been reached already: the start.
+    fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
+        self.kinematics.restore(self.state);
+        match self
+            .kinematics
+            .derivatives(self.state)
+            .and_then(|()| self.trustworthy())
+        {
+            Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
+            Err(fault) => {
+                let t = self.state.t;
+                return Err(Box::new(singular::explain(
+                    self.kinematics,
+                    self.state,
+                    fault,
+                    t,
+                )));
+            }
+        }
+        Ok(())
+    }
+
+    /// A step of length `h` to time `t`, whose row is written if it is wanted.
+    fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
+        self.predict(h, t)?;
+        let first_correction = self.correct()?;
+        self.kinematics.linear().signs(&mut self.trial_signs);
+        if self.trial_signs != self.signs {
+            return Err(Fault::Singular);
+        }
+        self.keep_away()?;
+        self.kinematics.derivatives(&mut self.trial)?;
+        if wanted {
+            self.trustworthy()?;
+            self.kinematics.write_row(&self.trial, &mut self.row);
+        }
+        let at_midpoint = self.correction_at_midpoint(h)?;
+        Ok(Accepted {
+            first_correction,
+            at_midpoint,
+        })
+    }
+
+    /// Taylor's predictor, which costs nothing: both derivatives are known.
+    fn predict(&mut self, h: f64, t: f64) -> Result<(), Fault> {
+        self.trial.t = t;
+        let mut motion: f64 = 0.0;
+        for k in 0..self.trial.q.len() {
+            let step = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
+            self.trial.q[k] = self.state.q[k] + step;
+            motion = motion.max(step.abs() / self.kinematics.linear().column_scale(k));
+        }
+        if motion <= LARGEST_MOTION {
+            Ok(())
+        } else {
+            Err(Fault::TooFar)
+        }
+    }
+
+    /// Newton, until the full Φ is below the tolerance; gives the first correction.
+    fn correct(&mut self) -> Result<f64, Fault> {
+        self.kinematics.set_time(self.trial.t);
+        self.kinematics.set_position(&self.trial.q)?;
+        let mut first = None;
+        for _ in 0..ITERATIONS {
+            self.kinematics.factor()?;
+            let size = self.kinematics.correction(&mut self.delta);
+            let bound = if first.is_none() {
+                LARGEST_CORRECTION
+            } else {
+                0.25 * LARGEST_CORRECTION
+            };
+            // also refuses what is not a number
+            if !(size <= bound) {
+                return Err(Fault::TooFar);
+            }
+            first.get_or_insert(size);
+            for (q, delta) in self.trial.q.iter_mut().zip(&self.delta) {
+                *q += delta;
+            }
+            self.kinematics.set_position(&self.trial.q)?;
+            if size <= SETTLED && self.kinematics.violated().is_none() {
+                self.kinematics.factor()?;
+                return Ok(first.unwrap_or(size));
+            }
+        }
+        Err(Fault::TooFar)
+    }
+
+    /// No step ends too near to a singular position.
+    fn keep_away(&mut self) -> Result<(), Fault> {
+        if self.kinematics.linear().smallest_pivot() < NEAREST * 100.0
+            && self.kinematics.smallest_singular().sigma < NEAREST
+        {
+            return Err(Fault::Singular);
+        }
+        Ok(())
+    }
+
+    /// What is printed must not be rounding.
+    fn trustworthy(&mut self) -> Result<(), Fault> {
+        if self.kinematics.linear().smallest_pivot() < SAFE_PIVOT
+            && self.kinematics.smallest_singular().sigma < NEAREST_PRINTED
+        {
+            return Err(Fault::Singular);
+        }
+        Ok(())
+    }
+
+    /// Newton's correction in the middle of the quintic that both ends give, with the factors of the end.
+    fn correction_at_midpoint(&mut self, h: f64) -> Result<f64, Fault> {
+        let (a, b) = (&*self.state, &self.trial);
+        for k in 0..self.middle.len() {
+            // the quintic Hermite interpolant at its middle
+            self.middle[k] = 0.5 * (a.q[k] + b.q[k])
+                + h * (5.0 / 32.0) * (a.qd[k] - b.qd[k])
+                + h * h * (1.0 / 64.0) * (a.qdd[k] + b.qdd[k]);
+        }
+        self.kinematics.set_time(a.t + 0.5 * h);
+        self.kinematics.set_position(&self.middle)?;
+        let size = self.kinematics.correction(&mut self.delta);
+        if size <= LARGEST_AT_MIDPOINT {
+            Ok(size)
+        } else {
+            Err(Fault::TooFar)
+        }
+    }
+
+    fn accept(&mut self, h: f64, accepted: &Accepted) {
+        self.state.copy_from(&self.trial);
+        self.signs.copy_from_slice(&self.trial_signs);
+        // the predictor's error grows with h³, the midpoint's with h⁶
+        let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0
+            && accepted.at_midpoint < LARGEST_AT_MIDPOINT / 100.0;
+        if calm {
+            // a step cut short by an output time says little of a longer one
+            self.h = self.h.max(2.0 * h);
+        } else {
+            self.h = self.h.min(h);
+        }
+    }
+
+    fn shorten(&mut self, h: f64, fault: Fault) -> Result<(), Box<Diagnostic>> {
+        self.h = 0.5 * h;
+        let vanishes = self.state.t + self.h <= self.state.t;
+        if self.h < self.smallest || vanishes {
+            let t = self.trial.t;
+            return Err(Box::new(singular::explain(
+                self.kinematics,
+                self.state,
+                fault,
+                t,
+            )));
+        }
+        Ok(())
+    }
+}

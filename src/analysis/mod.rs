@@ -1,0 +1,126 @@
+//! The kinematic analysis: assembly at the start, then position, velocity and acceleration along the branch that the
+//! start chose.
+//!
+//! ```text
+//! Determined ──start──▶ Started ──follow──▶ a row per output time, or why it cannot go on
+//! ```
+//!
+//! Steps are chosen by the solver's own error (`march`), so that output times only decide what is printed. A row is
+//! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there.
+
+mod assembly;
+mod errors;
+mod kinematics;
+mod linear;
+mod march;
+mod singular;
+mod times;
+
+pub use assembly::Moved;
+pub use march::Motion;
+pub use times::Times;
+
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::program::Program;
+use crate::structure::Determined;
+use kinematics::{Kinematics, State};
+
+/// Bounds each row of Φ unless told otherwise, scaled.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// A mechanism that is assembled at its first time, in a position of full rank.
+pub struct Started<'d> {
+    kinematics: Kinematics<'d>,
+    state: State,
+    moved: Moved,
+}
+
+/// Assembles a mechanism at time `t` [s].
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn start<'d>(
+    determined: &'d Determined,
+    program: &'d Program,
+    t: f64,
+    tolerance: f64,
+) -> Result<Started<'d>, Box<Diagnostic>> {
+    let mut kinematics = Kinematics::new(determined, program, tolerance)?;
+    let (state, moved) = assembly::assemble(&mut kinematics, t)?;
+    Ok(Started {
+        kinematics,
+        state,
+        moved,
+    })
+}
+
+impl<'d> Started<'d> {
+    /// What is to be said of the assembly, if it moved bodies far.
+    #[must_use]
+    pub fn remarks(&self) -> Diagnostics {
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(errors::far_estimates(
+            self.kinematics.system(),
+            &self.moved,
+            self.state.t,
+        ));
+        diagnostics
+    }
+
+    /// How far assembly moved the bodies from their estimates.
+    #[must_use]
+    pub fn moved(&self) -> &Moved {
+        &self.moved
+    }
+
+    /// The assembled coordinates [m, rad].
+    #[must_use]
+    pub fn q(&self) -> &[f64] {
+        &self.state.q
+    }
+
+    /// The smallest singular value of the scaled `Φ_q` at the start: 1 is best, 0 is a singular position.
+    #[must_use]
+    pub fn conditioning(&mut self) -> f64 {
+        self.kinematics.restore(&self.state);
+        self.kinematics.smallest_singular().sigma
+    }
+
+    /// Names of the result's columns, in order.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        let system = self.kinematics.system();
+        let coordinates = || {
+            system
+                .coordinates
+                .iter()
+                .map(|coordinate| coordinate.name.clone())
+        };
+        let mut columns = vec!["t".to_owned()];
+        columns.extend(coordinates());
+        columns.extend(system.measures.iter().map(|measure| measure.name.clone()));
+        columns.extend(coordinates().map(|name| name + ".d"));
+        columns.extend(
+            system
+                .measures
+                .iter()
+                .filter(|m| m.first.is_some())
+                .map(|m| format!("{}.d", m.name)),
+        );
+        columns.extend(coordinates().map(|name| name + ".dd"));
+        columns.extend(
+            system
+                .measures
+                .iter()
+                .filter(|m| m.second.is_some())
+                .map(|m| format!("{}.dd", m.name)),
+        );
+        columns
+    }
+
+    /// The motion from the start on, over a span of time [s] that the steps are measured against.
+    #[must_use]
+    pub fn motion(&mut self, span: f64) -> Motion<'_, 'd> {
+        Motion::new(&mut self.kinematics, &mut self.state, span)
+    }
+}

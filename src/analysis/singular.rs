@@ -1,0 +1,110 @@
+//! Why an analysis cannot go on: which formula, which lock-up, which bifurcation.
+
+use super::errors;
+use super::kinematics::{Fault, Kinematics, State};
+use crate::diag::Diagnostic;
+use crate::ir::ConstraintSystem;
+
+/// Below this the position is called singular, or as near to one as the steps could come.
+const NEAR: f64 = 1e-2;
+/// A driver takes part in a dependency if its share is above this part of the largest.
+const TAKES_PART: f64 = 1e-3;
+
+/// The diagnosis at the last good state, before a step towards `t` failed.
+pub(super) fn explain(
+    kinematics: &mut Kinematics<'_>,
+    state: &State,
+    fault: Fault,
+    t: f64,
+) -> Diagnostic {
+    let system = kinematics.system();
+    match fault {
+        Fault::NotFinite { row } => return errors::not_finite(system, row, t),
+        Fault::Condition { index } => return errors::condition(system, index, t),
+        Fault::Singular | Fault::TooFar => {}
+    }
+    kinematics.restore(state);
+    let singular = kinematics.smallest_singular();
+    if !(singular.sigma < NEAR) {
+        return errors::cannot_follow(system, state.t, fastest_driver(kinematics, state));
+    }
+    name_singular(system, &singular.left, &singular.right, state.t)
+}
+
+/// A lock-up where a driver takes part in the dependency of the equations, a bifurcation where none does.
+fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
+    let (joints, bodies) = (joints_in(system, left), bodies_in(system, right));
+    match driver_in(system, left) {
+        Some(row) => errors::lock_up(system, row, &joints, &bodies, t),
+        None => errors::bifurcation(system, &joints, &bodies, t),
+    }
+}
+
+/// A start that is in such a position already.
+pub(super) fn name_start(
+    system: &ConstraintSystem,
+    left: &[f64],
+    right: &[f64],
+    t: f64,
+) -> Diagnostic {
+    errors::singular_start(
+        system,
+        &joints_in(system, left),
+        &bodies_in(system, right),
+        t,
+    )
+}
+
+fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
+    let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+    (0..left.len())
+        .filter(|&row| system.is_driver(row) && left[row].abs() > TAKES_PART * largest)
+        .max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
+}
+
+/// The joints and constraints that the dependency is made of, those that weigh most first.
+fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
+    let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
+    let mut rows: Vec<usize> = (0..left.len())
+        .filter(|&row| !system.is_driver(row) && left[row].abs() > 0.1 * largest)
+        .collect();
+    rows.sort_by(|&a, &b| left[b].abs().total_cmp(&left[a].abs()));
+    let mut joints: Vec<usize> = Vec::new();
+    for row in rows {
+        let declaration = system.rows[row].declaration;
+        if !joints.contains(&declaration) {
+            joints.push(declaration);
+        }
+    }
+    joints
+}
+
+/// The bodies that the free motion moves.
+fn bodies_in(system: &ConstraintSystem, right: &[f64]) -> Vec<usize> {
+    let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let mut bodies: Vec<usize> = (0..right.len())
+        .filter(|&column| right[column].abs() > 0.1 * fastest)
+        .map(|column| system.coordinates[column].body)
+        .collect();
+    bodies.dedup();
+    bodies
+}
+
+/// The row of the driver whose bodies move fastest: where something becomes too fast to follow.
+fn fastest_driver(kinematics: &Kinematics<'_>, state: &State) -> Option<usize> {
+    let system = kinematics.system();
+    let speed = |row: usize| {
+        system
+            .phi_q
+            .row(row)
+            .iter()
+            .map(|&(column, _)| {
+                let scale = kinematics.linear().column_scale(column as usize);
+                (state.qd[column as usize].abs() + state.qdd[column as usize].abs()) / scale
+            })
+            .fold(0.0, f64::max)
+    };
+    (0..system.rows.len())
+        .filter(|&row| system.is_driver(row))
+        .max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
+}

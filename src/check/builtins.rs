@@ -1,0 +1,240 @@
+//! Calls of the language's own functions.
+
+use super::formula::{Context, Dim, Value};
+use super::names::FUNCTIONS;
+use super::{Checker, errors};
+use crate::expr::{Binary, ExprId, Motion, Unary};
+use crate::model::{Condition, ConditionKind, Dimension};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, Name};
+
+const PURE_UNARY: &[(&str, Unary)] = &[
+    ("sin", Unary::Sin),
+    ("cos", Unary::Cos),
+    ("tan", Unary::Tan),
+    ("asin", Unary::Asin),
+    ("acos", Unary::Acos),
+    ("atan", Unary::Atan),
+    ("sinh", Unary::Sinh),
+    ("cosh", Unary::Cosh),
+    ("tanh", Unary::Tanh),
+    ("exp", Unary::Exp),
+    ("ln", Unary::Ln),
+    ("log10", Unary::Log10),
+];
+
+const MOTIONS: &[(&str, Motion)] = &[
+    ("step", Motion::Step),
+    ("step5", Motion::Step5),
+    ("step7", Motion::Step7),
+    ("harmonic", Motion::Harmonic),
+    ("cycloidal", Motion::Cycloidal),
+    ("modsine", Motion::ModifiedSine),
+];
+
+/// An argument with its place.
+type Argument = (Span, Value);
+
+impl Checker<'_> {
+    /// A call of a function or kinematic quantity of the language.
+    pub(super) fn builtin(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if name.text == "der" {
+            let [argument] = arguments else {
+                self.report(errors::argument_count(
+                    "der",
+                    e.span,
+                    "one argument",
+                    arguments.len(),
+                ));
+                return None;
+            };
+            return self.derivative(e, argument, context);
+        }
+        let Some(&(_, least, most)) = FUNCTIONS.iter().find(|&&(f, ..)| f == name.text) else {
+            return self.quantity(e, name, arguments, context);
+        };
+        if arguments.len() < least || arguments.len() > most {
+            let wanted = match (least, most) {
+                (1, 1) => "one argument".to_owned(),
+                (2, 2) => "two arguments".to_owned(),
+                (_, usize::MAX) => format!("{least} arguments or more"),
+                _ => format!("{least} arguments"),
+            };
+            self.report(errors::argument_count(
+                &name.text,
+                e.span,
+                &wanted,
+                arguments.len(),
+            ));
+            return None;
+        }
+        let values: Vec<Option<Value>> = arguments
+            .iter()
+            .map(|argument| self.number(argument, context))
+            .collect();
+        let values: Vec<Argument> = arguments
+            .iter()
+            .zip(values)
+            .map(|(argument, value)| value.map(|value| (argument.span, value)))
+            .collect::<Option<_>>()?;
+        self.apply(&name.text, &values, context)
+    }
+
+    fn apply(
+        &mut self,
+        function: &str,
+        arguments: &[Argument],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Some(&(_, unary)) = PURE_UNARY.iter().find(|&&(f, _)| f == function) {
+            let (span, value) = arguments[0];
+            self.demand(
+                &format!("the argument of `{function}`"),
+                Dimension::PURE,
+                span,
+                value.dim,
+                context,
+            )?;
+            return Some(Value {
+                id: self.model.graph.unary(unary, value.id),
+                dim: Dim::PURE,
+            });
+        }
+        if let Some(&(_, motion)) = MOTIONS.iter().find(|&&(f, _)| f == function) {
+            return self.motion(function, motion, arguments, context);
+        }
+        if function == "poly" {
+            return self.polynomial(arguments, context);
+        }
+        let dim = self.all_alike(function, arguments, context)?;
+        let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
+        let graph = &mut self.model.graph;
+        let (id, dim) = match function {
+            "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), half(dim)),
+            "abs" => (graph.unary(Unary::Abs, ids[0]), dim),
+            "sign" => (graph.unary(Unary::Sign, ids[0]), Dim::PURE),
+            "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), Dim::PURE),
+            "hypot" => (graph.binary(Binary::Hypot, ids[0], ids[1]), dim),
+            "mod" => (graph.modulo(ids[0], ids[1]), dim),
+            _ => {
+                let binary = if function == "min" {
+                    Binary::Min
+                } else {
+                    Binary::Max
+                };
+                let id = ids[1..]
+                    .iter()
+                    .fold(ids[0], |all, &next| graph.binary(binary, all, next));
+                (id, dim)
+            }
+        };
+        Some(Value { id, dim })
+    }
+
+    fn all_alike(
+        &mut self,
+        function: &str,
+        arguments: &[Argument],
+        context: &Context<'_>,
+    ) -> Option<Dim> {
+        let what = format!("the arguments of `{function}` are");
+        let (mut span, first) = arguments[0];
+        let mut dim = first.dim;
+        for &(next, value) in &arguments[1..] {
+            let joint = self.alike(&what, (span, dim), (next, value.dim), context)?;
+            if dim == Dim::Any {
+                span = next;
+            }
+            dim = joint;
+        }
+        Some(dim)
+    }
+
+    fn motion(
+        &mut self,
+        name: &str,
+        motion: Motion,
+        arguments: &[Argument],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        let &[u, u0, v0, u1, v1] = arguments else {
+            return None;
+        };
+        self.all_alike(name, &[u, u0, u1], context)?;
+        let dim = self.all_alike(name, &[v0, v1], context)?;
+        let (start, end) = (self.constant_value(u0.1.id), self.constant_value(u1.1.id));
+        match (start, end) {
+            (Some(start), Some(end)) if end <= start && !self.untaken => {
+                self.report(errors::empty_interval(name, u1.0, start, end));
+                return None;
+            }
+            (Some(_), Some(_)) => {}
+            // it can only be known on the way
+            _ => {
+                let positive = self.model.graph.sub(u1.1.id, u0.1.id);
+                let owner = context.place.to_owned();
+                let condition = Condition {
+                    positive,
+                    kind: ConditionKind::Interval,
+                    span: u1.0,
+                    owner,
+                };
+                if self
+                    .model
+                    .conditions
+                    .iter()
+                    .all(|known| known.positive != positive)
+                {
+                    self.model.conditions.push(condition);
+                }
+            }
+        }
+        let id = self
+            .model
+            .graph
+            .motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);
+        Some(Value { id, dim })
+    }
+
+    /// `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
+    fn polynomial(&mut self, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
+        let (u, u0, coefficients) = (arguments[0], arguments[1], &arguments[2..]);
+        let step = self.all_alike("poly", &[u, u0], context)?;
+        let mut dim = Dim::Any;
+        let mut first = coefficients[0].0;
+        for (power, &(span, c)) in coefficients.iter().enumerate() {
+            let term = c
+                .dim
+                .with(step, |c, step| c.times(step.to_the(power as f64)));
+            let joint = self.alike(
+                "the terms of `poly` are",
+                (first, dim),
+                (span, term),
+                context,
+            )?;
+            if dim == Dim::Any {
+                first = span;
+            }
+            dim = joint;
+        }
+        let way = self.model.graph.sub(u.1.id, u0.1.id);
+        let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
+        Some(Value {
+            id: self.model.graph.polynomial_of(way, &ids),
+            dim,
+        })
+    }
+}
+
+fn half(dim: Dim) -> Dim {
+    match dim {
+        Dim::Any => Dim::Any,
+        Dim::Of(dimension) => Dim::Of(dimension.to_the(0.5)),
+    }
+}

@@ -1,0 +1,494 @@
+//! What is said of a mechanism that does not pass.
+
+use super::names::{Entity, FUNCTIONS, QUANTITIES};
+use super::units::Unit;
+use crate::diag::{Code, Diagnostic, nearest};
+use crate::model::Dimension;
+use crate::source::Span;
+use crate::syntax::ast::Name;
+
+fn meant(wanted: &str, names: &[&str]) -> Option<String> {
+    nearest(wanted, names.iter().copied()).map(|name| format!("was `{name}` meant?"))
+}
+
+// ---- names
+
+pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
+        .at(name.span, "not declared")
+        .help_if(meant(&name.text, known))
+}
+
+pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    let listed = match known {
+        [] => format!("`{owner}` has none"),
+        _ => format!("`{owner}` has {}", list(known)),
+    };
+    Diagnostic::new(
+        Code::E0201,
+        format!("`{owner}` has no {what} `{}`", name.text),
+    )
+    .at(name.span, "not declared there")
+    .help_if(meant(&name.text, known).or(Some(listed)))
+}
+
+pub fn unknown_function(name: &Name, own: &[&str]) -> Diagnostic {
+    let mut known: Vec<&str> = own.to_vec();
+    known.extend(FUNCTIONS.iter().map(|&(f, ..)| f));
+    known.extend(QUANTITIES);
+    let special = match name.text.as_str() {
+        "log" => Some("was `ln` (natural) or `log10` meant?".to_owned()),
+        "arcsin" | "arccos" | "arctan" => Some(format!("was `a{}` meant?", &name.text[3..])),
+        "pow" => Some("a power is written `a ^ b`".to_owned()),
+        _ => None,
+    };
+    Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text))
+        .at(name.span, "not known")
+        .help_if(special.or_else(|| meant(&name.text, &known)))
+}
+
+/// A word after a number that is no unit.
+pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
+    let help = match name.text.as_str() {
+        "min" => Some("minutes are no unit; `rev/min` is `rpm`, `1 min` is `60 s`".to_owned()),
+        "degree" | "degrees" | "°" => Some("was `deg` meant?".to_owned()),
+        "sec" | "second" | "seconds" => Some("was `s` meant?".to_owned()),
+        _ if is_a_name => Some(format!("was `{number} * {}` meant?", name.text)),
+        _ => nearest(&name.text, Unit::names()).map(|unit| format!("was `{unit}` meant?")),
+    };
+    let units: Vec<&str> = Unit::names().collect();
+    Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
+        .at(name.span, "only a unit may follow a number")
+        .help_if(help.or_else(|| Some(format!("the units are {}", units.join(" ")))))
+}
+
+pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0203, format!("`{}` is declared twice", name.text))
+        .at(name.span, "declared again")
+        .also(first, "first declared here")
+        .help("give one of the two another name")
+}
+
+pub fn reserved(name: &Name) -> Diagnostic {
+    let what = match name.text.as_str() {
+        "t" => "time",
+        "pi" | "tau" => "a constant",
+        "ground" => "the body that does not move",
+        n if Unit::named(n).is_some() => "a unit",
+        n if QUANTITIES.contains(&n) => "a kinematic quantity",
+        _ => "a function of the language",
+    };
+    Diagnostic::new(
+        Code::E0204,
+        format!("`{}` cannot be declared: it is {what}", name.text),
+    )
+    .at(name.span, "reserved")
+    .help(format!("choose a longer name, `{}_1` say", name.text))
+}
+
+pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0205, format!("a mechanism has one `{word}`"))
+        .at(span, "the second one")
+        .also(first, "the first one")
+        .help("put both into one declaration")
+}
+
+pub fn second_mechanism(name: &Name, first: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0205,
+        format!("there are two mechanisms `{}`", name.text),
+    )
+    .at(name.span, "the second one")
+    .also(first, "the first one")
+    .help("give one of them another name")
+}
+
+pub fn circle(names: &[&Name]) -> Diagnostic {
+    let first = names[0];
+    let mut chain: Vec<String> = names
+        .iter()
+        .map(|name| format!("`{}`", name.text))
+        .collect();
+    chain.push(format!("`{}`", first.text));
+    let message = match names {
+        [only] => format!("`{}` is defined by itself", only.text),
+        _ => format!("definitions go in a circle: {}", chain.join(" needs ")),
+    };
+    names[1..].iter().fold(
+        Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"),
+        |diagnostic, name| diagnostic.also(name.span, "on the circle"),
+    )
+}
+
+pub fn hidden_name(argument: &Name, declared: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0207,
+        format!(
+            "the argument `{}` hides a name of the mechanism",
+            argument.text
+        ),
+    )
+    .at(argument.span, "this argument")
+    .also(declared, "declared here")
+    .help("rename the argument; `u` is usual")
+}
+
+pub fn not_available(what: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("{what} is not available yet"))
+        .at(span, "read, but not understood by this version")
+        .note(
+            "this version knows the joints revolute, translational, weld, revolute_revolute and \
+             revolute_translational,\nand points and axes",
+        )
+}
+
+// ---- kinds and arguments
+
+pub fn argument_count(what: &str, span: Span, wanted: &str, found: usize) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0301,
+        format!("`{what}` takes {wanted}, found {found}"),
+    )
+    .at(span, format!("found {found}"))
+    .help_if(signature(what).map(|form| format!("it is written {form}")))
+}
+
+/// How a joint, quantity or function is called.
+pub fn signature(what: &str) -> Option<&'static str> {
+    Some(match what {
+        "revolute" => "`revolute(P, Q)`",
+        "translational" => "`translational(a, b)`, a and b axes",
+        "weld" => "`weld(P, Q)` or `weld(P, Q, angle)`",
+        "revolute_revolute" => "`revolute_revolute(P, Q, length)`",
+        "revolute_translational" => {
+            "`revolute_translational(P, a)` or `revolute_translational(P, a, offset)`"
+        }
+        "x" | "y" => "`x(P)` or `x(P, Q)`",
+        "angle" => "`angle(b)`, `angle(b, c)`, `angle(b.u)` or `angle(b.u, c.v)`",
+        "distance" => "`distance(P, Q)`",
+        "rotation" => "`rotation(joint)` or `rotation(joint, b.u, c.v)`",
+        "displacement" => "`displacement(joint)`",
+        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => {
+            "`step(u, u0, v0, u1, v1)`"
+        }
+        "poly" => "`poly(u, u0, c0, c1, …)`",
+        "point" => "`point P = (x, y)`",
+        "at" => "`at (x, y, phi)`",
+        "along" => "`along (dx, dy)`",
+        _ => return None,
+    })
+}
+
+pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected {wanted}, found {found}"))
+        .at(span, format!("this is {found}"))
+}
+
+pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0302,
+        format!("`{}` is {}, and cannot be called", name.text, entity.noun()),
+    )
+    .at(name.span, "called here")
+    .help("a product is written with `*`")
+}
+
+pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0303,
+        format!("joint `{}` joins `{frame}` with itself", joint.text),
+    )
+    .at(spans[1], format!("this is on `{frame}` too"))
+    .also(spans[0], format!("on `{frame}`"))
+    .help("a joint needs features of two different bodies, or of a body and the ground")
+}
+
+pub fn joint_without(
+    quantity: &str,
+    wanted: &str,
+    joint: &str,
+    kind: &str,
+    span: Span,
+    declared: Span,
+) -> Diagnostic {
+    let other = match kind {
+        "revolute" => Some(format!("was `rotation({joint})` meant?")),
+        "translational" => Some(format!("was `displacement({joint})` meant?")),
+        _ => None,
+    };
+    Diagnostic::new(
+        Code::E0304,
+        format!("`{quantity}` is of {wanted} joints; `{joint}` is {kind}"),
+    )
+    .at(span, format!("a {kind} joint"))
+    .also(declared, "declared here")
+    .help_if(other)
+}
+
+pub fn axes_elsewhere(joint: &str, axis: &str, span: Span, wanted: &str) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0305,
+        format!("axis `{axis}` is not on `{wanted}`, which joint `{joint}` asks for here"),
+    )
+    .at(span, format!("an axis of `{wanted}` is wanted"))
+    .help(format!(
+        "the first axis is of the first body of `{joint}`, the second of its second"
+    ))
+}
+
+pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagnostic {
+    let diagnostic = match through {
+        None => Diagnostic::new(Code::E0306, format!("time `t` may not stand in {place}"))
+            .at(span, "depends on time"),
+        Some((function, at)) => Diagnostic::new(
+            Code::E0306,
+            format!("`{function}` depends on time, which may not stand in {place}"),
+        )
+        .at(span, "brings time in")
+        .also(at, "`t` is used here"),
+    };
+    if place == "a constraint" {
+        diagnostic.help("an equation that holds time is a `driver`")
+    } else {
+        diagnostic
+    }
+}
+
+pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0307,
+        format!("the kinematic quantity `{name}` may not stand in {place}"),
+    )
+    .at(span, "depends on the motion")
+    .help("kinematic quantities stand in constraints, drivers and measures")
+}
+
+pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
+    let what = if driver { "driver" } else { "constraint" };
+    Diagnostic::new(
+        Code::E0308,
+        format!("{what} `{}` holds no kinematic quantity", name.text),
+    )
+    .at(span, "an equation about no body")
+    .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
+}
+
+pub fn nobody_moves(name: &Name, span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0311,
+        format!("no body takes part in the equation `{}`", name.text),
+    )
+    .at(span, "all of this is fixed to the ground")
+    .help("an equation needs a point, axis or angle of a body")
+}
+
+pub fn condition_as_number(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0309,
+        "a condition cannot stand where a number is wanted",
+    )
+    .at(span, "true or false")
+    .help("choose a number by it: `if … then 1 else 0`")
+}
+
+pub fn number_as_condition(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0309,
+        "a number cannot stand where a condition is wanted",
+    )
+    .at(span, "expected a comparison")
+    .help("compare it: `… > 0`")
+}
+
+pub fn derivative_in(place: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, format!("`der` may not stand in {place}"))
+        .at(span, "a time derivative along the motion")
+        .help("`der` stands in measures only")
+}
+
+pub fn derivative_too_high(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "`der` is nested deeper than three")
+        .at(span, "a fourth time derivative")
+        .help("the third derivative (jerk) is the last that is computed")
+}
+
+// ---- dimensions and values
+
+/// A part of a formula, for a message about it.
+#[derive(Clone, Copy)]
+pub struct Part {
+    pub span: Span,
+    pub dimension: Dimension,
+}
+
+pub fn unlike(what: &str, first: Part, second: Part) -> Diagnostic {
+    let pure = |part: Part| part.dimension.is(Dimension::PURE);
+    let help = (pure(first) || pure(second)).then(|| {
+        let other = if pure(first) { second } else { first };
+        format!(
+            "a formula that holds units is checked; a bare number has none, {} is wanted",
+            other.dimension.in_words()
+        )
+    });
+    Diagnostic::new(
+        Code::E0401,
+        format!(
+            "{what} {} and {}",
+            first.dimension.in_words(),
+            second.dimension.in_words()
+        ),
+    )
+    .at(second.span, second.dimension.in_words())
+    .also(first.span, first.dimension.in_words())
+    .help_if(help)
+}
+
+pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnostic {
+    let units = |d: Dimension| {
+        if d.is(Dimension::LENGTH) {
+            Some("`mm`, `m`")
+        } else if d.is(Dimension::TIME) {
+            Some("`s`, `ms`")
+        } else {
+            None
+        }
+    };
+    let help = if wanted.is(Dimension::PURE) {
+        Some(format!(
+            "divide it by {} to get a pure number",
+            one(found.dimension)
+        ))
+    } else {
+        units(wanted).map(|units| {
+            format!(
+                "units of {}: {units}",
+                wanted.in_words().trim_start_matches("a ")
+            )
+        })
+    };
+    Diagnostic::new(
+        Code::E0402,
+        format!(
+            "{place} must be {}, found {}",
+            wanted.in_words(),
+            found.dimension.in_words()
+        ),
+    )
+    .at(found.span, found.dimension.in_words())
+    .help_if(help)
+}
+
+/// `1 s`, `1 m`, `1 m/s`.
+fn one(dimension: Dimension) -> String {
+    let unit = dimension.unit();
+    if unit.starts_with('1') {
+        format!("`{unit}`")
+    } else {
+        format!("`1 {unit}`")
+    }
+}
+
+pub fn exponent(span: Span, base: Part) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0403,
+        format!(
+            "{} takes a constant exponent only",
+            base.dimension.in_words()
+        ),
+    )
+    .at(span, "not constant")
+    .also(base.span, base.dimension.in_words())
+    .help("divide the base by a unit first")
+}
+
+pub fn not_finite(span: Span, value: f64) -> Diagnostic {
+    let what = if value.is_nan() {
+        "not a number"
+    } else {
+        "infinite"
+    };
+    Diagnostic::new(Code::E0404, format!("this constant is {what}")).at(span, what)
+}
+
+pub fn zero_direction(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0405,
+        "an axis needs a direction, and this one has length zero",
+    )
+    .at(span, "no direction")
+    .help("`along (1, 0)` is the direction of x, `along (0, 1)` that of y")
+}
+
+pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0406,
+        format!("{what} must be positive, it is {value} m"),
+    )
+    .at(span, format!("{value} m"))
+}
+
+pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0407,
+        format!("the analysis needs a positive step, it is {value} s"),
+    )
+    .at(span, format!("{value} s"))
+}
+
+pub fn ends_before_start(span: Span, from: f64, to: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0408,
+        format!("the analysis ends at {to} s, before its start at {from} s"),
+    )
+    .at(span, "the end")
+    .help(format!("`from {to} s to {from} s`"))
+}
+
+pub fn empty_interval(function: &str, span: Span, from: f64, to: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0409,
+        format!(
+            "`{function}` needs an interval that goes forward, this one is from {from} to {to}"
+        ),
+    )
+    .at(span, "the end of the interval")
+    .help("the arguments are `(u, u0, v0, u1, v1)`, with `u0 < u1`")
+}
+
+pub fn too_large(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0410, "written out, this formula is too large")
+        .at(span, "more than a million parts")
+        .help("functions that call each other several times with different arguments multiply; name common parts")
+}
+
+pub fn degrees(span: Span, value: f64) -> Diagnostic {
+    Diagnostic::new(
+        Code::W0401,
+        format!("{value} rad is more than a turn; degrees were probably meant"),
+    )
+    .at(span, "a bare number is in radians")
+    .help(format!(
+        "write `{value} deg`, or `{value} rad` if radians are meant"
+    ))
+}
+
+// ---- the whole
+
+pub fn empty(name: &Name) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0501,
+        format!("mechanism `{}` has no body that could move", name.text),
+    )
+    .at(name.span, "empty")
+    .help("declare a body: `body crank at (0, 0, 0) { … }`")
+}
+
+/// `a`, `b` and `c`.
+pub fn list(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        None => String::new(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} and {last}", rest.join(", ")),
+    }
+}

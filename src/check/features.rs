@@ -1,0 +1,421 @@
+//! Bodies, the ground, and the points and axes on them.
+
+use super::formula::Context;
+use super::names::{Entity, Space};
+use super::{Checker, declared, errors};
+use crate::expr::ExprId;
+use crate::model::{Axis, AxisId, Body, Dimension, Frame, Point, PointId};
+use crate::source::Span;
+use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
+
+/// What a name of a body's space stands for; `None` where it is broken, which has been said.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Feature {
+    Point(Option<PointId>),
+    Axis(Option<AxisId>),
+    Circle,
+    Curve,
+}
+
+impl Feature {
+    fn noun(self) -> &'static str {
+        match self {
+            Feature::Point(_) => "a point",
+            Feature::Axis(_) => "an axis",
+            Feature::Circle => "a circle",
+            Feature::Curve => "a curve",
+        }
+    }
+}
+
+impl Checker<'_> {
+    /// Bodies first, then all points, then all axes: each may be used before it is declared.
+    pub(super) fn features(&mut self) {
+        let mut frames: Vec<(Frame, &[ast::Feature])> = Vec::new();
+        self.features.insert(Frame::Ground, Space::new());
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Ground { features } => frames.push((Frame::Ground, features)),
+                ItemKind::Body { name, features, .. } => {
+                    frames.push((self.add_body(item, name), features))
+                }
+                _ => {}
+            }
+        }
+        for &(frame, features) in &frames {
+            self.collect_features(frame, features);
+        }
+        for &(frame, features) in &frames {
+            self.points_of(frame, features);
+        }
+        for &(frame, features) in &frames {
+            self.axes_of(frame, features);
+        }
+        let mut bodies = 0..;
+        for item in self.items() {
+            if let ItemKind::Body { pose, .. } = &item.kind
+                && let (Some(k), Some(pose)) = (bodies.next(), pose)
+            {
+                self.pose(k, pose);
+            }
+        }
+    }
+
+    fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
+        let zero = self.model.graph.constant(0.0);
+        let id = self.model.add_body(Body {
+            declared: declared(name),
+            docs: item.docs.clone(),
+            pose: [zero; 3],
+        });
+        self.bodies.push(id);
+        self.features.insert(Frame::Body(id), Space::new());
+        Frame::Body(id)
+    }
+
+    fn collect_features(&mut self, frame: Frame, features: &[ast::Feature]) {
+        for feature in features {
+            let entity = match feature.kind {
+                FeatureKind::Point { .. } => Feature::Point(None),
+                FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
+                FeatureKind::Circle { .. } => Feature::Circle,
+                FeatureKind::Curve { .. } => Feature::Curve,
+            };
+            let first = self
+                .features
+                .get_mut(&frame)
+                .and_then(|space| space.declare(&feature.name, entity).err());
+            if let Some(first) = first {
+                self.report(errors::declared_twice(&feature.name, first));
+            }
+            match entity {
+                Feature::Circle => {
+                    self.report(errors::not_available("`circle`", feature.name.span))
+                }
+                Feature::Curve => self.report(errors::not_available("`curve`", feature.name.span)),
+                _ => {}
+            }
+        }
+    }
+
+    fn points_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+        for feature in features {
+            let FeatureKind::Point { at } = &feature.kind else {
+                continue;
+            };
+            let point = self.pair(at, "point", "a point").map(|at| {
+                let name = Some(feature.name.text.clone());
+                self.model.add_point(Point {
+                    frame,
+                    name,
+                    span: feature.name.span,
+                    at,
+                })
+            });
+            self.settle(frame, &feature.name, Feature::Point(point));
+        }
+    }
+
+    fn axes_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+        for feature in features {
+            let ends = match &feature.kind {
+                FeatureKind::AxisAlong { origin, direction } => {
+                    let origin = self.place(frame, origin);
+                    let direction = self.direction_of(direction);
+                    origin.zip(direction)
+                }
+                FeatureKind::AxisTo { origin, target } => {
+                    let (from, to) = (self.place(frame, origin), self.place(frame, target));
+                    from.zip(to).and_then(|(from, to)| {
+                        let (p, q) = (self.model[from].at, self.model[to].at);
+                        let direction = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+                        self.not_zero(direction, origin.span.to(target.span))
+                            .map(|direction| (from, direction))
+                    })
+                }
+                _ => continue,
+            };
+            let axis = ends.map(|(origin, direction)| {
+                let name = feature.name.text.clone();
+                self.model.add_axis(Axis {
+                    frame,
+                    name,
+                    span: feature.name.span,
+                    origin,
+                    direction,
+                })
+            });
+            self.settle(frame, &feature.name, Feature::Axis(axis));
+        }
+    }
+
+    /// Fills in what a feature's name stands for, unless the name was taken.
+    fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
+        if let Some(space) = self.features.get_mut(&frame)
+            && space.span(&name.text) == Some(name.span)
+        {
+            space.replace(&name.text, feature);
+        }
+    }
+
+    fn direction_of(&mut self, e: &Expr) -> Option<[ExprId; 2]> {
+        let ExprKind::Tuple(parts) = &e.kind else {
+            self.wrong_kind(e.span, "a direction `(dx, dy)`", Self::describe(e));
+            return None;
+        };
+        let [dx, dy] = parts.as_slice() else {
+            self.report(errors::argument_count(
+                "along",
+                e.span,
+                "two numbers",
+                parts.len(),
+            ));
+            return None;
+        };
+        let context = self.pair_context([dx, dy], "a direction");
+        let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
+        let (x, y) = (x?, y?);
+        self.alike(
+            "the two parts of the direction are",
+            (dx.span, x.dim),
+            (dy.span, y.dim),
+            &context,
+        )?;
+        self.not_zero([x.id, y.id], e.span)
+    }
+
+    fn not_zero(&mut self, direction: [ExprId; 2], span: Span) -> Option<[ExprId; 2]> {
+        let [x, y] = direction.map(|id| self.constant_value(id));
+        if x? == 0.0 && y? == 0.0 {
+            self.report(errors::zero_direction(span));
+            return None;
+        }
+        Some(direction)
+    }
+
+    fn pair_context(&self, parts: [&Expr; 2], place: &'static str) -> Context<'static> {
+        let judged = parts.iter().any(|part| self.is_dimensional(part));
+        Context {
+            judged,
+            ..Context::constant(place)
+        }
+    }
+
+    /// Two lengths, judged together.
+    fn lengths(&mut self, parts: [&Expr; 2], place: &'static str) -> Option<[ExprId; 2]> {
+        let context = self.pair_context(parts, place);
+        let values = parts.map(|part| self.formula(part, &context));
+        let [x, y] = values;
+        let (x, y) = (x?, y?);
+        self.alike(
+            "the two lengths are",
+            (parts[0].span, x.dim),
+            (parts[1].span, y.dim),
+            &context,
+        )?;
+        for (part, value) in parts.into_iter().zip([x, y]) {
+            self.demand(
+                "a coordinate",
+                Dimension::LENGTH,
+                part.span,
+                value.dim,
+                &context,
+            )?;
+        }
+        Some([x.id, y.id])
+    }
+
+    /// `(x, y)`
+    fn pair(&mut self, e: &Expr, what: &str, place: &'static str) -> Option<[ExprId; 2]> {
+        match &e.kind {
+            ExprKind::Tuple(parts) => match parts.as_slice() {
+                [x, y] => self.lengths([x, y], place),
+                _ => {
+                    self.report(errors::argument_count(
+                        what,
+                        e.span,
+                        "two lengths",
+                        parts.len(),
+                    ));
+                    None
+                }
+            },
+            ExprKind::Paren(_) => {
+                self.report(errors::argument_count(what, e.span, "two lengths", 1));
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "a point `(x, y)`", Self::describe(e));
+                None
+            }
+        }
+    }
+
+    fn pose(&mut self, body: usize, e: &Expr) {
+        let parts = match &e.kind {
+            ExprKind::Tuple(parts) => parts.as_slice(),
+            _ => &[],
+        };
+        let [x, y, phi] = parts else {
+            let found = if parts.is_empty() { 1 } else { parts.len() };
+            self.report(errors::argument_count(
+                "at",
+                e.span,
+                "two lengths and an angle",
+                found,
+            ));
+            return;
+        };
+        let lengths = self.lengths([x, y], "the estimate of a pose");
+        let angle = self.angle(phi, "the angle of a pose");
+        if let (Some([x, y]), Some(phi)) = (lengths, angle) {
+            let id = self.bodies[body];
+            self.model.bodies[id.index()].pose = [x, y, phi];
+        }
+    }
+
+    /// A constant angle, with a warning where degrees were probably meant.
+    pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
+        self.warn_of_degrees(e);
+        let (id, _) = self.constant(e, place, Dimension::PURE)?;
+        Some(id)
+    }
+
+    pub(super) fn warn_of_degrees(&mut self, e: &Expr) {
+        if let Some(value) = e.bare_number()
+            && value.abs() > std::f64::consts::TAU
+        {
+            self.report(errors::degrees(e.span, value));
+        }
+    }
+
+    /// A point where an axis begins or ends: one of the frame by name, or a literal one.
+    fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+        match &e.kind {
+            ExprKind::Name(name) => self.point_named(frame, name),
+            _ => {
+                let at = self.pair(e, "point", "a point")?;
+                Some(self.model.add_point(Point {
+                    frame,
+                    name: None,
+                    span: e.span,
+                    at,
+                }))
+            }
+        }
+    }
+
+    /// A point of a body or of the ground, or a literal global one.
+    pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
+        match &e.kind {
+            ExprKind::Tuple(_) => self.place(Frame::Ground, e),
+            ExprKind::Member { owner, feature } => {
+                let frame = self.body(owner)?;
+                self.point_named(frame, feature)
+            }
+            ExprKind::Name(name) => {
+                self.bare_name(name, "point");
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "a point", Self::describe(e));
+                None
+            }
+        }
+    }
+
+    fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
+        match self.feature(frame, name, "point", |feature| {
+            matches!(feature, Feature::Point(_))
+        })? {
+            Feature::Point(point) => point,
+            other => {
+                self.wrong_kind(name.span, "a point", other.noun());
+                None
+            }
+        }
+    }
+
+    /// An axis of a body or of the ground.
+    pub(super) fn axis(&mut self, e: &Expr) -> Option<AxisId> {
+        match &e.kind {
+            ExprKind::Member { owner, feature } => {
+                let frame = self.body(owner)?;
+                match self.feature(frame, feature, "axis", |feature| {
+                    matches!(feature, Feature::Axis(_))
+                })? {
+                    Feature::Axis(axis) => axis,
+                    other => {
+                        self.wrong_kind(feature.span, "an axis", other.noun());
+                        None
+                    }
+                }
+            }
+            ExprKind::Name(name) => {
+                self.bare_name(name, "axis");
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "an axis", Self::describe(e));
+                None
+            }
+        }
+    }
+
+    /// A name alone where `body.feature` is wanted.
+    fn bare_name(&mut self, name: &Name, what: &str) {
+        let wanted = if what == "axis" { "an axis" } else { "a point" };
+        let owners: Vec<String> = std::iter::once(Frame::Ground)
+            .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
+            .filter(|frame| {
+                self.features
+                    .get(frame)
+                    .is_some_and(|space| space.get(&name.text).is_some())
+            })
+            .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
+            .collect();
+        let help = match (owners.is_empty(), self.space.get(&name.text)) {
+            (false, _) => format!("was {} meant?", owners.join(" or ")),
+            (true, Some(Entity::Body(_))) => format!("name one of its features: `{}.…`", name.text),
+            _ => format!("outside a body {wanted} is written `body.{}`", name.text),
+        };
+        let found = match self.describe_name(name) {
+            "a name" => format!("the name `{}`", name.text),
+            noun => noun.to_owned(),
+        };
+        self.report(errors::wrong_kind(name.span, wanted, &found).help(help));
+    }
+
+    fn feature(
+        &mut self,
+        frame: Frame,
+        name: &Name,
+        what: &str,
+        wanted: impl Fn(Feature) -> bool,
+    ) -> Option<Feature> {
+        let space = self.features.get(&frame)?;
+        if let Some(feature) = space.get(&name.text) {
+            return Some(feature);
+        }
+        let known: Vec<&str> = space.names(wanted).collect();
+        let diagnostic = errors::unknown_feature(what, self.model.frame_name(frame), name, &known);
+        self.report(diagnostic);
+        None
+    }
+
+    /// What `owner.feature` is, for a message.
+    pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
+        let frame = match self.space.get(&owner.text) {
+            _ if owner.text == "ground" => Frame::Ground,
+            Some(Entity::Body(k)) if k < self.bodies.len() => Frame::Body(self.bodies[k]),
+            _ => return "a feature of a body".to_owned(),
+        };
+        let found = self
+            .features
+            .get(&frame)
+            .and_then(|space| space.get(&feature.text));
+        found
+            .map_or("a feature of a body", Feature::noun)
+            .to_owned()
+    }
+}

@@ -1,0 +1,774 @@
+//! Formulas: from the tree to the graph, with their dimensions.
+//!
+//! A formula that holds a unit is *judged*: its dimensions are worked out and compared. Any other is *plain*, and is
+//! taken in the SI unit of what is expected (`language.md`, "Units").
+
+use super::errors::{self, Part};
+use super::names::Entity;
+use super::units::Unit;
+use super::{Checker, names};
+use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
+use crate::model::{Dimension, Named};
+use crate::source::Span;
+use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+
+/// Parts that one formula may have, written out.
+const LARGEST: usize = 1_000_000;
+
+/// The dimension of a formula.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) enum Dim {
+    /// A literal zero fits anything.
+    Any,
+    /// This one.
+    Of(Dimension),
+}
+
+impl Dim {
+    pub const PURE: Dim = Dim::Of(Dimension::PURE);
+    pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
+
+    fn map(self, f: impl Fn(Dimension) -> Dimension) -> Dim {
+        match self {
+            Dim::Any => Dim::Any,
+            Dim::Of(dimension) => Dim::Of(f(dimension)),
+        }
+    }
+
+    /// Of a product or quotient: zero times anything is a zero that fits.
+    pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
+        match (self, other) {
+            (Dim::Of(a), Dim::Of(b)) => Dim::Of(f(a, b)),
+            _ => Dim::Any,
+        }
+    }
+}
+
+/// A formula in the graph, with its dimension; a plain formula's dimension says nothing.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Value {
+    pub id: ExprId,
+    pub dim: Dim,
+}
+
+/// What may stand in a formula, and how it is read.
+#[derive(Clone, Copy)]
+pub(super) struct Context<'c> {
+    /// For messages: `a constraint`.
+    pub place: &'c str,
+    /// Whether dimensions are compared.
+    pub judged: bool,
+    /// Whether `t` may stand.
+    pub time: bool,
+    /// Whether kinematic quantities may stand.
+    pub quantities: bool,
+    /// Whether other measures and `der` may stand.
+    pub measures: bool,
+    /// Whether names of the file may stand.
+    pub names: bool,
+    /// The argument of the function that is being expanded.
+    pub argument: Option<(&'c str, Value)>,
+}
+
+impl<'c> Context<'c> {
+    /// A constant over params and functions.
+    pub fn constant(place: &'c str) -> Context<'c> {
+        Context {
+            place,
+            judged: false,
+            time: false,
+            quantities: false,
+            measures: false,
+            names: true,
+            argument: None,
+        }
+    }
+}
+
+/// One expansion of a function or measure: which, of what argument, and how it is read.
+#[derive(Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Call {
+    entity: Entity,
+    argument: Option<(ExprId, Option<(u64, u64)>)>,
+    judged: bool,
+    /// Less is said in a branch that is never taken.
+    untaken: bool,
+}
+
+impl Checker<'_> {
+    /// Whether a formula holds a unit of length, time or rate, or something that does.
+    pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
+        let mut open = vec![formula];
+        while let Some(e) = open.pop() {
+            let holds = match &e.kind {
+                ExprKind::Literal {
+                    unit: Some((name, _)),
+                    ..
+                } => self.is_dimensional_name(name),
+                ExprKind::Name(name) => self.is_dimensional_name(name),
+                ExprKind::Call { name, .. } if !names::is_builtin(&name.text) => {
+                    self.is_dimensional_name(name)
+                }
+                // a literal point says nothing about the formula around it
+                ExprKind::Tuple(_) => continue,
+                _ => false,
+            };
+            if holds {
+                return true;
+            }
+            open.extend(e.children());
+        }
+        false
+    }
+
+    fn is_dimensional_name(&self, name: &Name) -> bool {
+        if let Some(unit) = Unit::named(&name.text) {
+            return !unit.dimension.is(Dimension::PURE);
+        }
+        match self.space.get(&name.text) {
+            Some(Entity::Param(k)) => {
+                matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
+            }
+            Some(Entity::Function(k)) => self.functions[k].dimensional,
+            Some(Entity::Measure(k)) => self.measures[k].dimensional,
+            _ => false,
+        }
+    }
+
+    /// A literal zero, alone but for its sign, also through a param that is nothing else.
+    pub(super) fn is_zero(&self, formula: &Expr) -> bool {
+        match &formula.bare().kind {
+            ExprKind::Literal { value, unit: None } => *value == 0.0,
+            ExprKind::Negate(e) => self.is_zero(e),
+            ExprKind::Name(name) => match self.space.get(&name.text) {
+                Some(Entity::Param(k)) => {
+                    matches!(self.params[k], Some(Value { dim: Dim::Any, .. }))
+                }
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// A formula of its own: counts its parts anew.
+    pub(super) fn formula(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.visited = 0;
+        self.number(e, context)
+    }
+
+    /// A formula in the graph; `None` if it is broken, which has then been said.
+    pub(super) fn number(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.visited += 1;
+        if self.visited > LARGEST {
+            if self.visited == LARGEST + 1 {
+                let span = self.callers.first().copied().unwrap_or(e.span);
+                self.diagnostics.push(errors::too_large(span));
+            }
+            return None;
+        }
+        let value = match &e.kind {
+            ExprKind::Paren(inner) => return self.number(inner, context),
+            ExprKind::Literal { value, unit } => self.literal(e, *value, unit.as_ref(), context),
+            ExprKind::Name(name) => self.name(name, context),
+            ExprKind::Call { name, arguments } => self.call(e, name, arguments, context),
+            ExprKind::Negate(inner) => {
+                let inner = self.number(inner, context)?;
+                Some(Value {
+                    id: self.model.graph.neg(inner.id),
+                    dim: inner.dim,
+                })
+            }
+            ExprKind::Sum(first, rest) => self.sum(first, rest, context),
+            ExprKind::Product(first, rest) => self.product(first, rest, context),
+            ExprKind::Power(base, exponent) => self.power(base, exponent, context),
+            ExprKind::If { arms, otherwise } => self.choice(arms, otherwise, context),
+            ExprKind::Member { owner, feature } => {
+                let what = self.describe_member(owner, feature);
+                self.report(errors::wrong_kind(e.span, "a number", &what));
+                None
+            }
+            ExprKind::Tuple(_) => {
+                self.report(errors::wrong_kind(e.span, "a number", "a point"));
+                None
+            }
+            ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
+                self.report(errors::condition_as_number(e.span));
+                None
+            }
+        }?;
+        self.finite(e.span, value)
+    }
+
+    /// Refuses a constant that is not finite, where it arises.
+    fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
+        match self.constant_value(value.id) {
+            Some(number) if !number.is_finite() && !self.untaken => {
+                self.report(errors::not_finite(span, number));
+                None
+            }
+            _ => Some(value),
+        }
+    }
+
+    fn literal(
+        &mut self,
+        e: &Expr,
+        value: f64,
+        unit: Option<&(Name, i32)>,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if !value.is_finite() {
+            self.report(errors::not_finite(e.span, value));
+            return None;
+        }
+        let Some((name, power)) = unit else {
+            let dim = if value == 0.0 { Dim::Any } else { Dim::PURE };
+            return Some(Value {
+                id: self.model.graph.constant(value),
+                dim,
+            });
+        };
+        let Some(unit) = Unit::named(&name.text) else {
+            let is_argument = context
+                .argument
+                .is_some_and(|(argument, _)| argument == name.text);
+            let is_a_name = is_argument
+                || matches!(name.text.as_str(), "t" | "pi" | "tau")
+                || self.space.get(&name.text).is_some();
+            self.report(errors::not_a_unit(
+                name,
+                self.sources
+                    .text(e.span)
+                    .split_whitespace()
+                    .next()
+                    .unwrap_or("2"),
+                is_a_name,
+            ));
+            return None;
+        };
+        let si = unit.to_si(value, *power);
+        if !si.is_finite() {
+            self.report(errors::not_finite(e.span, si));
+            return None;
+        }
+        Some(Value {
+            id: self.model.graph.constant(si),
+            dim: Dim::Of(unit.dimension.to_the(f64::from(*power))),
+        })
+    }
+
+    fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
+        if let Some((argument, value)) = context.argument
+            && argument == name.text
+        {
+            return Some(value);
+        }
+        match name.text.as_str() {
+            "t" if context.time => {
+                let id = self.model.graph.symbol(Symbol::Time);
+                return Some(Value {
+                    id,
+                    dim: Dim::Of(Dimension::TIME),
+                });
+            }
+            "t" => {
+                self.report(errors::time_in(context.place, name.span, None));
+                return None;
+            }
+            "pi" => return Some(self.pure(std::f64::consts::PI)),
+            "tau" => return Some(self.pure(std::f64::consts::TAU)),
+            _ => {}
+        }
+        if let Some(unit) = Unit::named(&name.text) {
+            let id = self.model.graph.constant(unit.to_si(1.0, 1));
+            return Some(Value {
+                id,
+                dim: Dim::Of(unit.dimension),
+            });
+        }
+        match self.space.get(&name.text).filter(|_| context.names) {
+            Some(Entity::Param(k)) => self.params[k],
+            Some(Entity::Measure(k)) if context.measures => {
+                self.measure_value(k, name.span, context)
+            }
+            Some(Entity::Measure(_)) => {
+                self.report(
+                    errors::wrong_kind(name.span, "a number", "a measure").help(format!(
+                        "measures stand in other measures only, not in {}",
+                        context.place
+                    )),
+                );
+                None
+            }
+            Some(entity) => {
+                self.report(errors::wrong_kind(name.span, "a number", entity.noun()));
+                None
+            }
+            None => {
+                self.unknown_number(name, context);
+                None
+            }
+        }
+    }
+
+    fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
+        let mut known: Vec<&str> = Vec::new();
+        if context.names {
+            known.extend(self.space.names(|entity| match entity {
+                Entity::Param(_) => true,
+                Entity::Measure(_) => context.measures,
+                _ => false,
+            }));
+        }
+        known.extend(context.argument.map(|(argument, _)| argument));
+        known.extend(["t", "pi", "tau"]);
+        let what = if context.measures {
+            "parameter or measure"
+        } else {
+            "parameter"
+        };
+        let diagnostic = errors::unknown(what, name, &known);
+        self.report(diagnostic);
+    }
+
+    fn pure(&mut self, value: f64) -> Value {
+        Value {
+            id: self.model.graph.constant(value),
+            dim: Dim::PURE,
+        }
+    }
+
+    /// Both dimensions, which must be alike where dimensions count.
+    pub(super) fn alike(
+        &mut self,
+        what: &str,
+        a: (Span, Dim),
+        b: (Span, Dim),
+        context: &Context<'_>,
+    ) -> Option<Dim> {
+        match (a.1, b.1) {
+            (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
+                let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
+                self.report(errors::unlike(what, x, y));
+                None
+            }
+            (Dim::Any, other) | (other, _) => Some(other),
+        }
+    }
+
+    /// Demands a dimension where dimensions count.
+    pub(super) fn demand(
+        &mut self,
+        place: &str,
+        wanted: Dimension,
+        span: Span,
+        found: Dim,
+        context: &Context<'_>,
+    ) -> Option<()> {
+        match found {
+            Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
+                self.report(errors::wrong_dimension(
+                    place,
+                    wanted,
+                    Part { span, dimension },
+                ));
+                None
+            }
+            _ => Some(()),
+        }
+    }
+
+    fn sum(&mut self, first: &Expr, rest: &[(Sign, Expr)], context: &Context<'_>) -> Option<Value> {
+        let mut sum = self.number(first, context);
+        let mut span = first.span;
+        for (sign, term) in rest {
+            let (Some(left), Some(right)) = (sum, self.number(term, context)) else {
+                sum = None;
+                continue;
+            };
+            let what = if *sign == Sign::Plus {
+                "this adds"
+            } else {
+                "this subtracts"
+            };
+            sum = self
+                .alike(what, (span, left.dim), (term.span, right.dim), context)
+                .map(|dim| {
+                    let id = match sign {
+                        Sign::Plus => self.model.graph.add(left.id, right.id),
+                        Sign::Minus => self.model.graph.sub(left.id, right.id),
+                    };
+                    Value { id, dim }
+                });
+            span = span.to(term.span);
+            sum = sum.and_then(|value| self.finite(span, value));
+        }
+        sum
+    }
+
+    fn product(
+        &mut self,
+        first: &Expr,
+        rest: &[(Factor, Expr)],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        let mut product = self.number(first, context);
+        let mut span = first.span;
+        for (factor, term) in rest {
+            let (Some(left), Some(right)) = (product, self.number(term, context)) else {
+                product = None;
+                continue;
+            };
+            let graph = &mut self.model.graph;
+            let value = match factor {
+                Factor::Times => Value {
+                    id: graph.mul(left.id, right.id),
+                    dim: left.dim.with(right.dim, Dimension::times),
+                },
+                Factor::Over => Value {
+                    id: graph.div(left.id, right.id),
+                    dim: left.dim.with(right.dim, Dimension::over),
+                },
+            };
+            span = span.to(term.span);
+            product = self.finite(span, value);
+        }
+        product
+    }
+
+    fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
+        let (a, b) = (self.number(base, context), self.number(exponent, context));
+        let (a, b) = (a?, b?);
+        self.demand(
+            "an exponent",
+            Dimension::PURE,
+            exponent.span,
+            b.dim,
+            context,
+        )?;
+        let id = self.model.graph.pow(a.id, b.id);
+        let dim = match a.dim {
+            Dim::Of(dimension) if context.judged && !dimension.is(Dimension::PURE) => {
+                let Some(power) = self.constant_value(b.id) else {
+                    self.report(errors::exponent(
+                        exponent.span,
+                        Part {
+                            span: base.span,
+                            dimension,
+                        },
+                    ));
+                    return None;
+                };
+                Dim::Of(dimension.to_the(power))
+            }
+            other => other.map(|_| Dimension::PURE),
+        };
+        Some(Value { id, dim })
+    }
+
+    fn choice(
+        &mut self,
+        arms: &[(Expr, Expr)],
+        otherwise: &Expr,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        let outer = self.untaken;
+        let mut decided = false;
+        let mut parts = Vec::new();
+        for (condition, value) in arms {
+            let condition = self.condition(condition, context);
+            let truth = condition.and_then(|id| self.constant_value(id));
+            self.untaken = outer || decided || truth == Some(0.0);
+            parts.push((condition, value.span, self.number(value, context)));
+            decided |= truth == Some(1.0);
+        }
+        self.untaken = outer || decided;
+        let last = self.number(otherwise, context);
+        self.untaken = outer;
+        let mut choice = last?;
+        let mut span = otherwise.span;
+        for (condition, value_span, value) in parts.into_iter().rev() {
+            let (condition, value) = (condition?, value?);
+            let dim = self.alike(
+                "the branches are",
+                (value_span, value.dim),
+                (span, choice.dim),
+                context,
+            )?;
+            choice = Value {
+                id: self.model.graph.select(condition, value.id, choice.id),
+                dim,
+            };
+            span = value_span;
+        }
+        Some(choice)
+    }
+
+    fn condition(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
+        match &e.kind {
+            ExprKind::Paren(inner) => self.condition(inner, context),
+            ExprKind::Not(inner) => {
+                let inner = self.condition(inner, context)?;
+                Some(self.model.graph.not(inner))
+            }
+            ExprKind::And(list) | ExprKind::Or(list) => {
+                let ids: Vec<Option<ExprId>> = list
+                    .iter()
+                    .map(|part| self.condition(part, context))
+                    .collect();
+                let mut ids = ids.into_iter();
+                let mut all = ids.next()??;
+                for id in ids {
+                    all = match e.kind {
+                        ExprKind::And(_) => self.model.graph.and(all, id?),
+                        _ => self.model.graph.or(all, id?),
+                    };
+                }
+                Some(all)
+            }
+            ExprKind::Compare(a, comparison, b) => {
+                let (left, right) = (self.number(a, context), self.number(b, context));
+                let (left, right) = (left?, right?);
+                self.alike(
+                    "this compares",
+                    (a.span, left.dim),
+                    (b.span, right.dim),
+                    context,
+                )?;
+                let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
+                Some(match comparison {
+                    Comparison::Less => graph.compare(Relation::Less, x, y),
+                    Comparison::LessEqual => graph.compare(Relation::LessEqual, x, y),
+                    Comparison::Greater => graph.compare(Relation::Less, y, x),
+                    Comparison::GreaterEqual => graph.compare(Relation::LessEqual, y, x),
+                    Comparison::Equal => graph.compare(Relation::Equal, x, y),
+                    Comparison::NotEqual => {
+                        let equal = graph.compare(Relation::Equal, x, y);
+                        graph.not(equal)
+                    }
+                })
+            }
+            _ => {
+                self.report(errors::number_as_condition(e.span));
+                None
+            }
+        }
+    }
+
+    fn call(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if names::is_builtin(&name.text) {
+            return self.builtin(e, name, arguments, context);
+        }
+        match self.space.get(&name.text).filter(|_| context.names) {
+            Some(Entity::Function(k)) => {
+                let [argument] = arguments else {
+                    self.report(errors::argument_count(
+                        &name.text,
+                        e.span,
+                        "one argument",
+                        arguments.len(),
+                    ));
+                    return None;
+                };
+                let argument = self.number(argument, context)?;
+                if let Some(at) = self.functions[k].time.filter(|_| !context.time) {
+                    self.report(errors::time_in(
+                        context.place,
+                        e.span,
+                        Some((&name.text, at)),
+                    ));
+                    return None;
+                }
+                self.function_value(k, argument, e.span, context)
+            }
+            // said where it is declared
+            Some(Entity::Table) => None,
+            Some(entity) => {
+                self.report(errors::not_callable(name, entity));
+                None
+            }
+            None => {
+                let own: Vec<&str> = self
+                    .space
+                    .names(|entity| matches!(entity, Entity::Function(_)))
+                    .collect();
+                let diagnostic = errors::unknown_function(name, &own);
+                self.report(diagnostic);
+                None
+            }
+        }
+    }
+
+    /// A function's formula where it is called, as if it stood there.
+    fn function_value(
+        &mut self,
+        at: usize,
+        argument: Value,
+        span: Span,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        let function = &self.functions[at];
+        if !function.sound {
+            return None;
+        }
+        let (formula, name) = (function.value, function.argument);
+        let bits = match argument.dim {
+            Dim::Of(d) if context.judged => {
+                Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits()))
+            }
+            Dim::Any | Dim::Of(_) => None,
+        };
+        let key = Call {
+            entity: Entity::Function(at),
+            argument: Some((argument.id, bits)),
+            judged: context.judged,
+            untaken: self.untaken,
+        };
+        let inner = Context {
+            time: true,
+            argument: Some((&name.text, argument)),
+            quantities: false,
+            measures: false,
+            names: true,
+            ..*context
+        };
+        self.expand(key, formula, span, &inner)
+    }
+
+    /// Another measure's formula, as if it stood there.
+    fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
+        if !self.measures[at].sound {
+            return None;
+        }
+        let formula = self.measures[at].value;
+        let key = Call {
+            entity: Entity::Measure(at),
+            argument: None,
+            judged: context.judged,
+            untaken: self.untaken,
+        };
+        self.expand(
+            key,
+            formula,
+            span,
+            &Context {
+                argument: None,
+                ..*context
+            },
+        )
+    }
+
+    fn expand(
+        &mut self,
+        key: Call,
+        formula: &Expr,
+        span: Span,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Some(&known) = self.calls.get(&key) {
+            return known;
+        }
+        self.callers.push(span);
+        // functions may call each other in a long chain
+        let value = stacker::maybe_grow(256 << 10, 4 << 20, || self.number(formula, context));
+        self.callers.pop();
+        self.calls.insert(key, value);
+        value
+    }
+
+    /// How many time derivatives a formula holds.
+    pub(super) fn derivative_order(&self, id: ExprId) -> u8 {
+        if !self.model.graph.dependence(id).on(Dependence::NAMED) {
+            return 0;
+        }
+        self.model
+            .graph
+            .symbols(id)
+            .into_iter()
+            .filter_map(|symbol| match symbol {
+                Symbol::Named(k) => self.derivative_orders.get(k as usize).copied(),
+                _ => None,
+            })
+            .max()
+            .unwrap_or(0)
+    }
+
+    /// `der(e)`
+    pub(super) fn derivative(
+        &mut self,
+        e: &Expr,
+        argument: &Expr,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if !context.measures {
+            self.report(errors::derivative_in(context.place, e.span));
+            return None;
+        }
+        let inner = self.number(argument, context)?;
+        let order = self.derivative_order(inner.id) + 1;
+        if order > 3 {
+            self.report(errors::derivative_too_high(e.span));
+            return None;
+        }
+        let dim = inner.dim.map(|d| d.over(Dimension::TIME));
+        if self.model.graph.dependence(inner.id).is_constant() {
+            return Some(Value {
+                id: self.model.graph.constant(0.0),
+                dim,
+            });
+        }
+        Some(Value {
+            id: self.name_symbol(Named::Derivative(inner.id), order),
+            dim,
+        })
+    }
+
+    /// Whether a formula as written holds a kinematic quantity.
+    pub(super) fn holds_quantity(formula: &Expr) -> bool {
+        let mut open = vec![formula];
+        while let Some(e) = open.pop() {
+            if let ExprKind::Call { name, .. } = &e.kind
+                && names::QUANTITIES.contains(&name.text.as_str())
+            {
+                return true;
+            }
+            open.extend(e.children());
+        }
+        false
+    }
+
+    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
+    pub(super) fn constant(
+        &mut self,
+        e: &Expr,
+        place: &str,
+        wanted: Dimension,
+    ) -> Option<(ExprId, f64)> {
+        let judged = self.is_dimensional(e);
+        self.constant_in(e, place, wanted, judged)
+    }
+
+    /// A constant of a given dimension, in a group that is judged or not.
+    pub(super) fn constant_in(
+        &mut self,
+        e: &Expr,
+        place: &str,
+        wanted: Dimension,
+        judged: bool,
+    ) -> Option<(ExprId, f64)> {
+        let context = Context {
+            judged,
+            ..Context::constant(place)
+        };
+        let value = self.formula(e, &context)?;
+        self.demand(place, wanted, e.span, value.dim, &context)?;
+        let number = self.constant_value(value.id)?;
+        Some((value.id, number))
+    }
+}

@@ -1,0 +1,443 @@
+//! From the tree to the model: names, units, values, elements.
+//!
+//! Goes on after a mistake wherever it can, so that several mistakes are several messages; what depends on something
+//! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
+//! each expansion is remembered, so that functions that share sub-formulas cost linear time.
+
+mod builtins;
+mod elements;
+mod errors;
+mod features;
+mod formula;
+mod names;
+mod quantities;
+mod units;
+
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::expr::{ExprId, Symbol};
+use crate::model::{BodyId, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
+use crate::source::{Sources, Span};
+use crate::syntax::ast::{self, Expr, Item, ItemKind, Name};
+use features::Feature;
+use formula::{Call, Context, Dim, Value};
+use names::{Entity, Space, mentioned};
+use rustc_hash::FxHashMap;
+
+/// A parameter's value from outside the file: `--set crank_length=60mm`.
+#[derive(Clone, Debug)]
+pub struct Setting {
+    /// The parameter.
+    pub name: String,
+    /// Its formula, which names nothing of the file.
+    pub value: Expr,
+}
+
+/// Checks that the mechanisms of a file have different names.
+pub fn check_file(file: &ast::File) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    let mut space: Space<()> = Space::new();
+    for mechanism in &file.mechanisms {
+        if let Err(first) = space.declare(&mechanism.name, ()) {
+            diagnostics.push(errors::second_mechanism(&mechanism.name, first));
+        }
+    }
+    diagnostics
+}
+
+/// The model of one mechanism, if it is sound, and all that is to be said of it.
+#[must_use]
+pub fn check(
+    tree: &ast::Mechanism,
+    settings: &[Setting],
+    sources: &Sources,
+) -> (Option<Mechanism>, Diagnostics) {
+    let mut checker = Checker::new(tree, settings, sources);
+    checker.run();
+    let Checker {
+        mut diagnostics,
+        model,
+        ..
+    } = checker;
+    diagnostics.sort_by_place();
+    let sound = !diagnostics.has_errors();
+    (sound.then_some(model), diagnostics)
+}
+
+/// The value in SI of a formula that names nothing of any file: a time of the command line.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn constant(
+    formula: &Expr,
+    place: &str,
+    wanted: Dimension,
+    sources: &Sources,
+) -> Result<f64, Diagnostics> {
+    let nobody = Name {
+        text: String::new(),
+        span: formula.span,
+    };
+    let tree = ast::Mechanism {
+        docs: Vec::new(),
+        name: nobody,
+        span: formula.span,
+        items: Vec::new(),
+    };
+    let mut checker = Checker::new(&tree, &[], sources);
+    match checker.constant(formula, place, wanted) {
+        Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
+        _ => Err(checker.diagnostics),
+    }
+}
+
+/// What is known of a user's function.
+struct Function<'a> {
+    argument: &'a Name,
+    value: &'a Expr,
+    /// Holds a unit, or something that does.
+    dimensional: bool,
+    /// Where time comes in, if it does.
+    time: Option<Span>,
+    /// Whether its formula can be read at all.
+    sound: bool,
+}
+
+/// What is known of a measure before its turn.
+struct MeasureState<'a> {
+    name: &'a Name,
+    value: &'a Expr,
+    dimensional: bool,
+    sound: bool,
+}
+
+struct Checker<'a> {
+    tree: &'a ast::Mechanism,
+    settings: &'a [Setting],
+    sources: &'a Sources,
+    diagnostics: Diagnostics,
+    model: Mechanism,
+    space: Space<Entity>,
+    /// By the parameter's position; `None` where it is broken.
+    params: Vec<Option<Value>>,
+    functions: Vec<Function<'a>>,
+    measures: Vec<MeasureState<'a>>,
+    bodies: Vec<BodyId>,
+    joints: Vec<Option<JointId>>,
+    features: FxHashMap<Frame, Space<Feature>>,
+    named: FxHashMap<Named, NamedId>,
+    /// How many time derivatives a named symbol holds.
+    derivative_orders: Vec<u8>,
+    /// Values of the graph's nodes, NaN where they are not constant.
+    values: Vec<f64>,
+    /// Expansions already made.
+    calls: FxHashMap<Call, Option<Value>>,
+    /// Where the formula being expanded was called, outermost first.
+    callers: Vec<Span>,
+    /// Parts visited for the current formula.
+    visited: usize,
+    /// In a branch that is never taken nothing is said of values.
+    untaken: bool,
+}
+
+impl<'a> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, settings: &'a [Setting], sources: &'a Sources) -> Checker<'a> {
+        Checker {
+            tree,
+            settings,
+            sources,
+            diagnostics: Diagnostics::default(),
+            model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
+            space: Space::new(),
+            params: Vec::new(),
+            functions: Vec::new(),
+            measures: Vec::new(),
+            bodies: Vec::new(),
+            joints: Vec::new(),
+            features: FxHashMap::default(),
+            named: FxHashMap::default(),
+            derivative_orders: Vec::new(),
+            values: Vec::new(),
+            calls: FxHashMap::default(),
+            callers: Vec::new(),
+            visited: 0,
+            untaken: false,
+        }
+    }
+
+    fn run(&mut self) {
+        self.collect(self.tree);
+        self.unavailable_tables();
+        let measures = self.definitions();
+        self.features();
+        self.joints();
+        self.measures(&measures);
+        self.equations();
+        self.analysis();
+        if self.bodies.is_empty() {
+            self.report(errors::empty(&self.tree.name));
+        }
+    }
+
+    /// Says something, with the place of the call through which it came up.
+    fn report(&mut self, diagnostic: Diagnostic) {
+        self.diagnostics.push(match self.callers.first() {
+            Some(&caller) => diagnostic.also(caller, "called here"),
+            None => diagnostic,
+        });
+    }
+
+    fn items(&self) -> &'a [Item] {
+        &self.tree.items
+    }
+
+    fn unavailable_tables(&mut self) {
+        for item in self.items() {
+            if let ItemKind::Table { name, .. } = &item.kind {
+                self.report(errors::not_available("`table`", name.span));
+            }
+        }
+    }
+
+    /// Params, functions and measures in the order in which they need each other: params are evaluated and functions
+    /// looked over; returns the measures' order.
+    fn definitions(&mut self) -> Vec<usize> {
+        let mut definitions = Vec::new();
+        let mut entities = Vec::new();
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Param { name, value } => {
+                    entities.push(Entity::Param(self.params.len()));
+                    definitions.push((name, value));
+                    self.params.push(None);
+                }
+                ItemKind::Function {
+                    name,
+                    argument,
+                    value,
+                } => {
+                    entities.push(Entity::Function(self.functions.len()));
+                    definitions.push((name, value));
+                    self.functions.push(Function {
+                        argument,
+                        value,
+                        dimensional: false,
+                        time: None,
+                        sound: false,
+                    });
+                }
+                ItemKind::Measure { name, value } => {
+                    entities.push(Entity::Measure(self.measures.len()));
+                    definitions.push((name, value));
+                    self.measures.push(MeasureState {
+                        name,
+                        value,
+                        dimensional: false,
+                        sound: false,
+                    });
+                }
+                _ => {}
+            }
+        }
+        let uses = self.uses(&definitions, &entities);
+        let mut measures = Vec::new();
+        for at in self.ordered(&uses) {
+            let (name, value) = definitions[at];
+            match entities[at] {
+                Entity::Param(k) => self.params[k] = self.param(name, value),
+                Entity::Function(k) => self.function(k),
+                Entity::Measure(k) => {
+                    self.measures[k].dimensional = self.is_dimensional(value);
+                    measures.push(k);
+                }
+                _ => {}
+            }
+        }
+        measures
+    }
+
+    fn uses<'d>(
+        &self,
+        definitions: &[(&'d Name, &Expr)],
+        entities: &[Entity],
+    ) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
+        let position: FxHashMap<Entity, usize> =
+            entities.iter().enumerate().map(|(k, &e)| (e, k)).collect();
+        let arguments: FxHashMap<usize, &str> = entities
+            .iter()
+            .enumerate()
+            .filter_map(|(k, entity)| match entity {
+                Entity::Function(f) => Some((k, self.functions[*f].argument.text.as_str())),
+                _ => None,
+            })
+            .collect();
+        definitions
+            .iter()
+            .enumerate()
+            .map(|(k, &(name, value))| {
+                let mut uses = Vec::new();
+                mentioned(value, |used| {
+                    let hidden = arguments.get(&k) == Some(&used.text.as_str());
+                    let entity = self.space.get(&used.text).filter(|_| !hidden);
+                    if let Some(&at) = entity.and_then(|e| position.get(&e)) {
+                        uses.push((at, used.span));
+                    }
+                });
+                (name, uses)
+            })
+            .collect()
+    }
+
+    /// A parameter: one that depends on no other becomes a symbol, another one its formula.
+    fn param(&mut self, name: &Name, formula: &Expr) -> Option<Value> {
+        let context = Context::constant("a parameter");
+        let in_file = self.param_value(formula, context)?;
+        let settings = self.settings;
+        let setting = settings
+            .iter()
+            .rev()
+            .find(|setting| setting.name == name.text);
+        let value = match setting {
+            None => in_file,
+            Some(setting) => {
+                let given = self.param_value(
+                    &setting.value,
+                    Context {
+                        names: false,
+                        ..context
+                    },
+                )?;
+                match (in_file.dim, given.dim) {
+                    (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
+                        let place = format!("the parameter `{}`", name.text);
+                        let part = errors::Part {
+                            span: setting.value.span,
+                            dimension: found,
+                        };
+                        self.report(errors::wrong_dimension(&place, wanted, part));
+                        return None;
+                    }
+                    (Dim::Of(wanted), _) => Value {
+                        dim: Dim::Of(wanted),
+                        ..given
+                    },
+                    (Dim::Any, _) => given,
+                }
+            }
+        };
+        if self
+            .model
+            .graph
+            .dependence(value.id)
+            .on(crate::expr::Dependence::PARAMS)
+        {
+            return Some(value);
+        }
+        let number = self.constant_value(value.id)?;
+        let index = self.model.params.len() as u32;
+        self.model.params.push(Param {
+            declared: declared(name),
+            docs: self.docs_of(name),
+            value: number,
+            dimension: match value.dim {
+                Dim::Of(dimension) => dimension,
+                Dim::Any => Dimension::PURE,
+            },
+        });
+        Some(Value {
+            id: self.model.graph.symbol(Symbol::Param(index)),
+            dim: value.dim,
+        })
+    }
+
+    fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {
+        let judged = self.is_dimensional(formula);
+        let value = self.formula(formula, &Context { judged, ..context })?;
+        let dim = match value.dim {
+            _ if self.is_zero(formula) => Dim::Any,
+            Dim::Of(dimension) if judged => Dim::Of(dimension),
+            _ => Dim::Of(Dimension::PURE),
+        };
+        Some(Value { dim, ..value })
+    }
+
+    fn docs_of(&self, name: &Name) -> Vec<String> {
+        self.items()
+            .iter()
+            .find(|item| item.span.start <= name.span.start && name.span.end <= item.span.end)
+            .map_or_else(Vec::new, |item| item.docs.clone())
+    }
+
+    /// Reads a function's formula once on its own, so that its mistakes are found even if nobody calls it.
+    fn function(&mut self, at: usize) {
+        let (argument, value) = (self.functions[at].argument, self.functions[at].value);
+        self.functions[at].dimensional = self.is_dimensional(value);
+        self.functions[at].time = self.time_in(value, argument);
+        self.functions[at].sound = true;
+        let named = self.name_symbol(Named::Argument, 0);
+        let context = Context {
+            time: true,
+            argument: Some((
+                &argument.text,
+                Value {
+                    id: named,
+                    dim: Dim::Of(Dimension::PURE),
+                },
+            )),
+            ..Context::constant("a function")
+        };
+        let sound = self.formula(value, &context).is_some();
+        self.functions[at].sound = sound;
+    }
+
+    /// Where a formula brings time in, if it does.
+    fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
+        let mut time = None;
+        mentioned(formula, |name| {
+            let through_a_call = match self.space.get(&name.text) {
+                Some(Entity::Function(k)) => self.functions[k].time.is_some(),
+                _ => false,
+            };
+            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call)
+            {
+                time = Some(name.span);
+            }
+        });
+        time
+    }
+
+    /// A named symbol of the graph; the same meaning is the same symbol.
+    fn name_symbol(&mut self, meaning: Named, derivative_order: u8) -> ExprId {
+        let id = match self.named.get(&meaning) {
+            Some(&id) => id,
+            None => {
+                let id = self.model.add_named(meaning);
+                self.named.insert(meaning, id);
+                self.derivative_orders.push(derivative_order);
+                id
+            }
+        };
+        self.model.graph.symbol(Symbol::Named(id.index() as u32))
+    }
+
+    /// The value of a constant formula, under the params' values.
+    fn constant_value(&mut self, id: ExprId) -> Option<f64> {
+        if !self.model.graph.dependence(id).is_constant() {
+            return None;
+        }
+        let params = &self.model.params;
+        self.model
+            .graph
+            .extend_values(&mut self.values, |symbol| match symbol {
+                Symbol::Param(k) => params[k as usize].value,
+                _ => f64::NAN,
+            });
+        self.values.get(id.index()).copied()
+    }
+}
+
+fn declared(name: &Name) -> Declared {
+    Declared {
+        name: name.text.clone(),
+        span: name.span,
+    }
+}

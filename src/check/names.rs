@@ -1,0 +1,258 @@
+//! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
+
+use super::units::Unit;
+use super::{Checker, errors};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
+use rustc_hash::FxHashMap;
+
+/// The functions of the language that are called with numbers, with the fewest and the most arguments.
+pub(super) const FUNCTIONS: &[(&str, usize, usize)] = &[
+    ("sin", 1, 1),
+    ("cos", 1, 1),
+    ("tan", 1, 1),
+    ("asin", 1, 1),
+    ("acos", 1, 1),
+    ("atan", 1, 1),
+    ("atan2", 2, 2),
+    ("sinh", 1, 1),
+    ("cosh", 1, 1),
+    ("tanh", 1, 1),
+    ("exp", 1, 1),
+    ("ln", 1, 1),
+    ("log10", 1, 1),
+    ("sqrt", 1, 1),
+    ("hypot", 2, 2),
+    ("abs", 1, 1),
+    ("sign", 1, 1),
+    ("min", 2, usize::MAX),
+    ("max", 2, usize::MAX),
+    ("mod", 2, 2),
+    ("step", 5, 5),
+    ("step5", 5, 5),
+    ("step7", 5, 5),
+    ("harmonic", 5, 5),
+    ("cycloidal", 5, 5),
+    ("modsine", 5, 5),
+    ("poly", 3, usize::MAX),
+];
+
+/// The kinematic quantities, and `der`.
+pub(super) const QUANTITIES: &[&str] = &["x", "y", "angle", "distance", "rotation", "displacement"];
+
+/// What a name of the mechanism's space stands for, with its position among its kind in the text.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub(super) enum Entity {
+    Param(usize),
+    Function(usize),
+    Table,
+    Body(usize),
+    Joint(usize),
+    Equation,
+    Measure(usize),
+}
+
+impl Entity {
+    /// As a noun.
+    pub fn noun(self) -> &'static str {
+        match self {
+            Entity::Param(_) => "a parameter",
+            Entity::Function(_) => "a function",
+            Entity::Table => "a table",
+            Entity::Body(_) => "a body",
+            Entity::Joint(_) => "a joint",
+            Entity::Equation => "a constraint or driver",
+            Entity::Measure(_) => "a measure",
+        }
+    }
+}
+
+/// One space of names.
+#[derive(Clone, Debug)]
+pub(super) struct Space<T> {
+    entries: FxHashMap<String, (T, Span)>,
+    order: Vec<String>,
+}
+
+impl<T: Copy> Space<T> {
+    pub fn new() -> Space<T> {
+        Space {
+            entries: FxHashMap::default(),
+            order: Vec::new(),
+        }
+    }
+
+    /// Declares a name, or gives the place where it already is.
+    pub fn declare(&mut self, name: &Name, entity: T) -> Result<(), Span> {
+        if let Some(&(_, first)) = self.entries.get(&name.text) {
+            return Err(first);
+        }
+        self.entries.insert(name.text.clone(), (entity, name.span));
+        self.order.push(name.text.clone());
+        Ok(())
+    }
+
+    /// Gives a declared name another meaning.
+    pub fn replace(&mut self, name: &str, entity: T) {
+        if let Some(entry) = self.entries.get_mut(name) {
+            entry.0 = entity;
+        }
+    }
+
+    pub fn get(&self, name: &str) -> Option<T> {
+        self.entries.get(name).map(|&(entity, _)| entity)
+    }
+
+    pub fn span(&self, name: &str) -> Option<Span> {
+        self.entries.get(name).map(|&(_, span)| span)
+    }
+
+    /// Names of the entities that `wanted` accepts, in order of declaration.
+    pub fn names(&self, wanted: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
+        self.order
+            .iter()
+            .filter(move |name| self.get(name).is_some_and(&wanted))
+            .map(String::as_str)
+    }
+}
+
+/// Whether a name is taken in the mechanism's space.
+fn is_taken(name: &str) -> bool {
+    matches!(name, "t" | "pi" | "tau" | "ground") || Unit::named(name).is_some()
+}
+
+/// Whether a name is that of a function or quantity.
+pub(super) fn is_builtin(name: &str) -> bool {
+    name == "der" || QUANTITIES.contains(&name) || FUNCTIONS.iter().any(|&(f, ..)| f == name)
+}
+
+impl Checker<'_> {
+    /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
+    pub(super) fn collect(&mut self, mechanism: &Mechanism) {
+        let (mut params, mut functions, mut bodies, mut joints, mut measures) = (0, 0, 0, 0, 0);
+        let next = |count: &mut usize| {
+            *count += 1;
+            *count - 1
+        };
+        for item in &mechanism.items {
+            let (name, entity) = match &item.kind {
+                ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut params))),
+                ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut functions))),
+                ItemKind::Table { name, .. } => (name, Entity::Table),
+                ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut bodies))),
+                ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
+                ItemKind::Equation { name, .. } => (name, Entity::Equation),
+                ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
+                ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
+            };
+            let callable = matches!(entity, Entity::Function(_) | Entity::Table);
+            if is_taken(&name.text) || callable && is_builtin(&name.text) {
+                self.report(errors::reserved(name));
+            } else if let Err(first) = self.space.declare(name, entity) {
+                self.report(errors::declared_twice(name, first));
+            }
+        }
+        for item in &mechanism.items {
+            if let ItemKind::Function { argument, .. } = &item.kind {
+                self.argument_name(argument);
+            }
+        }
+        self.only_once(mechanism);
+    }
+
+    /// The argument of a function or curve may not be a name of the mechanism's space.
+    fn argument_name(&mut self, argument: &Name) {
+        if is_taken(&argument.text) {
+            self.report(errors::reserved(argument));
+        } else if let Some(declared) = self.space.span(&argument.text) {
+            self.report(errors::hidden_name(argument, declared));
+        }
+    }
+
+    fn only_once(&mut self, mechanism: &Mechanism) {
+        let (mut ground, mut analysis) = (None, None);
+        for item in &mechanism.items {
+            let (first, word) = match item.kind {
+                ItemKind::Ground { .. } => (&mut ground, "ground"),
+                ItemKind::Analysis { .. } => (&mut analysis, "analysis"),
+                _ => continue,
+            };
+            match *first {
+                None => *first = Some(item.span),
+                Some(span) => self.diagnostics.push(errors::second(word, item.span, span)),
+            }
+        }
+    }
+
+    /// The definitions in an order in which each comes after those it uses; those on a circle are reported and left
+    /// out.
+    ///
+    /// `uses` lists, for each definition, the positions of those it needs with the place where it names them.
+    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Vec<usize> {
+        #[derive(Clone, Copy, PartialEq)]
+        enum Mark {
+            New,
+            Open,
+            Done,
+            Broken,
+        }
+        let mut marks = vec![Mark::New; definitions.len()];
+        let mut order = Vec::new();
+        for start in 0..definitions.len() {
+            if marks[start] != Mark::New {
+                continue;
+            }
+            // a stack of its own: a chain of definitions may be long
+            let mut path = vec![(start, 0)];
+            marks[start] = Mark::Open;
+            while let Some((at, next)) = path.last_mut() {
+                let at = *at;
+                let Some(&(used, _)) = definitions[at].1.get(*next) else {
+                    if marks[at] == Mark::Open {
+                        marks[at] = Mark::Done;
+                        order.push(at);
+                    }
+                    path.pop();
+                    continue;
+                };
+                *next += 1;
+                match marks[used] {
+                    Mark::New => {
+                        marks[used] = Mark::Open;
+                        path.push((used, 0));
+                    }
+                    Mark::Open => {
+                        let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
+                        let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
+                        // told from the definition that comes first in the text
+                        let first = (0..circle.len())
+                            .min_by_key(|&k| definitions[circle[k]].0.span)
+                            .unwrap_or(0);
+                        circle.rotate_left(first);
+                        let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
+                        self.report(errors::circle(&names));
+                        for k in circle {
+                            marks[k] = Mark::Broken;
+                        }
+                    }
+                    Mark::Done | Mark::Broken => {}
+                }
+            }
+        }
+        order
+    }
+}
+
+/// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and
+/// quantities, whose names something else may share.
+pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
+    let mut open = vec![formula];
+    while let Some(e) = open.pop() {
+        match &e.kind {
+            ExprKind::Call { name, .. } if is_builtin(&name.text) => {}
+            ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
+            _ => {}
+        }
+        open.extend(e.children().into_iter().rev());
+    }
+}

@@ -1,0 +1,144 @@
+//! What can be typed.
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+const AFTER_HELP: &str = "\
+Examples:
+  mechc check examples/slider_crank.mech
+  mechc run examples/slider_crank.mech -o slider_crank.csv
+  mechc run examples/slider_crank.mech --set rod_length=200mm --every 0.5ms
+
+Exit codes:
+  0  done (warnings may have been printed)
+  1  the input has errors
+  2  wrong usage
+  3  the analysis could not be completed; the rows up to there are written
+  4  a file could not be read or written";
+
+/// A compiler for .mech files: planar mechanisms of bodies, joints and drivers.
+///
+/// It shows that a mechanism is determined, and computes its motion: position, velocity and acceleration.
+#[derive(Parser, Debug)]
+#[command(name = "mechc", version, after_help = AFTER_HELP)]
+pub(super) struct Arguments {
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+#[derive(Subcommand, Debug)]
+pub(super) enum Command {
+    /// Is it a determined mechanism? Says what was found
+    #[command(long_about = "Is it a determined mechanism?\n\n\
+        Checks the file, counts coordinates and equations, assembles the mechanism at its first time, and prints what \
+        was found: bodies, joints, drivers, the NDOF table, and how far the estimates were off.")]
+    Check(CheckArguments),
+    /// The kinematic analysis, as a table
+    #[command(
+        long_about = "The kinematic analysis, as a table.\n\n\
+        Prints a row per output time with, for each body, x, y and phi, then the measures; all of them again with .d \
+        (first time derivative) and .dd (second). Units are m, rad and s. The times are those of the file's `analysis` \
+        unless given here.",
+        after_help = "Examples:\n  mechc run linkage.mech\n  mechc run linkage.mech --from 0 --to 2 --every 10ms -o out.csv\n  \
+        mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
+    )]
+    Run(RunArguments),
+}
+
+/// What all commands that read a file share.
+#[derive(Args, Debug)]
+pub(super) struct Input {
+    /// The .mech file; `-` is standard input
+    #[arg(value_name = "FILE")]
+    pub file: String,
+
+    /// Which mechanism, where the file holds several
+    #[arg(long, value_name = "NAME")]
+    pub mechanism: Option<String>,
+
+    /// Set a parameter, with its unit: `--set crank_length=60mm`. Repeatable; the last of one name counts
+    #[arg(long, value_name = "NAME=EXPR", allow_hyphen_values = true)]
+    pub set: Vec<String>,
+
+    /// How diagnostics are written
+    #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
+    pub message_format: MessageFormat,
+
+    /// Whether diagnostics are coloured
+    #[arg(long, value_enum, default_value_t, value_name = "WHEN")]
+    pub color: When,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(super) enum MessageFormat {
+    /// With the lines they speak of
+    #[default]
+    Human,
+    /// One line each
+    Short,
+    /// One JSON object a line
+    Json,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(super) enum When {
+    /// On a terminal, unless NO_COLOR is set
+    #[default]
+    Auto,
+    Always,
+    Never,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct CheckArguments {
+    #[command(flatten)]
+    pub input: Input,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct RunArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// Where the table goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
+
+    /// The form of the table; by the ending of OUT if not given, else csv
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<Format>,
+
+    /// First time, in seconds or with a unit
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub from: Option<String>,
+
+    /// Last time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+
+    /// Step from one output time to the next
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub every: Option<String>,
+
+    /// Only this time, followed from the start of the analysis. Repeatable
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+
+    /// Bounds the residual of every equation, relative to the mechanism's size
+    #[arg(long, value_name = "X", default_value_t = crate::analysis::TOLERANCE, value_parser = positive)]
+    pub tolerance: f64,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Format {
+    /// A header, then a row per time
+    Csv,
+    /// {"columns": […], "rows": [[…], …]}
+    Json,
+}
+
+fn positive(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(value) if value > 0.0 && value.is_finite() => Ok(value),
+        _ => Err("a positive number is wanted".to_owned()),
+    }
+}

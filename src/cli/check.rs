@@ -1,0 +1,46 @@
+//! `mechc check`: is it a determined mechanism, and what was found?
+
+use super::arguments::CheckArguments;
+use super::failure::Failure;
+use super::files::Output;
+use super::input;
+use super::report::Reporter;
+use crate::analysis::{self, Started};
+use crate::program::Program;
+use crate::structure::{self, Determined};
+use std::io::Write;
+
+pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let determined = input::determined(&arguments.input, reporter)?;
+    let system = determined.system();
+    let program = Program::new(system);
+    let t = system.analysis.map_or(0.0, |[from, ..]| from);
+    let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
+    reporter.print(&started.remarks());
+    let report = report(&determined, started, t);
+    let mut output = Output::open("-")?;
+    if let Err(error) = output.writer().write_all(report.as_bytes()) {
+        return Err(output.failure(&error));
+    }
+    output.close()
+}
+
+fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
+    let system = determined.system();
+    let moved = started.moved().in_words(system);
+    let conditioning = started.conditioning();
+    let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", system.name);
+    text += &structure::table(system);
+    text += &format!("\n\nat t = {t} s\n  {moved}\n");
+    text += &format!(
+        "  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n"
+    );
+    for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
+        text += &format!(
+            "  {} = {}\n",
+            coordinate.name,
+            zmij::Buffer::new().format(q + 0.0)
+        );
+    }
+    text
+}

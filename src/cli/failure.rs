@@ -1,0 +1,66 @@
+//! What ends a command early, and the exit code that tells it.
+
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::source::Sources;
+
+/// The input has errors.
+const INPUT: u8 = 1;
+/// Wrong usage.
+const USAGE: u8 = 2;
+/// The analysis could not be completed.
+const ANALYSIS: u8 = 3;
+/// A file could not be read or written.
+const FILES: u8 = 4;
+
+/// Why a command ends early.
+#[derive(Debug)]
+pub(super) enum Failure {
+    /// With something to say.
+    Said(Diagnostics),
+    /// The reader of the results has gone; nothing is left to do, and nothing is wrong.
+    ReaderGone,
+}
+
+impl From<Diagnostics> for Failure {
+    fn from(diagnostics: Diagnostics) -> Failure {
+        Failure::Said(diagnostics)
+    }
+}
+
+impl From<Diagnostic> for Failure {
+    fn from(diagnostic: Diagnostic) -> Failure {
+        Failure::Said(diagnostic.into())
+    }
+}
+
+impl From<Box<Diagnostic>> for Failure {
+    fn from(diagnostic: Box<Diagnostic>) -> Failure {
+        Failure::Said((*diagnostic).into())
+    }
+}
+
+/// The exit code of a command that ended with these.
+pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
+    let Some(first) = diagnostics
+        .iter()
+        .find(|d| d.severity() == crate::diag::Severity::Error)
+    else {
+        return 0;
+    };
+    // what is wrong with an option is wrong usage, whatever it is
+    if first
+        .labels
+        .first()
+        .is_some_and(|label| sources.get(label.span.file).is_option)
+    {
+        return USAGE;
+    }
+    match first.code {
+        Code::E0601 | Code::E0602 | Code::E0603 | Code::E0604 | Code::E0605 | Code::E0606 => {
+            ANALYSIS
+        }
+        Code::E0701 | Code::E0702 => FILES,
+        Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
+        _ => INPUT,
+    }
+}

@@ -1,0 +1,194 @@
+//! Reading the input, and writing results whole or not at all.
+
+use super::failure::Failure;
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Sources, Span};
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Read, Write};
+use std::path::{Path, PathBuf};
+
+/// The text of a file, or of standard input for `-`.
+pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
+    let (shown, bytes) = if name == "-" {
+        let mut bytes = Vec::new();
+        (
+            "<stdin>",
+            io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes),
+        )
+    } else {
+        (name, fs::read(name))
+    };
+    let bytes = bytes.map_err(|error| cannot_read(shown, &error))?;
+    if bytes.len() > u32::MAX as usize {
+        return Err(cannot_read(shown, &io::Error::other("it is larger than 4 GB")).into());
+    }
+    String::from_utf8(bytes)
+        .map(|text| sources.add(shown, text))
+        .map_err(|error| {
+            let at = error.utf8_error().valid_up_to();
+            not_utf8(shown, error.as_bytes(), at, sources).into()
+        })
+}
+
+fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0701,
+        format!("cannot read `{name}`: {}", reason(error)),
+    )
+}
+
+fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0702,
+        format!("cannot write `{name}`: {}", reason(error)),
+    )
+}
+
+/// The system's words, without its number.
+fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or(&text);
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| {
+        first.to_lowercase().chain(chars).collect()
+    })
+}
+
+/// Shows the text up to the byte that is not UTF-8.
+fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagnostic {
+    let valid = String::from_utf8_lossy(&bytes[..at]).into_owned();
+    let file = sources.add(name, valid);
+    let end = sources.get(file).text.len() as u32;
+    let span = Span {
+        file,
+        start: end,
+        end,
+    };
+    let byte = bytes.get(at).copied().unwrap_or_default();
+    Diagnostic::new(Code::E0102, format!("`{name}` is not UTF-8"))
+        .at(span, format!("the byte {byte:#04x} follows here"))
+        .help("save the file as UTF-8 in your editor")
+}
+
+/// Where results go: standard output, or a file that is replaced whole at the end.
+pub(super) enum Destination {
+    Standard(io::StdoutLock<'static>),
+    /// Something that is no file, `/dev/null` say: written as it comes.
+    Device(File),
+    File {
+        temporary: tempfile::NamedTempFile,
+        path: PathBuf,
+    },
+}
+
+/// An open [`Destination`] with its name for messages.
+pub(super) struct Output {
+    name: String,
+    writer: BufWriter<Destination>,
+}
+
+impl Write for Destination {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Destination::Standard(out) => out.write(bytes),
+            Destination::Device(file) => file.write(bytes),
+            Destination::File { temporary, .. } => temporary.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Destination::Standard(out) => out.flush(),
+            Destination::Device(file) => file.flush(),
+            Destination::File { temporary, .. } => temporary.flush(),
+        }
+    }
+}
+
+impl Output {
+    /// Opens it; a file's place is tried at once, so that no work is done for nothing.
+    pub fn open(name: &str) -> Result<Output, Failure> {
+        let destination = if name == "-" {
+            Ok(Destination::Standard(io::stdout().lock()))
+        } else {
+            Destination::beside(Path::new(name))
+        };
+        let destination = destination.map_err(|error| cannot_write(name, &error))?;
+        let name = if name == "-" { "standard output" } else { name };
+        Ok(Output {
+            name: name.to_owned(),
+            writer: BufWriter::with_capacity(1 << 16, destination),
+        })
+    }
+
+    /// Whether it is standard output.
+    pub fn is_standard(&self) -> bool {
+        matches!(self.writer.get_ref(), Destination::Standard(_))
+    }
+
+    pub fn writer(&mut self) -> &mut impl Write {
+        &mut self.writer
+    }
+
+    /// Why writing failed.
+    pub fn failure(&self, error: &io::Error) -> Failure {
+        if error.kind() == io::ErrorKind::BrokenPipe {
+            return Failure::ReaderGone;
+        }
+        cannot_write(&self.name, error).into()
+    }
+
+    /// Puts a file in its place.
+    pub fn close(mut self) -> Result<(), Failure> {
+        if let Err(error) = self.writer.flush() {
+            return Err(self.failure(&error));
+        }
+        let name = self.name.clone();
+        match self.writer.into_inner() {
+            Ok(Destination::File { temporary, path }) => temporary
+                .persist(path)
+                .map(|_| ())
+                .map_err(|error| cannot_write(&name, &error.error).into()),
+            Ok(Destination::Standard(_) | Destination::Device(_)) => Ok(()),
+            Err(error) => Err(cannot_write(&name, error.error()).into()),
+        }
+    }
+}
+
+impl Destination {
+    fn beside(path: &Path) -> io::Result<Destination> {
+        // a link stays a link: what it points to is replaced
+        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        if let Ok(found) = fs::metadata(&path) {
+            if found.is_dir() {
+                return Err(io::Error::other("it is a folder"));
+            }
+            if !found.is_file() {
+                return File::create(&path).map(Destination::Device);
+            }
+            if found.permissions().readonly() {
+                return Err(io::ErrorKind::PermissionDenied.into());
+            }
+        }
+        let folder = match path.parent() {
+            Some(folder) if !folder.as_os_str().is_empty() => folder,
+            _ => Path::new("."),
+        };
+        if !folder.is_dir() {
+            return Err(io::Error::other(format!(
+                "there is no folder `{}`",
+                folder.display()
+            )));
+        }
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".mechc-");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt;
+            // as a file that is made anew, less what the user's mask takes away
+            builder.permissions(fs::Permissions::from_mode(0o666));
+        }
+        let temporary = builder.tempfile_in(folder)?;
+        Ok(Destination::File { temporary, path })
+    }
+}

@@ -1,0 +1,36 @@
+//! The command line: arguments to pipeline, diagnostics to the terminal, results to files.
+//!
+//! The only room that touches files, the environment and the terminal. A file per command.
+
+mod arguments;
+mod check;
+mod failure;
+mod files;
+mod input;
+mod progress;
+mod report;
+mod run;
+
+use arguments::{Arguments, Command};
+use clap::Parser;
+use report::Reporter;
+use std::process::ExitCode;
+
+/// Runs the command that the process was called with.
+#[must_use]
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    let result = match arguments.command {
+        Command::Check(check) => {
+            let mut reporter = Reporter::new(&check.input);
+            let result = check::check(&check, &mut reporter);
+            reporter.finish(result)
+        }
+        Command::Run(run) => {
+            let mut reporter = Reporter::new(&run.input);
+            let result = run::run(&run, &mut reporter);
+            reporter.finish(result)
+        }
+    };
+    ExitCode::from(result)
+}

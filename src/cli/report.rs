@@ -1,0 +1,67 @@
+//! Diagnostics to standard error.
+
+use super::arguments::{Input, MessageFormat, When};
+use super::failure::{Failure, exit_code};
+use crate::diag::{Color, Diagnostics, Format, Severity, render};
+use crate::source::Sources;
+use std::io::{IsTerminal, Write};
+
+/// Prints diagnostics as the user wants them, and knows the texts that they speak of.
+pub(super) struct Reporter {
+    pub sources: Sources,
+    format: Format,
+    color: Color,
+}
+
+impl Reporter {
+    pub fn new(input: &Input) -> Reporter {
+        let format = match input.message_format {
+            MessageFormat::Human => Format::Human,
+            MessageFormat::Short => Format::Short,
+            MessageFormat::Json => Format::Json,
+        };
+        let colored = match input.color {
+            When::Always => true,
+            When::Never => false,
+            When::Auto => {
+                let set =
+                    |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+                let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
+                std::io::stderr().is_terminal() && !set("NO_COLOR") && !dumb
+            }
+        };
+        let color = if colored { Color::Always } else { Color::Never };
+        Reporter {
+            sources: Sources::default(),
+            format,
+            color,
+        }
+    }
+
+    pub fn print(&self, diagnostics: &Diagnostics) {
+        let mut text = String::new();
+        for diagnostic in diagnostics.iter() {
+            text += &render(diagnostic, &self.sources, self.format, self.color);
+        }
+        let errors = diagnostics
+            .iter()
+            .filter(|d| d.severity() == Severity::Error)
+            .count();
+        if errors > 1 && self.format == Format::Human {
+            text += &format!("error: {errors} errors\n");
+        }
+        // a reader of the diagnostics who has gone is no reason to fail
+        let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    }
+
+    /// Says why a command ended, and gives its exit code.
+    pub fn finish(&self, result: Result<(), Failure>) -> u8 {
+        match result {
+            Ok(()) | Err(Failure::ReaderGone) => 0,
+            Err(Failure::Said(diagnostics)) => {
+                self.print(&diagnostics);
+                exit_code(&diagnostics, &self.sources)
+            }
+        }
+    }
+}

@@ -1,0 +1,133 @@
+//! `mechc run`: the kinematic analysis, as a table.
+
+use super::arguments::{Format, RunArguments};
+use super::failure::Failure;
+use super::files::Output;
+use super::input;
+use super::progress::Progress;
+use super::report::Reporter;
+use crate::analysis::{self, Started, Times};
+use crate::diag::{Code, Diagnostic};
+use crate::output::{TableFormat, TableWriter};
+use crate::program::Program;
+use crate::source::Sources;
+use std::path::Path;
+
+pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let determined = input::determined(&arguments.input, reporter)?;
+    let times = times(
+        arguments,
+        determined.system().analysis,
+        &mut reporter.sources,
+    )?;
+    let output = Output::open(&arguments.output)?;
+    let program = Program::new(determined.system());
+    let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
+    reporter.print(&started.remarks());
+    write_table(&mut started, &times, output, format(arguments))
+}
+
+/// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
+fn write_table(
+    started: &mut Started<'_>,
+    times: &Times,
+    mut output: Output,
+    format: TableFormat,
+) -> Result<(), Failure> {
+    let columns = started.columns();
+    let mut progress = Progress::new(times.len(), output.is_standard());
+    let mut motion = started.motion(times.span());
+    let mut stopped = None;
+    let written = (|| {
+        let mut table = TableWriter::new(output.writer(), format, &columns)?;
+        for t in times.iter() {
+            match motion.row_at(t) {
+                Ok(row) => table.row(row)?,
+                Err(diagnostic) => {
+                    stopped = Some(diagnostic);
+                    break;
+                }
+            }
+            progress.tick();
+        }
+        table.finish().map(|_| ())
+    })();
+    progress.finish();
+    if let Err(error) = written {
+        return Err(output.failure(&error));
+    }
+    output.close()?;
+    match stopped {
+        Some(diagnostic) => Err(diagnostic.into()),
+        None => Ok(()),
+    }
+}
+
+fn format(arguments: &RunArguments) -> TableFormat {
+    let ending = Path::new(&arguments.output).extension();
+    match arguments.format {
+        Some(Format::Csv) => TableFormat::Csv,
+        Some(Format::Json) => TableFormat::Json,
+        None if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
+            TableFormat::Json
+        }
+        None => TableFormat::Csv,
+    }
+}
+
+/// The output times: those of the command line over those of the file.
+fn times(
+    arguments: &RunArguments,
+    analysis: Option<[f64; 3]>,
+    sources: &mut Sources,
+) -> Result<Times, Failure> {
+    let mut given = |option: &str, text: &Option<String>| {
+        text.as_ref()
+            .map(|text| input::time(option, text, sources))
+            .transpose()
+    };
+    let from = given("--from", &arguments.from)?.or(analysis.map(|[from, ..]| from));
+    let to = given("--to", &arguments.to)?.or(analysis.map(|[_, to, _]| to));
+    let every = given("--every", &arguments.every)?.or(analysis.map(|[.., every]| every));
+    let listed = arguments
+        .at
+        .iter()
+        .map(|text| input::time("--at", text, sources))
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    let earliest = listed.iter().copied().reduce(f64::min);
+    if let Some(earliest) = earliest {
+        let from = from.unwrap_or(earliest);
+        if earliest < from {
+            return Err(unusable(format!(
+                "`--at` {earliest} s is before the start of the analysis at {from} s"
+            ))
+            .help("start earlier with `--from`")
+            .into());
+        }
+        return Ok(Times::listed(from, listed));
+    }
+    let (Some(from), Some(to), Some(every)) = (from, to, every) else {
+        return Err(Diagnostic::new(Code::E0705, "it is not said which times to compute")
+            .help("add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`")
+            .into());
+    };
+    if every <= 0.0 {
+        return Err(unusable(format!("the step must be positive, it is {every} s")).into());
+    }
+    if to < from {
+        return Err(unusable(format!(
+            "the analysis would end at {to} s, before its start at {from} s"
+        ))
+        .into());
+    }
+    Times::grid(from, to, every).ok_or_else(|| {
+        unusable(format!(
+            "a step of {every} s is too small to get from {from} s to {to} s"
+        ))
+        .into()
+    })
+}
+
+fn unusable(message: String) -> Diagnostic {
+    Diagnostic::new(Code::E0706, message)
+}

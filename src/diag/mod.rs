@@ -1,0 +1,201 @@
+//! What the compiler says to its user.
+//!
+//! A diagnostic is data: a code of the catalogue, one sentence, places with a word each, and the mend. The words are
+//! written beside the phase that finds the fault; this room only holds them and renders them. It knows nothing of
+//! mechanisms.
+
+mod codes;
+mod nearest;
+mod render;
+
+pub use codes::Code;
+pub use nearest::nearest;
+pub use render::{Color, Format, render};
+
+use crate::source::Span;
+use serde_json::{Map, Value};
+
+/// How grave a diagnostic is.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub enum Severity {
+    /// Worth knowing; nothing to mend.
+    Note,
+    /// Probably not what was meant.
+    Warning,
+    /// Nothing can be computed.
+    Error,
+}
+
+/// A place in the text with what is to be said of it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Label {
+    /// Where.
+    pub span: Span,
+    /// What is there; may be empty.
+    pub text: String,
+    /// Whether this is the place of the fault, rather than one that helps to see it.
+    pub primary: bool,
+}
+
+/// One thing to tell the user.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Diagnostic {
+    /// Its entry in the catalogue.
+    pub code: Code,
+    /// The headline: one fact, lower case, no full stop.
+    pub message: String,
+    /// Places, the primary one first.
+    pub labels: Vec<Label>,
+    /// More facts.
+    pub notes: Vec<String>,
+    /// What to write instead.
+    pub help: Vec<String>,
+    /// The numbers of the message, for other programs.
+    pub data: Map<String, Value>,
+}
+
+impl Diagnostic {
+    /// A diagnostic without a place yet.
+    #[must_use]
+    pub fn new(code: Code, message: impl Into<String>) -> Diagnostic {
+        Diagnostic {
+            code,
+            message: message.into(),
+            labels: Vec::new(),
+            notes: Vec::new(),
+            help: Vec::new(),
+            data: Map::new(),
+        }
+    }
+
+    /// The place of the fault, and what is there.
+    #[must_use]
+    pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label {
+            span,
+            text: text.into(),
+            primary: true,
+        });
+        self
+    }
+
+    /// A place that helps to understand the fault.
+    #[must_use]
+    pub fn also(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        self.labels.push(Label {
+            span,
+            text: text.into(),
+            primary: false,
+        });
+        self
+    }
+
+    /// A further fact.
+    #[must_use]
+    pub fn note(mut self, text: impl Into<String>) -> Diagnostic {
+        self.notes.push(text.into());
+        self
+    }
+
+    /// What to write instead.
+    #[must_use]
+    pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
+        self.help.push(text.into());
+        self
+    }
+
+    /// The help, where there is one.
+    #[must_use]
+    pub fn help_if(self, text: Option<String>) -> Diagnostic {
+        match text {
+            Some(text) => self.help(text),
+            None => self,
+        }
+    }
+
+    /// A number of the message, for other programs.
+    #[must_use]
+    pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {
+        self.data.insert(name.to_owned(), value.into());
+        self
+    }
+
+    /// How grave it is.
+    #[must_use]
+    pub fn severity(&self) -> Severity {
+        self.code.severity()
+    }
+}
+
+/// What a pass found, in the order of finding.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Diagnostics {
+    list: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// Adds one; the same code at the same place is said once.
+    pub fn push(&mut self, diagnostic: Diagnostic) {
+        let seen = self.list.iter().any(|d| {
+            d.code == diagnostic.code
+                && d.labels == diagnostic.labels
+                && d.message == diagnostic.message
+        });
+        if !seen {
+            self.list.push(diagnostic);
+        }
+    }
+
+    /// Whether anything forbids to go on.
+    #[must_use]
+    pub fn has_errors(&self) -> bool {
+        self.list.iter().any(|d| d.severity() == Severity::Error)
+    }
+
+    /// How many.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+
+    /// Whether there is nothing to say.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.list.is_empty()
+    }
+
+    /// In the order of finding.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.list.iter()
+    }
+
+    /// By their place in the text, so that a reader meets them from top to bottom.
+    pub fn sort_by_place(&mut self) {
+        self.list.sort_by_key(|d| d.labels.first().map(|l| l.span));
+    }
+}
+
+impl From<Diagnostic> for Diagnostics {
+    fn from(diagnostic: Diagnostic) -> Diagnostics {
+        Diagnostics {
+            list: vec![diagnostic],
+        }
+    }
+}
+
+impl Extend<Diagnostic> for Diagnostics {
+    fn extend<T: IntoIterator<Item = Diagnostic>>(&mut self, iter: T) {
+        for diagnostic in iter {
+            self.push(diagnostic);
+        }
+    }
+}
+
+impl IntoIterator for Diagnostics {
+    type Item = Diagnostic;
+    type IntoIter = std::vec::IntoIter<Diagnostic>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.list.into_iter()
+    }
+}

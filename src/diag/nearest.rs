@@ -1,0 +1,42 @@
+//! "Did you mean": the nearest of the names in scope.
+
+/// The name that `wanted` was probably meant to be, if any is near enough.
+///
+/// Near enough is one mistake in three characters; a difference of case alone always is.
+#[must_use]
+pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = wanted.to_lowercase();
+    let limit = wanted.chars().count().div_ceil(3);
+    names
+        .into_iter()
+        .filter(|name| *name != wanted)
+        .map(|name| {
+            let same_but_case = name.to_lowercase() == lower;
+            let distance = if same_but_case {
+                0
+            } else {
+                strsim::damerau_levenshtein(wanted, name)
+            };
+            (distance, name)
+        })
+        // one letter for another says nothing
+        .filter(|&(distance, name)| {
+            distance <= limit && (distance == 0 || distance < name.chars().count())
+        })
+        .min_by_key(|&(distance, _)| distance)
+        .map(|(_, name)| name)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::nearest;
+
+    #[test]
+    fn offers_what_a_typist_meant() {
+        let names = ["crank", "rod", "slider"];
+        assert_eq!(nearest("crnak", names), Some("crank"));
+        assert_eq!(nearest("ROD", names), Some("rod"));
+        assert_eq!(nearest("piston", names), None);
+        assert_eq!(nearest("q", ["p"]), None);
+    }
+}

@@ -1,0 +1,204 @@
+//! Diagnostics as text: for people through `codespan-reporting`, as one line each, or as JSON.
+//!
+//! The only file that knows the rendering library.
+
+use super::{Diagnostic, Label, Severity};
+use crate::source::{FileId, Source, Sources, Span};
+use codespan_reporting::diagnostic as rich;
+use codespan_reporting::files::{Error, Files};
+use codespan_reporting::term;
+use serde_json::{Value, json};
+use std::ops::Range;
+
+/// A line longer than this is not shown with its marker: it would flood the terminal.
+const LONGEST_LINE: usize = 500;
+
+/// How diagnostics are written.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Format {
+    /// With the lines they speak of.
+    #[default]
+    Human,
+    /// A line each: `file:line:column: error[E0201]: message`.
+    Short,
+    /// A JSON object a line.
+    Json,
+}
+
+/// Whether the human format uses terminal colours.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Color {
+    /// Plain text.
+    #[default]
+    Never,
+    /// ANSI colours.
+    Always,
+}
+
+/// One diagnostic as text, line ends included.
+#[must_use]
+pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color: Color) -> String {
+    match format {
+        Format::Human if fits_a_terminal(diagnostic, sources) => human(diagnostic, sources, color),
+        Format::Human => without_lines(diagnostic, sources),
+        Format::Short => short(diagnostic, sources),
+        Format::Json => format!("{}\n", as_json(diagnostic, sources)),
+    }
+}
+
+impl Severity {
+    fn as_str(self) -> &'static str {
+        match self {
+            Severity::Note => "note",
+            Severity::Warning => "warning",
+            Severity::Error => "error",
+        }
+    }
+}
+
+fn human(diagnostic: &Diagnostic, sources: &Sources, color: Color) -> String {
+    let severity = match diagnostic.severity() {
+        Severity::Note => rich::Severity::Note,
+        Severity::Warning => rich::Severity::Warning,
+        Severity::Error => rich::Severity::Error,
+    };
+    let labels = diagnostic.labels.iter().map(rich_label).collect();
+    let notes = diagnostic.notes.iter().map(|text| aligned("note", text));
+    let help = diagnostic.help.iter().map(|text| aligned("help", text));
+    let rich = rich::Diagnostic::new(severity)
+        .with_code(diagnostic.code.as_str())
+        .with_message(&diagnostic.message)
+        .with_labels(labels)
+        .with_notes(notes.chain(help).collect());
+    let config = term::Config::default();
+    let mut out = term::termcolor::Buffer::no_color();
+    if color == Color::Always {
+        out = term::termcolor::Buffer::ansi();
+    }
+    match term::emit_to_write_style(&mut out, &config, sources, &rich) {
+        Ok(()) => String::from_utf8_lossy(out.as_slice()).into_owned(),
+        // the text has no such place: say the rest
+        Err(_) => without_lines(diagnostic, sources),
+    }
+}
+
+fn rich_label(label: &Label) -> rich::Label<FileId> {
+    let range = label.span.start as usize..label.span.end as usize;
+    let rich = if label.primary {
+        rich::Label::primary(label.span.file, range)
+    } else {
+        rich::Label::secondary(label.span.file, range)
+    };
+    rich.with_message(&label.text)
+}
+
+/// `word: text`, further lines of the text indented below its first.
+fn aligned(word: &str, text: &str) -> String {
+    let indent = format!("\n{}", " ".repeat(word.len() + 2));
+    format!("{word}: {}", text.replace('\n', &indent))
+}
+
+fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
+    diagnostic.labels.iter().all(|label| {
+        let source = sources.get(label.span.file);
+        let first = source.line_index(label.span.start as usize);
+        let last = source.line_index(label.span.end as usize);
+        [first, last]
+            .into_iter()
+            .filter_map(|line| source.line_range(line))
+            .all(|range| range.len() <= LONGEST_LINE)
+    })
+}
+
+fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let place = diagnostic.labels.first().map_or(String::new(), |label| {
+        format!("{}: ", place(label.span, sources))
+    });
+    format!(
+        "{place}{}[{}]: {}\n",
+        diagnostic.severity().as_str(),
+        diagnostic.code,
+        diagnostic.message
+    )
+}
+
+fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
+    let mut text = short(diagnostic, sources);
+    for label in diagnostic
+        .labels
+        .iter()
+        .filter(|label| !label.text.is_empty())
+    {
+        text += &format!("  {}: {}\n", place(label.span, sources), label.text);
+    }
+    for note in &diagnostic.notes {
+        text += &format!("  = {}\n", aligned("note", note));
+    }
+    for help in &diagnostic.help {
+        text += &format!("  = {}\n", aligned("help", help));
+    }
+    text + "\n"
+}
+
+fn place(span: Span, sources: &Sources) -> String {
+    let source = sources.get(span.file);
+    let (line, column) = source.position(span.start);
+    format!("{}:{line}:{column}", source.name)
+}
+
+fn as_json(diagnostic: &Diagnostic, sources: &Sources) -> Value {
+    let labels: Vec<Value> = diagnostic
+        .labels
+        .iter()
+        .map(|label| {
+            let source = sources.get(label.span.file);
+            json!({
+                "file": source.name,
+                "start": json_position(source, label.span.start),
+                "end": json_position(source, label.span.end),
+                "primary": label.primary,
+                "text": label.text,
+            })
+        })
+        .collect();
+    json!({
+        "code": diagnostic.code.as_str(),
+        "severity": diagnostic.severity().as_str(),
+        "message": diagnostic.message,
+        "labels": labels,
+        "notes": diagnostic.notes,
+        "help": diagnostic.help,
+        "data": diagnostic.data,
+    })
+}
+
+fn json_position(source: &Source, offset: u32) -> Value {
+    let (line, column) = source.position(offset);
+    json!({ "line": line, "column": column })
+}
+
+impl<'a> Files<'a> for Sources {
+    type FileId = FileId;
+    type Name = &'a str;
+    type Source = &'a str;
+
+    fn name(&'a self, id: FileId) -> Result<&'a str, Error> {
+        Ok(&self.get(id).name)
+    }
+
+    fn source(&'a self, id: FileId) -> Result<&'a str, Error> {
+        Ok(&self.get(id).text)
+    }
+
+    fn line_index(&'a self, id: FileId, byte_index: usize) -> Result<usize, Error> {
+        Ok(self.get(id).line_index(byte_index))
+    }
+
+    fn line_range(&'a self, id: FileId, line: usize) -> Result<Range<usize>, Error> {
+        let given = line;
+        let max = self.get(id).line_index(usize::MAX);
+        self.get(id)
+            .line_range(line)
+            .ok_or(Error::LineTooLarge { given, max })
+    }
+}

@@ -1,0 +1,108 @@
+//! Values of single operations, and of whole formulas where speed does not matter.
+
+use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
+use crate::math;
+
+/// The value of a function of one argument.
+#[must_use]
+pub fn unary_value(function: Unary, x: f64) -> f64 {
+    match function {
+        Unary::Sin => math::sin(x),
+        Unary::Cos => math::cos(x),
+        Unary::Tan => math::tan(x),
+        Unary::Asin => math::asin(x),
+        Unary::Acos => math::acos(x),
+        Unary::Atan => math::atan(x),
+        Unary::Sinh => math::sinh(x),
+        Unary::Cosh => math::cosh(x),
+        Unary::Tanh => math::tanh(x),
+        Unary::Exp => math::exp(x),
+        Unary::Ln => math::ln(x),
+        Unary::Log10 => math::log10(x),
+        Unary::Sqrt => math::sqrt(x),
+        Unary::Abs => x.abs(),
+        Unary::Sign => math::sign(x),
+        Unary::Floor => math::floor(x),
+    }
+}
+
+/// The value of a function of two arguments.
+#[must_use]
+pub fn binary_value(function: Binary, x: f64, y: f64) -> f64 {
+    match function {
+        Binary::Atan2 => math::atan2(x, y),
+        Binary::Hypot => math::hypot(x, y),
+        Binary::Min => math::min(x, y),
+        Binary::Max => math::max(x, y),
+        Binary::Pow => math::pow(x, y),
+    }
+}
+
+/// 1 if the comparison holds, else 0.
+#[must_use]
+pub fn compare(comparison: Comparison, x: f64, y: f64) -> f64 {
+    f64::from(match comparison {
+        Comparison::Less => x < y,
+        Comparison::LessEqual => x <= y,
+        // exact, as the user wrote it
+        #[allow(clippy::float_cmp)]
+        Comparison::Equal => x == y,
+    })
+}
+
+impl Graph {
+    /// The value of one node from the values of its operands.
+    #[must_use]
+    pub fn node_value(
+        &self,
+        node: Node,
+        operand: impl Fn(ExprId) -> f64,
+        symbol: impl Fn(Symbol) -> f64,
+    ) -> f64 {
+        match node {
+            Node::Const(bits) => f64::from_bits(bits),
+            Node::Symbol(s) => symbol(s),
+            Node::Add(a, b) => operand(a) + operand(b),
+            Node::Sub(a, b) => operand(a) - operand(b),
+            Node::Mul(a, b) => operand(a) * operand(b),
+            Node::Div(a, b) => operand(a) / operand(b),
+            Node::Neg(a) => -operand(a),
+            Node::Power(a, n) => {
+                let value = math::whole_power(operand(a), n.unsigned_abs());
+                if n < 0 { 1.0 / value } else { value }
+            }
+            Node::Unary(f, a) => unary_value(f, operand(a)),
+            Node::Binary(f, a, b) => binary_value(f, operand(a), operand(b)),
+            Node::Compare(c, a, b) => compare(c, operand(a), operand(b)),
+            Node::And(a, b) => f64::from(operand(a) != 0.0 && operand(b) != 0.0),
+            Node::Or(a, b) => f64::from(operand(a) != 0.0 || operand(b) != 0.0),
+            Node::Not(a) => f64::from(operand(a) == 0.0),
+            Node::Select(c, a, b) => {
+                if operand(c) == 0.0 {
+                    operand(b)
+                } else {
+                    operand(a)
+                }
+            }
+        }
+    }
+
+    /// The values of all nodes, appended to those that `values` holds of a shorter graph.
+    pub fn extend_values(&self, values: &mut Vec<f64>, symbol: impl Fn(Symbol) -> f64) {
+        for k in values.len()..self.len() {
+            let value = self.node_value(self.nodes[k], |id| values[id.index()], &symbol);
+            values.push(value);
+        }
+    }
+
+    /// The value of one formula. For tests and set-up; the time loop runs programs.
+    #[must_use]
+    pub fn value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
+        let mut values: rustc_hash::FxHashMap<ExprId, f64> = rustc_hash::FxHashMap::default();
+        for id in self.reachable(&[root]) {
+            let value = self.node_value(self.node(id), |child| values[&child], &symbol);
+            values.insert(id, value);
+        }
+        values[&root]
+    }
+}

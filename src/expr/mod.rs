@@ -1,0 +1,387 @@
+//! The expression graph: the one representation of every formula, from the checked model to emitted code.
+//!
+//! Nodes are hash-consed, so that equal formulas are one node and sharing costs nothing; children have smaller ids
+//! than their parents, so that a walk by id needs no recursion. Constructors simplify (`build`), derivatives come
+//! from one set of rules (`derive`), values from one evaluator (`evaluate`). What a symbol stands for is the business
+//! of the room that owns the graph.
+
+mod build;
+mod derive;
+mod evaluate;
+mod motion;
+
+pub use evaluate::{binary_value, compare, unary_value};
+pub use motion::Motion;
+
+use rustc_hash::FxHashMap;
+
+/// A node of a [`Graph`].
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct ExprId(u32);
+
+impl ExprId {
+    /// Position in the graph, from 0.
+    #[must_use]
+    pub fn index(self) -> usize {
+        self.0 as usize
+    }
+}
+
+/// What a formula is about.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Symbol {
+    /// A parameter, by its number.
+    Param(u32),
+    /// Time, in seconds.
+    Time,
+    /// A generalized coordinate, or its time derivative of the given order.
+    Coordinate {
+        /// Number of the coordinate.
+        index: u32,
+        /// 0 for `q`, 1 for `q̇`, 2 for `q̈`, 3 for `q⃛`.
+        order: u8,
+    },
+    /// Something that the owner of the graph has given a meaning to.
+    Named(u32),
+}
+
+/// Functions of one argument.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[allow(missing_docs)] // each is named as in the language
+pub enum Unary {
+    Sin,
+    Cos,
+    Tan,
+    Asin,
+    Acos,
+    Atan,
+    Sinh,
+    Cosh,
+    Tanh,
+    Exp,
+    Ln,
+    Log10,
+    Sqrt,
+    Abs,
+    Sign,
+    Floor,
+}
+
+/// Functions of two arguments.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[allow(missing_docs)] // each is named as in the language
+pub enum Binary {
+    Atan2,
+    Hypot,
+    Min,
+    Max,
+    /// A power whose exponent is not a small whole number.
+    Pow,
+}
+
+/// Comparisons; the other four are these with sides exchanged or negated.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+#[allow(missing_docs)] // each says itself
+pub enum Comparison {
+    Less,
+    LessEqual,
+    Equal,
+}
+
+/// A formula's outermost operation.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Node {
+    /// A number, by its bits; always finite, and never −0.
+    Const(u64),
+    /// A leaf.
+    Symbol(Symbol),
+    /// `a + b`
+    Add(ExprId, ExprId),
+    /// `a − b`
+    Sub(ExprId, ExprId),
+    /// `a · b`
+    Mul(ExprId, ExprId),
+    /// `a / b`
+    Div(ExprId, ExprId),
+    /// `−a`
+    Neg(ExprId),
+    /// `aⁿ`, n a whole number but 0 and 1.
+    Power(ExprId, i32),
+    /// A function of one argument.
+    Unary(Unary, ExprId),
+    /// A function of two arguments.
+    Binary(Binary, ExprId, ExprId),
+    /// 1 if it holds, else 0.
+    Compare(Comparison, ExprId, ExprId),
+    /// 1 if both hold.
+    And(ExprId, ExprId),
+    /// 1 if one holds.
+    Or(ExprId, ExprId),
+    /// 1 if it does not hold.
+    Not(ExprId),
+    /// The second if the first holds, else the third; only that one counts.
+    Select(ExprId, ExprId, ExprId),
+}
+
+impl Node {
+    /// The operands, in order.
+    #[must_use]
+    pub fn children(self) -> Children {
+        match self {
+            Node::Const(_) | Node::Symbol(_) => Children::new(&[]),
+            Node::Neg(a) | Node::Power(a, _) | Node::Unary(_, a) | Node::Not(a) => {
+                Children::new(&[a])
+            }
+            Node::Add(a, b)
+            | Node::Sub(a, b)
+            | Node::Mul(a, b)
+            | Node::Div(a, b)
+            | Node::Binary(_, a, b)
+            | Node::Compare(_, a, b)
+            | Node::And(a, b)
+            | Node::Or(a, b) => Children::new(&[a, b]),
+            Node::Select(c, a, b) => Children::new(&[c, a, b]),
+        }
+    }
+}
+
+/// At most three operands, without an allocation.
+#[derive(Clone, Copy, Debug)]
+pub struct Children {
+    list: [ExprId; 3],
+    len: usize,
+}
+
+impl Children {
+    fn new(ids: &[ExprId]) -> Children {
+        let mut list = [ExprId(0); 3];
+        list[..ids.len()].copy_from_slice(ids);
+        Children {
+            list,
+            len: ids.len(),
+        }
+    }
+
+    /// In order.
+    #[must_use]
+    pub fn as_slice(&self) -> &[ExprId] {
+        &self.list[..self.len]
+    }
+}
+
+/// Which kinds of symbols a formula holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Dependence(u8);
+
+impl Dependence {
+    /// On parameters.
+    pub const PARAMS: Dependence = Dependence(1);
+    /// On time.
+    pub const TIME: Dependence = Dependence(2);
+    /// On named symbols.
+    pub const NAMED: Dependence = Dependence(4);
+
+    /// On the coordinates' derivatives of one order.
+    #[must_use]
+    pub fn coordinates(order: u8) -> Dependence {
+        Dependence(8 << order)
+    }
+
+    /// On either.
+    #[must_use]
+    pub fn or(self, other: Dependence) -> Dependence {
+        Dependence(self.0 | other.0)
+    }
+
+    /// Whether any of `kinds` is among these.
+    #[must_use]
+    pub fn on(self, kinds: Dependence) -> bool {
+        self.0 & kinds.0 != 0
+    }
+
+    /// Whether only parameters are, if anything.
+    #[must_use]
+    pub fn is_constant(self) -> bool {
+        self.0 & !Self::PARAMS.0 == 0
+    }
+
+    /// The highest order of coordinates among these.
+    #[must_use]
+    pub fn highest_order(self) -> Option<u8> {
+        (0..4)
+            .rev()
+            .find(|&order| self.on(Self::coordinates(order)))
+    }
+
+    fn of(symbol: Symbol) -> Dependence {
+        match symbol {
+            Symbol::Param(_) => Self::PARAMS,
+            Symbol::Time => Self::TIME,
+            Symbol::Named(_) => Self::NAMED,
+            Symbol::Coordinate { order, .. } => Self::coordinates(order),
+        }
+    }
+}
+
+/// An arena of formulas.
+#[derive(Clone, Debug, Default)]
+pub struct Graph {
+    nodes: Vec<Node>,
+    dependence: Vec<Dependence>,
+    ids: FxHashMap<Node, ExprId>,
+}
+
+impl Graph {
+    /// An empty one.
+    #[must_use]
+    pub fn new() -> Graph {
+        Graph::default()
+    }
+
+    /// How many nodes there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.nodes.len()
+    }
+
+    /// Whether there are none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// A formula's outermost operation.
+    #[must_use]
+    pub fn node(&self, id: ExprId) -> Node {
+        self.nodes[id.index()]
+    }
+
+    /// All nodes, children before parents.
+    pub fn nodes(&self) -> impl Iterator<Item = (ExprId, Node)> {
+        self.nodes
+            .iter()
+            .enumerate()
+            .map(|(k, node)| (ExprId(k as u32), *node))
+    }
+
+    /// Which kinds of symbols a formula holds.
+    #[must_use]
+    pub fn dependence(&self, id: ExprId) -> Dependence {
+        self.dependence[id.index()]
+    }
+
+    /// The number that a formula is, if it is one.
+    #[must_use]
+    pub fn as_const(&self, id: ExprId) -> Option<f64> {
+        match self.node(id) {
+            Node::Const(bits) => Some(f64::from_bits(bits)),
+            _ => None,
+        }
+    }
+
+    /// The node of a function of one argument, if the graph has it.
+    #[must_use]
+    pub fn find_unary(&self, function: Unary, argument: ExprId) -> Option<ExprId> {
+        self.ids.get(&Node::Unary(function, argument)).copied()
+    }
+
+    /// Every node that the roots are built of, children before parents.
+    #[must_use]
+    pub fn reachable(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let mut seen = rustc_hash::FxHashSet::default();
+        let mut open: Vec<ExprId> = roots.to_vec();
+        while let Some(id) = open.pop() {
+            if seen.insert(id) {
+                open.extend_from_slice(self.node(id).children().as_slice());
+            }
+        }
+        let mut list: Vec<ExprId> = seen.into_iter().collect();
+        list.sort_unstable();
+        list
+    }
+
+    /// The symbols that a formula holds, in their order.
+    #[must_use]
+    pub fn symbols(&self, root: ExprId) -> Vec<Symbol> {
+        let mut list: Vec<Symbol> = self
+            .reachable(&[root])
+            .into_iter()
+            .filter_map(|id| match self.node(id) {
+                Node::Symbol(symbol) => Some(symbol),
+                _ => None,
+            })
+            .collect();
+        list.sort_unstable();
+        list
+    }
+
+    /// The terms of a formula's outermost sum, signs left out.
+    #[must_use]
+    pub fn terms(&self, root: ExprId) -> Vec<ExprId> {
+        let mut terms = Vec::new();
+        let mut open = vec![root];
+        while let Some(id) = open.pop() {
+            match self.node(id) {
+                Node::Add(a, b) | Node::Sub(a, b) => open.extend([b, a]),
+                Node::Neg(a) => open.push(a),
+                _ => terms.push(id),
+            }
+        }
+        terms
+    }
+
+    /// Rebuilds formulas of another graph in this one, its symbols replaced.
+    ///
+    /// `known` keeps what has been rebuilt already, so that several calls share their work.
+    pub fn import(
+        &mut self,
+        from: &Graph,
+        roots: &[ExprId],
+        known: &mut FxHashMap<ExprId, ExprId>,
+        mut replace: impl FnMut(&mut Graph, Symbol) -> ExprId,
+    ) {
+        let mut open: Vec<(ExprId, bool)> = roots.iter().map(|&id| (id, false)).collect();
+        while let Some((id, children_done)) = open.pop() {
+            if known.contains_key(&id) {
+                continue;
+            }
+            let node = from.node(id);
+            if !children_done {
+                open.push((id, true));
+                open.extend(
+                    node.children()
+                        .as_slice()
+                        .iter()
+                        .map(|&child| (child, false)),
+                );
+                continue;
+            }
+            let rebuilt = match node {
+                Node::Symbol(symbol) => replace(self, symbol),
+                _ => self.rebuild(node, |child| known[&child]),
+            };
+            known.insert(id, rebuilt);
+        }
+    }
+
+    fn intern(&mut self, node: Node) -> ExprId {
+        if let Some(&id) = self.ids.get(&node) {
+            return id;
+        }
+        let id = ExprId(self.nodes.len() as u32);
+        let dependence = match node {
+            Node::Symbol(symbol) => Dependence::of(symbol),
+            _ => node
+                .children()
+                .as_slice()
+                .iter()
+                .fold(Dependence::default(), |all, &child| {
+                    all.or(self.dependence(child))
+                }),
+        };
+        self.nodes.push(node);
+        self.dependence.push(dependence);
+        self.ids.insert(node, id);
+        id
+    }
+}

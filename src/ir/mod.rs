@@ -1,0 +1,278 @@
+//! The constraint system: the mechanism as mathematics, and nothing else.
+//!
+//! # What it means
+//!
+//! With `n` generalized coordinates `q` (lengths in metres, angles in radians), time `t` [s] and parameters `p`:
+//!
+//! - position:     `Φ(q, t; p) = 0`, one entry per row;
+//! - velocity:     `Φ_q q̇ = ν`, `ν = −Φ_t`;
+//! - acceleration: `Φ_q q̈ = γ`, `γ = −(Φ_q q̇)_q q̇ − 2 Φ_qt q̇ − Φ_tt`;
+//! - jerk:         `Φ_q q⃛ = ` [`ConstraintSystem::jerk`], where a measure needs it.
+//!
+//! `Φ` is what `lower` wrote; all else is derived from it by the rules of `expr`. Symbols of the graph are parameters,
+//! time, and coordinates with their derivatives; no named symbol is left.
+//!
+//! # What must hold
+//!
+//! - Every expression is in the one graph; `Φ_q` holds exactly the entries that do not vanish identically.
+//! - Every row knows the declaration that wrote it, with its place in the text.
+//! - The estimates, and all that depends on parameters alone, hold no other symbol.
+
+use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::source::Span;
+
+/// A mechanism as equations.
+#[derive(Clone, Debug)]
+pub struct ConstraintSystem {
+    /// The mechanism's name.
+    pub name: String,
+    /// The place of that name.
+    pub span: Span,
+    /// Every expression.
+    pub graph: Graph,
+    /// The parameters, by the number of their symbol.
+    pub params: Vec<Param>,
+    /// The bodies, each with three coordinates.
+    pub bodies: Vec<Body>,
+    /// The generalized coordinates, by their number.
+    pub coordinates: Vec<Coordinate>,
+    /// The joints, constraints and drivers that wrote the rows.
+    pub declarations: Vec<Declaration>,
+    /// The entries of `Φ`.
+    pub rows: Vec<Row>,
+    /// `Φ_q`, by rows.
+    pub phi_q: SparseRows,
+    /// `ν`, one entry per row [unit of the row / s].
+    pub nu: Vec<ExprId>,
+    /// `γ`, one entry per row [unit of the row / s²].
+    pub gamma: Vec<ExprId>,
+    /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
+    pub jerk: Option<Vec<ExprId>>,
+    /// What is tabulated beside the coordinates.
+    pub measures: Vec<Measure>,
+    /// Formulas that must stay positive.
+    pub conditions: Vec<Condition>,
+    /// Characteristic length L [m]: the largest distance between two features of one body or of the ground.
+    pub length: f64,
+    /// The file's analysis: first time, last time, step [s].
+    pub analysis: Option<[f64; 3]>,
+}
+
+/// A parameter with its value in SI.
+#[derive(Clone, Debug)]
+pub struct Param {
+    /// Its name.
+    pub name: String,
+    /// Its value in SI.
+    pub value: f64,
+}
+
+/// A body with its place in the text.
+#[derive(Clone, Debug)]
+pub struct Body {
+    /// Its name.
+    pub name: String,
+    /// The name's place.
+    pub span: Span,
+}
+
+/// What a coordinate measures.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum CoordinateKind {
+    /// In metres.
+    Length,
+    /// In radians.
+    Angle,
+}
+
+/// A generalized coordinate.
+#[derive(Clone, Debug)]
+pub struct Coordinate {
+    /// `crank.phi`
+    pub name: String,
+    /// Index of its body.
+    pub body: usize,
+    /// What it measures.
+    pub kind: CoordinateKind,
+    /// Where assembly starts; holds parameters only.
+    pub estimate: ExprId,
+}
+
+/// What kind of declaration wrote a row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum DeclarationKind {
+    /// A joint, by its word.
+    Joint(&'static str),
+    /// A constraint.
+    Constraint,
+    /// A driver.
+    Driver,
+}
+
+impl DeclarationKind {
+    /// `joint`, `constraint` or `driver`.
+    #[must_use]
+    pub fn noun(self) -> &'static str {
+        match self {
+            DeclarationKind::Joint(_) => "joint",
+            DeclarationKind::Constraint => "constraint",
+            DeclarationKind::Driver => "driver",
+        }
+    }
+}
+
+/// A joint, constraint or driver.
+#[derive(Clone, Debug)]
+pub struct Declaration {
+    /// Its name.
+    pub name: String,
+    /// The name's place.
+    pub span: Span,
+    /// Which kind.
+    pub kind: DeclarationKind,
+    /// How many rows it wrote.
+    pub rows: usize,
+}
+
+/// An equation.
+#[derive(Clone, Debug)]
+pub struct Row {
+    /// Index of the declaration that wrote it.
+    pub declaration: usize,
+    /// The entry of `Φ` [m, m² or rad].
+    pub phi: ExprId,
+}
+
+/// A number to tabulate, with the time derivatives that can be had.
+#[derive(Clone, Debug)]
+pub struct Measure {
+    /// Its name.
+    pub name: String,
+    /// Its value.
+    pub value: ExprId,
+    /// Its first time derivative, if that needs no fourth derivative of `q`.
+    pub first: Option<ExprId>,
+    /// Its second time derivative, likewise.
+    pub second: Option<ExprId>,
+    /// The name's place.
+    pub span: Span,
+}
+
+/// A formula that must be above zero.
+#[derive(Clone, Debug)]
+pub struct Condition {
+    /// The formula.
+    pub positive: ExprId,
+    /// Whether it is a prescribed distance, rather than the interval of a motion.
+    pub is_distance: bool,
+    /// The formula's place.
+    pub span: Span,
+    /// The declaration that asks for it.
+    pub owner: String,
+}
+
+/// A sparse matrix of expressions, row by row.
+#[derive(Clone, Debug, Default)]
+pub struct SparseRows {
+    starts: Vec<usize>,
+    entries: Vec<(u32, ExprId)>,
+}
+
+impl SparseRows {
+    /// One without rows.
+    #[must_use]
+    pub fn new() -> SparseRows {
+        SparseRows {
+            starts: vec![0],
+            entries: Vec::new(),
+        }
+    }
+
+    /// Adds a row; columns in ascending order.
+    pub fn push(&mut self, row: impl IntoIterator<Item = (u32, ExprId)>) {
+        self.entries.extend(row);
+        self.starts.push(self.entries.len());
+    }
+
+    /// The entries of a row: column and expression.
+    #[must_use]
+    pub fn row(&self, row: usize) -> &[(u32, ExprId)] {
+        &self.entries[self.range(row)]
+    }
+
+    /// Positions of a row's entries in [`SparseRows::entries`].
+    #[must_use]
+    pub fn range(&self, row: usize) -> std::ops::Range<usize> {
+        self.starts[row]..self.starts[row + 1]
+    }
+
+    /// All entries, row by row.
+    #[must_use]
+    pub fn entries(&self) -> &[(u32, ExprId)] {
+        &self.entries
+    }
+}
+
+impl ConstraintSystem {
+    /// The total time derivative of expressions: `t ↦ 1`, `q ↦ q̇` and so on, up to the given order of `q`, the
+    /// derivatives above which are taken to be zero.
+    pub fn time_derivatives(graph: &mut Graph, roots: &[ExprId], highest: u8) -> Vec<ExprId> {
+        graph.derivatives(roots, |graph, symbol| match symbol {
+            Symbol::Time => Some(graph.constant(1.0)),
+            Symbol::Coordinate { index, order } if order < highest => {
+                Some(graph.symbol(Symbol::Coordinate {
+                    index,
+                    order: order + 1,
+                }))
+            }
+            _ => None,
+        })
+    }
+
+    /// `Φ_q`, `ν`, `γ`, and the jerk's right side if wanted, of rows of `Φ`.
+    pub fn derive(&mut self, with_jerk: bool) {
+        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        let graph = &mut self.graph;
+        self.phi_q = SparseRows::new();
+        for &row in &phi {
+            let gradient = graph.gradient(row, Dependence::coordinates(0));
+            self.phi_q.push(
+                gradient
+                    .into_iter()
+                    .filter_map(|(symbol, slope)| match symbol {
+                        Symbol::Coordinate { index, order: 0 } => Some((index, slope)),
+                        _ => None,
+                    }),
+            );
+        }
+        let phi_t = Self::time_derivatives(graph, &phi, 0);
+        self.nu = phi_t.into_iter().map(|id| graph.neg(id)).collect();
+        // Φ̇ holds q̇; what remains of Φ̈ when q̈ is left out is −γ
+        let first = Self::time_derivatives(graph, &phi, 1);
+        let second = Self::time_derivatives(graph, &first, 1);
+        self.gamma = second.into_iter().map(|id| graph.neg(id)).collect();
+        self.jerk = with_jerk.then(|| {
+            let second = Self::time_derivatives(graph, &first, 2);
+            let third = Self::time_derivatives(graph, &second, 2);
+            third.into_iter().map(|id| graph.neg(id)).collect()
+        });
+    }
+
+    /// The declaration behind a row.
+    #[must_use]
+    pub fn declaration_of(&self, row: usize) -> &Declaration {
+        &self.declarations[self.rows[row].declaration]
+    }
+
+    /// Whether a row is a driver's.
+    #[must_use]
+    pub fn is_driver(&self, row: usize) -> bool {
+        self.declaration_of(row).kind == DeclarationKind::Driver
+    }
+
+    /// Coordinates minus equations.
+    #[must_use]
+    pub fn ndof(&self) -> isize {
+        self.coordinates.len().cast_signed() - self.rows.len().cast_signed()
+    }
+}

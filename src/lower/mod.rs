@@ -1,0 +1,247 @@
+//! From the model to the constraint system: the only place where mathematics is written by hand, and it writes `Φ`
+//! alone (`elements.md`; H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*,
+//! 1989).
+
+mod frames;
+mod joints;
+mod quantities;
+mod size;
+
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::ir::{
+    Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind,
+    Measure, Param, Row, SparseRows,
+};
+use crate::model::{ConditionKind, EquationForm, Mechanism, Named, Quantity};
+use rustc_hash::FxHashMap;
+
+/// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
+#[must_use]
+pub fn lower(model: &Mechanism) -> ConstraintSystem {
+    let mut lowering = Lowering {
+        model,
+        graph: Graph::new(),
+        known: FxHashMap::default(),
+        named: Vec::new(),
+        rows: Vec::new(),
+        declarations: Vec::new(),
+    };
+    lowering.named();
+    let coordinates = lowering.coordinates();
+    lowering.joint_rows();
+    lowering.equation_rows();
+    let conditions = lowering.conditions();
+    let measures = lowering.measures();
+    let needs_jerk = measures.iter().any(|measure| {
+        [Some(measure.value), measure.first, measure.second]
+            .into_iter()
+            .flatten()
+            .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
+    });
+    let mut system = ConstraintSystem {
+        name: model.declared.name.clone(),
+        span: model.declared.span,
+        params: model
+            .params
+            .iter()
+            .map(|p| Param {
+                name: p.declared.name.clone(),
+                value: p.value,
+            })
+            .collect(),
+        bodies: model
+            .bodies
+            .iter()
+            .map(|body| Body {
+                name: body.declared.name.clone(),
+                span: body.declared.span,
+            })
+            .collect(),
+        coordinates,
+        declarations: lowering.declarations,
+        rows: lowering.rows,
+        graph: lowering.graph,
+        phi_q: SparseRows::new(),
+        nu: Vec::new(),
+        gamma: Vec::new(),
+        jerk: None,
+        measures,
+        conditions,
+        length: size::characteristic_length(model),
+        analysis: model
+            .analysis
+            .map(|analysis| [analysis.from, analysis.to, analysis.every]),
+    };
+    system.derive(needs_jerk);
+    system
+}
+
+struct Lowering<'m> {
+    model: &'m Mechanism,
+    graph: Graph,
+    /// Formulas of the model that have been carried over.
+    known: FxHashMap<ExprId, ExprId>,
+    /// The model's named symbols as expressions in the coordinates.
+    named: Vec<ExprId>,
+    rows: Vec<Row>,
+    declarations: Vec<Declaration>,
+}
+
+impl Lowering<'_> {
+    /// A formula of the model in this graph.
+    fn formula(&mut self, id: ExprId) -> ExprId {
+        let named = &self.named;
+        self.graph.import(
+            &self.model.graph,
+            &[id],
+            &mut self.known,
+            |graph, symbol| match symbol {
+                Symbol::Named(k) => named[k as usize],
+                other => graph.symbol(other),
+            },
+        );
+        self.known[&id]
+    }
+
+    /// Named symbols in their order: each speaks only of those before it.
+    fn named(&mut self) {
+        for k in 0..self.model.named.len() {
+            let id = match self.model.named[k] {
+                Named::Quantity(quantity) => self.quantity(quantity),
+                Named::Derivative(inner) => {
+                    let inner = self.formula(inner);
+                    ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
+                }
+                // only formulas that nobody uses hold it
+                Named::Argument => self.graph.constant(0.0),
+            };
+            self.named.push(id);
+        }
+    }
+
+    fn coordinates(&mut self) -> Vec<Coordinate> {
+        const PARTS: [(&str, CoordinateKind); 3] = [
+            ("x", CoordinateKind::Length),
+            ("y", CoordinateKind::Length),
+            ("phi", CoordinateKind::Angle),
+        ];
+        let model = self.model;
+        let mut coordinates = Vec::with_capacity(3 * model.bodies.len());
+        for (k, body) in model.bodies.iter().enumerate() {
+            for ((part, kind), estimate) in PARTS.into_iter().zip(body.pose) {
+                coordinates.push(Coordinate {
+                    name: format!("{}.{part}", body.declared.name),
+                    body: k,
+                    kind,
+                    estimate: self.formula(estimate),
+                });
+            }
+        }
+        coordinates
+    }
+
+    fn declare(&mut self, name: &crate::model::Declared, kind: DeclarationKind, phi: &[ExprId]) {
+        let declaration = self.declarations.len();
+        self.declarations.push(Declaration {
+            name: name.name.clone(),
+            span: name.span,
+            kind,
+            rows: phi.len(),
+        });
+        self.rows
+            .extend(phi.iter().map(|&phi| Row { declaration, phi }));
+    }
+
+    fn joint_rows(&mut self) {
+        let model = self.model;
+        for joint in &model.joints {
+            let phi = self.joint(joint.kind);
+            self.declare(
+                &joint.declared,
+                DeclarationKind::Joint(joint.kind.word()),
+                &phi,
+            );
+        }
+    }
+
+    /// Constraints, then drivers.
+    fn equation_rows(&mut self) {
+        let model = self.model;
+        for (drivers, kind) in [
+            (false, DeclarationKind::Constraint),
+            (true, DeclarationKind::Driver),
+        ] {
+            for equation in model
+                .equations
+                .iter()
+                .filter(|equation| equation.driver == drivers)
+            {
+                let phi = match equation.form {
+                    EquationForm::Difference(left, right) => {
+                        let (left, right) = (self.formula(left), self.formula(right));
+                        self.graph.sub(left, right)
+                    }
+                    EquationForm::SquaredDistance(p, q, distance) => {
+                        let distance = self.formula(distance);
+                        self.squared_distance_row(p, q, distance)
+                    }
+                };
+                self.declare(&equation.declared, kind, &[phi]);
+            }
+        }
+    }
+
+    fn conditions(&mut self) -> Vec<Condition> {
+        let model = self.model;
+        model
+            .conditions
+            .iter()
+            .map(|condition| Condition {
+                positive: self.formula(condition.positive),
+                is_distance: condition.kind == ConditionKind::Distance,
+                span: condition.span,
+                owner: condition.owner.clone(),
+            })
+            .collect()
+    }
+
+    fn measures(&mut self) -> Vec<Measure> {
+        let model = self.model;
+        model
+            .measures
+            .iter()
+            .map(|measure| {
+                let value = self.formula(measure.value);
+                let first = self.along_the_motion(value);
+                let second = first.and_then(|first| self.along_the_motion(first));
+                let (name, span) = (measure.declared.name.clone(), measure.declared.span);
+                Measure {
+                    name,
+                    value,
+                    first,
+                    second,
+                    span,
+                }
+            })
+            .collect()
+    }
+
+    /// The time derivative of an expression, unless that needs a fourth derivative of `q`.
+    fn along_the_motion(&mut self, id: ExprId) -> Option<ExprId> {
+        if self.graph.dependence(id).highest_order() == Some(3) {
+            return None;
+        }
+        Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])
+    }
+
+    fn quantity(&mut self, quantity: Quantity) -> ExprId {
+        match quantity {
+            Quantity::X(from, to) => self.coordinate_between(from, to, 0),
+            Quantity::Y(from, to) => self.coordinate_between(from, to, 1),
+            Quantity::Angle(from, to) => self.angle_between(from, to),
+            Quantity::Distance(p, q) => self.distance(p, q),
+            Quantity::Rotation(joint, axes) => self.rotation(joint, axes),
+            Quantity::Displacement(joint) => self.displacement(joint),
+        }
+    }
+}

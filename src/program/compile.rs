@@ -1,0 +1,302 @@
+//! Laying a constraint system out as operations.
+
+use super::{Inputs, Op, Outputs, Program, Register, STAGES, Stage};
+use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
+use crate::ir::ConstraintSystem;
+use rustc_hash::FxHashSet;
+
+const NONE: Register = Register::MAX;
+
+impl Program {
+    /// The program of a constraint system.
+    #[must_use]
+    pub fn new(system: &ConstraintSystem) -> Program {
+        let mut layout = Layout::new(system);
+        let mut outputs = Outputs {
+            estimates: layout.place(
+                Stage::Prologue,
+                system.coordinates.iter().map(|c| c.estimate),
+            ),
+            phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
+            phi_q: layout.place(
+                Stage::Position,
+                system.phi_q.entries().iter().map(|&(_, id)| id),
+            ),
+            nu: layout.place(Stage::Velocity, system.nu.iter().copied()),
+            conditions: layout.place(
+                Stage::Velocity,
+                system.conditions.iter().map(|c| c.positive),
+            ),
+            gamma: layout.place(Stage::Acceleration, system.gamma.iter().copied()),
+            jerk: layout.place(Stage::Jerk, system.jerk.iter().flatten().copied()),
+            measures: layout.place(Stage::Measures, system.measures.iter().map(|m| m.value)),
+            measures_d: layout.place(
+                Stage::Measures,
+                system.measures.iter().filter_map(|m| m.first),
+            ),
+            measures_dd: layout.place(
+                Stage::Measures,
+                system.measures.iter().filter_map(|m| m.second),
+            ),
+            terms: Vec::new(),
+        };
+        outputs.terms = system
+            .rows
+            .iter()
+            .map(|row| layout.place(Stage::Terms, system.graph.terms(row.phi)))
+            .collect();
+        layout.finish(outputs)
+    }
+}
+
+struct Layout<'s> {
+    graph: &'s Graph,
+    register_of: Vec<Register>,
+    /// Angles of which sine and cosine are both wanted somewhere, with the nodes of both.
+    pairs: FxHashSet<ExprId>,
+    operations: Vec<Vec<Op>>,
+    constants: Vec<(Register, f64)>,
+    inputs: Inputs,
+    next: Register,
+}
+
+impl<'s> Layout<'s> {
+    fn new(system: &'s ConstraintSystem) -> Layout<'s> {
+        let n = system.coordinates.len() as u32;
+        let params = system.params.len() as u32;
+        let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
+        Layout {
+            graph: &system.graph,
+            register_of: vec![NONE; system.graph.len()],
+            pairs: pairs(&system.graph),
+            operations: STAGES.map(|_| Vec::new()).to_vec(),
+            constants: Vec::new(),
+            inputs: Inputs {
+                params: 0,
+                time: params,
+                coordinates,
+                n,
+            },
+            next: params + 1 + 4 * n,
+        }
+    }
+
+    /// Emits what the roots need that is not there yet, and gives their registers.
+    fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
+        let roots: Vec<ExprId> = roots.into_iter().collect();
+        let mut needed: Vec<ExprId> = Vec::new();
+        let mut seen: FxHashSet<ExprId> = FxHashSet::default();
+        let mut open = roots.clone();
+        while let Some(id) = open.pop() {
+            if self.register_of[id.index()] == NONE && seen.insert(id) {
+                needed.push(id);
+                open.extend_from_slice(self.graph.node(id).children().as_slice());
+            }
+        }
+        // children have smaller ids than their parents
+        needed.sort_unstable();
+        for id in needed {
+            if self.register_of[id.index()] == NONE {
+                self.emit(stage, id);
+            }
+        }
+        roots
+            .iter()
+            .map(|id| self.register_of[id.index()])
+            .collect()
+    }
+
+    /// The stage in which a node is computed when `wanted` needs it first.
+    fn stage_of(&self, wanted: Stage, id: ExprId) -> Stage {
+        let dependence = self.graph.dependence(id);
+        if dependence.is_constant() {
+            Stage::Prologue
+        } else if wanted == Stage::Position && !dependence.on(Dependence::coordinates(0)) {
+            Stage::Time
+        } else {
+            wanted
+        }
+    }
+
+    fn emit(&mut self, wanted: Stage, id: ExprId) {
+        let stage = self.stage_of(wanted, id);
+        let r = |child: ExprId| self.register_of[child.index()];
+        let op = match self.graph.node(id) {
+            Node::Const(bits) => {
+                let to = self.fresh();
+                self.constants.push((to, f64::from_bits(bits)));
+                self.register_of[id.index()] = to;
+                return;
+            }
+            Node::Symbol(symbol) => {
+                self.register_of[id.index()] = self.input(symbol);
+                return;
+            }
+            Node::Power(a, n) => {
+                let base = r(a);
+                let register = self.power(stage, base, n.unsigned_abs());
+                self.register_of[id.index()] = if n < 0 {
+                    let to = self.fresh();
+                    self.operations[stage as usize].push(Op::Recip { to, a: register });
+                    to
+                } else {
+                    register
+                };
+                return;
+            }
+            Node::Unary(function @ (Unary::Sin | Unary::Cos), a) if self.pairs.contains(&a) => {
+                self.sine_and_cosine(stage, id, function, a);
+                return;
+            }
+            Node::Add(a, b) => Op::Add {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Sub(a, b) => Op::Sub {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Mul(a, b) => Op::Mul {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Div(a, b) => Op::Div {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Neg(a) => Op::Neg {
+                to: self.next,
+                a: r(a),
+            },
+            Node::Unary(function, a) => Op::Unary {
+                function,
+                to: self.next,
+                a: r(a),
+            },
+            Node::Binary(function, a, b) => Op::Binary {
+                function,
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Compare(comparison, a, b) => Op::Compare {
+                comparison,
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::And(a, b) => Op::And {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Or(a, b) => Op::Or {
+                to: self.next,
+                a: r(a),
+                b: r(b),
+            },
+            Node::Not(a) => Op::Not {
+                to: self.next,
+                a: r(a),
+            },
+            Node::Select(c, a, b) => Op::Select {
+                to: self.next,
+                condition: r(c),
+                a: r(a),
+                b: r(b),
+            },
+        };
+        self.register_of[id.index()] = self.fresh();
+        self.operations[stage as usize].push(op);
+    }
+
+    /// Both at once, at the first need of either.
+    fn sine_and_cosine(&mut self, stage: Stage, id: ExprId, function: Unary, angle: ExprId) {
+        let (sin, cos) = (self.fresh(), self.fresh());
+        let a = self.register_of[angle.index()];
+        self.operations[stage as usize].push(Op::SinCos { sin, cos, a });
+        let other = if function == Unary::Sin {
+            Unary::Cos
+        } else {
+            Unary::Sin
+        };
+        let (this_register, other_register) = if function == Unary::Sin {
+            (sin, cos)
+        } else {
+            (cos, sin)
+        };
+        self.register_of[id.index()] = this_register;
+        if let Some(partner) = self.graph.find_unary(other, angle) {
+            self.register_of[partner.index()] = other_register;
+        }
+    }
+
+    /// `baseⁿ` for n ≥ 1, by the products of `math::whole_power`.
+    fn power(&mut self, stage: Stage, base: Register, n: u32) -> Register {
+        if n == 1 {
+            return base;
+        }
+        let half = self.power(stage, base, n / 2);
+        let square = self.fresh();
+        self.operations[stage as usize].push(Op::Mul {
+            to: square,
+            a: half,
+            b: half,
+        });
+        if n.is_multiple_of(2) {
+            return square;
+        }
+        let to = self.fresh();
+        self.operations[stage as usize].push(Op::Mul {
+            to,
+            a: square,
+            b: base,
+        });
+        to
+    }
+
+    fn fresh(&mut self) -> Register {
+        self.next += 1;
+        self.next - 1
+    }
+
+    fn input(&self, symbol: Symbol) -> Register {
+        match symbol {
+            Symbol::Param(k) => self.inputs.params + k,
+            Symbol::Time => self.inputs.time,
+            Symbol::Coordinate { index, order } => self.inputs.coordinates[order as usize] + index,
+            Symbol::Named(_) => unreachable!("lowering leaves no named symbol"),
+        }
+    }
+
+    fn finish(self, outputs: Outputs) -> Program {
+        Program {
+            operations: self.operations,
+            constants: self.constants,
+            registers: self.next as usize,
+            inputs: self.inputs,
+            outputs,
+        }
+    }
+}
+
+fn pairs(graph: &Graph) -> FxHashSet<ExprId> {
+    let arguments = |wanted: Unary| -> FxHashSet<ExprId> {
+        graph
+            .nodes()
+            .filter_map(|(_, node)| match node {
+                Node::Unary(function, a) if function == wanted => Some(a),
+                _ => None,
+            })
+            .collect()
+    };
+    let cosines = arguments(Unary::Cos);
+    arguments(Unary::Sin)
+        .into_iter()
+        .filter(|a| cosines.contains(a))
+        .collect()
+}

@@ -1,0 +1,152 @@
+//! Texts and the places in them.
+//!
+//! Knows nobody: a span is a file and two byte offsets, and everything that speaks of the user's text holds one.
+
+/// Which of the [`Sources`] a span lies in.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct FileId(u32);
+
+/// A stretch of text, in bytes; `end` is exclusive.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub struct Span {
+    /// The text that the offsets count in.
+    pub file: FileId,
+    /// The first byte.
+    pub start: u32,
+    /// One past the last byte.
+    pub end: u32,
+}
+
+impl Span {
+    /// The smallest span that holds both; both must lie in one file.
+    #[must_use]
+    pub fn to(self, other: Span) -> Span {
+        Span {
+            file: self.file,
+            start: self.start.min(other.start),
+            end: self.end.max(other.end),
+        }
+    }
+}
+
+/// One text with the name to print for it.
+#[derive(Clone, Debug)]
+pub struct Source {
+    /// As the user named it: a path, `<stdin>`, `--set`.
+    pub name: String,
+    /// The text, without a byte-order mark.
+    pub text: String,
+    /// Whether it was typed on the command line, rather than read from a file.
+    pub is_option: bool,
+    line_starts: Vec<usize>,
+}
+
+impl Source {
+    fn new(name: String, text: String, is_option: bool) -> Source {
+        let line_starts = std::iter::once(0)
+            .chain(text.match_indices('\n').map(|(at, _)| at + 1))
+            .collect();
+        Source {
+            name,
+            text,
+            is_option,
+            line_starts,
+        }
+    }
+
+    /// Line and column of a byte offset, both from 1, the column in characters.
+    #[must_use]
+    pub fn position(&self, offset: u32) -> (usize, usize) {
+        let offset = (offset as usize).min(self.text.len());
+        let line = self.line_index(offset);
+        let before = self.text.get(self.line_starts[line]..offset).unwrap_or("");
+        (line + 1, before.chars().count() + 1)
+    }
+
+    /// Index of the line (from 0) that holds a byte offset.
+    #[must_use]
+    pub fn line_index(&self, offset: usize) -> usize {
+        self.line_starts.partition_point(|&start| start <= offset) - 1
+    }
+
+    /// Byte range of a line (from 0), its line end included; `None` past the last line.
+    #[must_use]
+    pub fn line_range(&self, line: usize) -> Option<std::ops::Range<usize>> {
+        let start = *self.line_starts.get(line)?;
+        let end = self
+            .line_starts
+            .get(line + 1)
+            .copied()
+            .unwrap_or(self.text.len());
+        Some(start..end)
+    }
+}
+
+/// All texts of one compilation: the file, and what the command line adds to it.
+#[derive(Clone, Debug, Default)]
+pub struct Sources {
+    files: Vec<Source>,
+}
+
+impl Sources {
+    /// Takes a text in; a byte-order mark at its start is passed over.
+    pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> FileId {
+        let mut text = text.into();
+        if text.starts_with('\u{feff}') {
+            text.drain(..'\u{feff}'.len_utf8());
+        }
+        self.push(Source::new(name.into(), text, false))
+    }
+
+    /// Takes the value of an option of the command line in.
+    pub fn add_option(&mut self, option: impl Into<String>, value: impl Into<String>) -> FileId {
+        self.push(Source::new(option.into(), value.into(), true))
+    }
+
+    fn push(&mut self, source: Source) -> FileId {
+        self.files.push(source);
+        FileId(self.files.len() as u32 - 1)
+    }
+
+    /// The text behind an id that [`Sources::add`] gave.
+    #[must_use]
+    pub fn get(&self, file: FileId) -> &Source {
+        &self.files[file.0 as usize]
+    }
+
+    /// The words that a span covers.
+    #[must_use]
+    pub fn text(&self, span: Span) -> &str {
+        self.get(span.file)
+            .text
+            .get(span.start as usize..span.end as usize)
+            .unwrap_or("")
+    }
+
+    /// A span of the whole of a file's last position: where something is missing.
+    #[must_use]
+    pub fn end_of(&self, file: FileId) -> Span {
+        let end = self.get(file).text.len() as u32;
+        Span {
+            file,
+            start: end,
+            end,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn positions_count_characters_from_one() {
+        let mut sources = Sources::default();
+        let file = sources.add("a", "\u{feff}ab\nµx\n");
+        let source = sources.get(file);
+        assert_eq!(source.position(0), (1, 1));
+        assert_eq!(source.position(3), (2, 1));
+        assert_eq!(source.position(5), (2, 2), "µ is two bytes, one character");
+        assert_eq!(source.position(7), (3, 1));
+    }
+}

@@ -1,0 +1,59 @@
+//! The proof that a mechanism is determined: by count, and by the structure of `Φ_q`.
+//!
+//! Works on the pattern alone and assembles nothing. What comes out is a [`Determined`] system, whose equations are
+//! matched to coordinates and ordered in blocks: each block can be solved when those before it are.
+
+mod count;
+mod errors;
+mod matching;
+
+pub use count::table;
+
+use crate::diag::Diagnostic;
+use crate::ir::ConstraintSystem;
+
+/// Equations and coordinates that are solved together, each row beside the coordinate it is matched to.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Block {
+    /// Rows of `Φ`.
+    pub rows: Vec<u32>,
+    /// Coordinates, as many.
+    pub columns: Vec<u32>,
+}
+
+/// A constraint system of which count and structure have been shown.
+#[derive(Clone, Debug)]
+pub struct Determined {
+    system: ConstraintSystem,
+    blocks: Vec<Block>,
+}
+
+impl Determined {
+    /// The equations.
+    #[must_use]
+    pub fn system(&self) -> &ConstraintSystem {
+        &self.system
+    }
+
+    /// The blocks, in an order of solution.
+    #[must_use]
+    pub fn blocks(&self) -> &[Block] {
+        &self.blocks
+    }
+}
+
+/// Shows that a system is determined.
+///
+/// # Errors
+/// The count's or the structure's diagnostic.
+pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Diagnostic>> {
+    if system.ndof() != 0 {
+        return Err(Box::new(errors::count(&system)));
+    }
+    let matching = matching::maximum(&system.phi_q, system.rows.len(), system.coordinates.len());
+    if !matching.is_perfect() {
+        return Err(Box::new(errors::structure(&system, &matching)));
+    }
+    let blocks = matching.blocks(&system.phi_q);
+    Ok(Determined { system, blocks })
+}

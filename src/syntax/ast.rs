@@ -1,0 +1,340 @@
+//! The tree of a `.mech` file, as written: every node with its span, no meaning yet.
+
+use crate::source::Span;
+
+/// A name as written, in NFC.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Name {
+    /// In NFC.
+    pub text: String,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// A whole file.
+#[derive(Clone, PartialEq, Debug)]
+pub struct File {
+    /// In order.
+    pub mechanisms: Vec<Mechanism>,
+}
+
+/// `mechanism NAME { … }`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Mechanism {
+    /// The text of the `///` lines above.
+    pub docs: Vec<String>,
+    /// Its name.
+    pub name: Name,
+    /// The keyword to the closing brace.
+    pub span: Span,
+    /// In order.
+    pub items: Vec<Item>,
+}
+
+/// A declaration with its documentation.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Item {
+    /// The text of the `///` lines above.
+    pub docs: Vec<String>,
+    /// The whole declaration.
+    pub span: Span,
+    /// Which one.
+    pub kind: ItemKind,
+}
+
+/// The declarations of a mechanism.
+#[derive(Clone, PartialEq, Debug)]
+pub enum ItemKind {
+    /// `param NAME = EXPR`
+    Param {
+        /// Its name.
+        name: Name,
+        /// Its formula.
+        value: Expr,
+    },
+    /// `fn NAME(ARGUMENT) = EXPR`
+    Function {
+        /// Its name.
+        name: Name,
+        /// Its one argument.
+        argument: Name,
+        /// Its formula.
+        value: Expr,
+    },
+    /// `table NAME = periodic? spline …`
+    Table {
+        /// Its name.
+        name: Name,
+        /// Whether it repeats.
+        periodic: bool,
+        /// Its points.
+        rows: TableRows,
+    },
+    /// `ground { … }`
+    Ground {
+        /// Its features.
+        features: Vec<Feature>,
+    },
+    /// `body NAME at (x, y, phi) { … }`
+    Body {
+        /// Its name.
+        name: Name,
+        /// The tuple behind `at`.
+        pose: Option<Expr>,
+        /// Its features.
+        features: Vec<Feature>,
+    },
+    /// `joint NAME: KIND(…)`
+    Joint {
+        /// Its name.
+        name: Name,
+        /// The kind of joint.
+        kind: Name,
+        /// What it joins.
+        arguments: Vec<Expr>,
+        /// `KIND(…)`.
+        call_span: Span,
+    },
+    /// `constraint NAME: EXPR = EXPR` or `driver NAME: EXPR = EXPR`
+    Equation {
+        /// Which of the two.
+        driver: bool,
+        /// Its name.
+        name: Name,
+        /// Left of the `=`.
+        left: Expr,
+        /// Right of the `=`.
+        right: Expr,
+    },
+    /// `measure NAME = EXPR`
+    Measure {
+        /// Its name.
+        name: Name,
+        /// Its formula.
+        value: Expr,
+    },
+    /// `analysis from A to B every H`
+    Analysis {
+        /// First time.
+        from: Expr,
+        /// Last time.
+        to: Expr,
+        /// Step.
+        every: Expr,
+    },
+}
+
+/// Where a table's points come from.
+#[derive(Clone, PartialEq, Debug)]
+pub enum TableRows {
+    /// `[(a, b), …]`
+    Listed(Vec<Expr>),
+    /// `"file.csv" (unit, unit)`
+    File {
+        /// Path as written, with its place.
+        path: Name,
+        /// Units of the two columns.
+        units: Option<[Name; 2]>,
+    },
+}
+
+/// A feature of a body or of the ground.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Feature {
+    /// The text of the `///` lines above.
+    pub docs: Vec<String>,
+    /// The whole declaration.
+    pub span: Span,
+    /// Its name.
+    pub name: Name,
+    /// Which one.
+    pub kind: FeatureKind,
+}
+
+/// The kinds of features.
+#[derive(Clone, PartialEq, Debug)]
+pub enum FeatureKind {
+    /// `point P = (x, y)`
+    Point {
+        /// A tuple.
+        at: Expr,
+    },
+    /// `axis a = P along (dx, dy)`
+    AxisAlong {
+        /// A name or a tuple.
+        origin: Expr,
+        /// A tuple.
+        direction: Expr,
+    },
+    /// `axis a = P to Q`
+    AxisTo {
+        /// A name or a tuple.
+        origin: Expr,
+        /// A name or a tuple.
+        target: Expr,
+    },
+    /// `circle c = P radius r`
+    Circle {
+        /// A name or a tuple.
+        center: Expr,
+        /// A length.
+        radius: Expr,
+    },
+    /// `curve k(u) = (x, y) at e`
+    Curve {
+        /// The name of the parameter.
+        argument: Name,
+        /// A tuple.
+        at: Expr,
+        /// First estimate of the parameter.
+        estimate: Option<Expr>,
+    },
+}
+
+/// A formula, or a tuple of formulas, or a condition: which one its place allows is for `check` to say.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Expr {
+    /// What it is.
+    pub kind: ExprKind,
+    /// Where it stands.
+    pub span: Span,
+}
+
+/// The forms of an expression. Long sums and chains are flat, so that depth is nesting and nothing else.
+#[derive(Clone, PartialEq, Debug)]
+pub enum ExprKind {
+    /// `50`, `50 mm`, `50 mm^2`
+    Literal {
+        /// The number.
+        value: f64,
+        /// Its unit and the unit's power.
+        unit: Option<(Name, i32)>,
+    },
+    /// `speed`
+    Name(Name),
+    /// `crank.pin`, `ground.O`
+    Member {
+        /// The body, or `ground`.
+        owner: Name,
+        /// The feature.
+        feature: Name,
+    },
+    /// `x(rod.tip)`
+    Call {
+        /// What is called.
+        name: Name,
+        /// In order.
+        arguments: Vec<Expr>,
+    },
+    /// `(e)`
+    Paren(Box<Expr>),
+    /// `(a, b)` or longer
+    Tuple(Vec<Expr>),
+    /// `-e`
+    Negate(Box<Expr>),
+    /// `not e`
+    Not(Box<Expr>),
+    /// `a + b - c`
+    Sum(Box<Expr>, Vec<(Sign, Expr)>),
+    /// `a * b / c`
+    Product(Box<Expr>, Vec<(Factor, Expr)>),
+    /// `a ^ b`
+    Power(Box<Expr>, Box<Expr>),
+    /// `a < b`
+    Compare(Box<Expr>, Comparison, Box<Expr>),
+    /// `a and b and c`
+    And(Vec<Expr>),
+    /// `a or b or c`
+    Or(Vec<Expr>),
+    /// `if c then a else if d then b else e`
+    If {
+        /// Conditions with their values, in order.
+        arms: Vec<(Expr, Expr)>,
+        /// The value if none holds.
+        otherwise: Box<Expr>,
+    },
+}
+
+/// How a term enters a sum.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Sign {
+    /// `+`
+    Plus,
+    /// `-`
+    Minus,
+}
+
+/// How a factor enters a product.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Factor {
+    /// `*`
+    Times,
+    /// `/`
+    Over,
+}
+
+/// The comparisons.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Comparison {
+    /// `<`
+    Less,
+    /// `<=`
+    LessEqual,
+    /// `>`
+    Greater,
+    /// `>=`
+    GreaterEqual,
+    /// `==`
+    Equal,
+    /// `!=`
+    NotEqual,
+}
+
+impl Expr {
+    /// The expression inside any parentheses.
+    #[must_use]
+    pub fn bare(&self) -> &Expr {
+        let mut inner = self;
+        while let ExprKind::Paren(e) = &inner.kind {
+            inner = e;
+        }
+        inner
+    }
+
+    /// A number without a unit, alone but for parentheses and its sign.
+    #[must_use]
+    pub fn bare_number(&self) -> Option<f64> {
+        match &self.bare().kind {
+            ExprKind::Literal { value, unit: None } => Some(*value),
+            ExprKind::Negate(e) => e.bare_number().map(|v| -v),
+            _ => None,
+        }
+    }
+
+    /// The direct sub-expressions.
+    #[must_use]
+    pub fn children(&self) -> Vec<&Expr> {
+        match &self.kind {
+            ExprKind::Literal { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => Vec::new(),
+            ExprKind::Call {
+                arguments: list, ..
+            }
+            | ExprKind::Tuple(list)
+            | ExprKind::And(list)
+            | ExprKind::Or(list) => list.iter().collect(),
+            ExprKind::Paren(e) | ExprKind::Negate(e) | ExprKind::Not(e) => vec![e],
+            ExprKind::Sum(first, rest) => std::iter::once(&**first)
+                .chain(rest.iter().map(|(_, e)| e))
+                .collect(),
+            ExprKind::Product(first, rest) => std::iter::once(&**first)
+                .chain(rest.iter().map(|(_, e)| e))
+                .collect(),
+            ExprKind::Power(a, b) | ExprKind::Compare(a, _, b) => vec![a, b],
+            ExprKind::If { arms, otherwise } => {
+                let mut list: Vec<&Expr> = arms.iter().flat_map(|(c, e)| [c, e]).collect();
+                list.push(otherwise);
+                list
+            }
+        }
+    }
+}

@@ -1,0 +1,111 @@
+//! The cap on nesting, held before anything recurses.
+//!
+//! The parser and every pass over the tree recurse once per level, so the text is measured first: open parentheses,
+//! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
+//! tree builder counts them in.)
+
+use super::errors;
+use crate::diag::Diagnostic;
+use crate::source::{FileId, Span};
+
+/// The deepest nesting that is read.
+pub const DEEPEST: usize = 200;
+
+/// Words that begin a declaration, where every formula before them has ended.
+const DECLARATIONS: &[&str] = &[
+    "mechanism",
+    "param",
+    "fn",
+    "table",
+    "ground",
+    "body",
+    "point",
+    "axis",
+    "circle",
+    "curve",
+    "joint",
+    "driver",
+    "constraint",
+    "measure",
+    "analysis",
+];
+
+/// Refuses a text that nests deeper than [`DEEPEST`].
+pub fn measure(text: &str, file: FileId) -> Result<(), Diagnostic> {
+    // for each open parenthesis, the `if`s that stand open inside it
+    let mut levels: Vec<usize> = vec![0];
+    let mut ifs = 0;
+    let mut after_else = false;
+    let mut rest = text;
+    while let Some(token) = next_token(&mut rest) {
+        let at = (text.len() - rest.len() - token.len()) as u32;
+        let is_else_if = after_else && token == "if";
+        after_else = token == "else";
+        match token {
+            "(" => levels.push(0),
+            ")" => {
+                if levels.len() > 1 {
+                    ifs -= levels.pop().unwrap_or(0);
+                }
+            }
+            "if" if !is_else_if => {
+                ifs += 1;
+                if let Some(level) = levels.last_mut() {
+                    *level += 1;
+                }
+            }
+            "," | "=" | "}" => {
+                if let Some(level) = levels.last_mut() {
+                    ifs -= std::mem::take(level);
+                }
+            }
+            word if DECLARATIONS.contains(&word) => {
+                levels.clear();
+                levels.push(0);
+                ifs = 0;
+            }
+            _ => {}
+        }
+        if levels.len() - 1 + ifs > DEEPEST {
+            let span = Span {
+                file,
+                start: at,
+                end: at + token.len() as u32,
+            };
+            return Err(errors::too_deep(span));
+        }
+    }
+    Ok(())
+}
+
+/// The next word or character that is neither comment, string nor white space.
+fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
+    loop {
+        let text = rest.trim_start();
+        let first = text.chars().next()?;
+        let length = if text.starts_with("//") {
+            *rest = text.split_once('\n').map_or("", |(_, after)| after);
+            continue;
+        } else if first == '"' {
+            // a string ends on its line, or is no string
+            match text[1..].find(['"', '\n']) {
+                Some(end) => end + 2,
+                None => text.len(),
+            }
+        } else if first.is_alphanumeric() || first == '_' {
+            text.find(|c: char| !(c.is_alphanumeric() || c == '_'))
+                .unwrap_or(text.len())
+        } else if text.starts_with("==")
+            || text.starts_with("<=")
+            || text.starts_with(">=")
+            || text.starts_with("!=")
+        {
+            2
+        } else {
+            first.len_utf8()
+        };
+        let (token, after) = text.split_at(length);
+        *rest = after;
+        return Some(token);
+    }
+}

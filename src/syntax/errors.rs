@@ -1,0 +1,260 @@
+//! What is said of a text that does not follow the grammar.
+
+use super::DEEPEST;
+use super::parse::Rule;
+use crate::diag::{Code, Diagnostic, nearest};
+use crate::source::{FileId, Span};
+use pest::error::{Error, ErrorVariant};
+
+/// Nesting beyond the cap.
+pub fn too_deep(span: Span) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0103,
+        format!("formulas are nested deeper than {DEEPEST}"),
+    )
+    .at(span, "one level too many")
+    .help("give a part of the formula a name, with `param` or `fn`")
+}
+
+/// A file without a single mechanism.
+pub fn no_mechanism(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0104, "the file holds no mechanism")
+        .at(span, "the file ends here")
+        .help("a file begins with `mechanism NAME {`")
+}
+
+/// A fault that the grammar let pass and the tree builder did not.
+pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0101, message).at(span, label)
+}
+
+/// A quantity as an exponent: `2 ^ 3 s`.
+pub fn quantity_as_exponent(span: Span) -> Diagnostic {
+    misplaced(
+        span,
+        "a number with a unit cannot be an exponent",
+        "this has a unit",
+    )
+}
+
+/// A unit's power that is not a whole number: `50 mm^x`.
+pub fn unit_power(span: Span, literal: &str) -> Diagnostic {
+    misplaced(
+        span,
+        "the power of a unit is a whole number",
+        "after a unit this is the unit's power",
+    )
+    .help(format!(
+        "to raise the whole quantity, write `({literal})^…`"
+    ))
+}
+
+/// A chain of comparisons: `a < b < c`.
+pub fn chained_comparison(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0309, "comparisons do not form chains")
+        .at(span, "a second comparison")
+        .help("join two comparisons with `and`: `a < b and b < c`")
+}
+
+/// A syntax error as the parser found it, in human words.
+pub fn from_pest(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
+    let offset = match error.location {
+        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
+    };
+    let found = found_at(text, offset);
+    let span = Span {
+        file,
+        start: found.start as u32,
+        end: found.end as u32,
+    };
+    let word = &text[found.clone()];
+    let expected = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => expectation(positives, word),
+        ErrorVariant::CustomError { message } => message.clone(),
+    };
+    let shown = match word.chars().next() {
+        None => "the end of the file".to_owned(),
+        Some('"') if word.len() == 1 => "an unclosed string".to_owned(),
+        Some(_) => format!("`{word}`"),
+    };
+    Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}"))
+        .at(span, format!("expected {expected}"))
+        .help_if(mend(error, text, found.start, word))
+}
+
+/// The word or character at an offset: what the parser could not go on with.
+fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
+    // the parser may stand before white space or a comment
+    let mut start = offset.min(text.len());
+    loop {
+        let rest = &text[start..];
+        let trimmed = rest.trim_start();
+        start += rest.len() - trimmed.len();
+        if !trimmed.starts_with("//") {
+            break;
+        }
+        start += trimmed.find('\n').unwrap_or(trimmed.len());
+    }
+    let rest = &text[start..];
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let length = match rest.chars().next() {
+        None => 0,
+        Some(c) if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
+        Some(_)
+            if ["==", "<=", ">=", "!="]
+                .iter()
+                .any(|op| rest.starts_with(op)) =>
+        {
+            2
+        }
+        Some(c) => c.len_utf8(),
+    };
+    start..start + length
+}
+
+/// The rules the parser would have liked, as a person would say it.
+fn expectation(rules: &[Rule], found: &str) -> String {
+    let mut words: Vec<&str> = Vec::new();
+    let goes_on = rules
+        .iter()
+        .any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
+    for rule in rules {
+        let word = human(*rule, goes_on);
+        if !word.is_empty()
+            && !words.contains(&word)
+            && !(word.starts_with('`') && word.trim_matches('`') == found)
+        {
+            words.push(word);
+        }
+    }
+    if words.is_empty() {
+        return "the next declaration".to_owned();
+    }
+    let last = words.pop().unwrap_or_default();
+    if words.is_empty() {
+        last.to_owned()
+    } else {
+        format!("{} or {last}", words.join(", "))
+    }
+}
+
+/// A rule in the user's words; empty for what is said by another one.
+fn human(rule: Rule, after_operand: bool) -> &'static str {
+    match rule {
+        Rule::mechanism | Rule::kw_mechanism => "`mechanism`",
+        Rule::EOI if after_operand => "",
+        Rule::EOI => "the end of the file",
+        Rule::param
+        | Rule::function
+        | Rule::table
+        | Rule::ground
+        | Rule::body
+        | Rule::joint
+        | Rule::driver
+        | Rule::constraint
+        | Rule::measure
+        | Rule::analysis
+        | Rule::kw_param
+        | Rule::kw_fn
+        | Rule::kw_table
+        | Rule::kw_ground
+        | Rule::kw_body
+        | Rule::kw_joint
+        | Rule::kw_driver
+        | Rule::kw_constraint
+        | Rule::kw_measure
+        | Rule::kw_analysis => "a declaration",
+        Rule::point
+        | Rule::axis
+        | Rule::circle
+        | Rule::curve
+        | Rule::kw_point
+        | Rule::kw_axis
+        | Rule::kw_circle
+        | Rule::kw_curve => "a point, axis, circle or curve",
+        Rule::name | Rule::name_text | Rule::word | Rule::ground_word => "a name",
+        Rule::expr
+        | Rule::conditional
+        | Rule::literal
+        | Rule::number
+        | Rule::call
+        | Rule::member
+        | Rule::prefix
+        | Rule::kw_if
+        | Rule::kw_not => "a formula",
+        Rule::infix | Rule::kw_and | Rule::kw_or => "an operator",
+        Rule::paren => "`(`",
+        Rule::equals => "`=`",
+        Rule::open => "`{`",
+        Rule::close => "`}`",
+        Rule::at => "`at`",
+        Rule::along => "`along`",
+        Rule::to => "`to`",
+        Rule::radius => "`radius`",
+        Rule::from => "`from`",
+        Rule::every => "`every`",
+        Rule::kw_then => "`then`",
+        Rule::kw_else => "`else`",
+        Rule::periodic | Rule::spline => "`spline`",
+        Rule::table_rows => "`[`",
+        Rule::table_file | Rule::string => "a file name in quotes",
+        Rule::exponent => "a whole number",
+        _ => "",
+    }
+}
+
+/// What was probably meant, where it can be told from the words around the fault.
+fn mend(error: &Error<Rule>, text: &str, at: usize, found: &str) -> Option<String> {
+    const DECLARATIONS: &[&str] = &[
+        "mechanism",
+        "param",
+        "fn",
+        "table",
+        "ground",
+        "body",
+        "point",
+        "axis",
+        "circle",
+        "curve",
+        "joint",
+        "driver",
+        "constraint",
+        "measure",
+        "analysis",
+    ];
+    let expects = |rule| matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule));
+    let before = text[..at].trim_end();
+    let starts_operand = found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
+    let new_line = text[before.len()..at].contains('\n');
+    if found == "==" && expects(Rule::equals) || found == "==" && expects(Rule::infix) {
+        return Some("an equation is written with one `=`".to_owned());
+    }
+    if found == "=" && before.ends_with('=') {
+        return Some("an equation is written with one `=`".to_owned());
+    }
+    if found == "+" && expects(Rule::prefix) {
+        return Some("a positive number needs no sign".to_owned());
+    }
+    if found == ";" {
+        return Some("declarations need no terminator; leave the `;` out".to_owned());
+    }
+    if found == "*" && before.ends_with('*') {
+        return Some("a power is written with `^`".to_owned());
+    }
+    if found == "\"" {
+        return Some("a string ends on the line where it begins".to_owned());
+    }
+    if found == "if" && expects(Rule::number) {
+        return Some("inside an operator an `if` needs parentheses".to_owned());
+    }
+    if let Some(word) = nearest(found, DECLARATIONS.iter().copied()).filter(|_| !found.is_empty()) {
+        return Some(format!("was `{word}` meant?"));
+    }
+    if expects(Rule::infix) && starts_operand && !new_line {
+        return Some("a product is written with `*`".to_owned());
+    }
+    if DECLARATIONS.contains(&found) && expects(Rule::name) {
+        return Some(format!("`{found}` is a keyword and cannot be a name"));
+    }
+    None
+}

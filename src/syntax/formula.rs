@@ -1,0 +1,348 @@
+//! From the parser's flat rows of operands and operators to the tree of a formula.
+//!
+//! Loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (to the right). A `depth` counts every
+//! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
+
+use super::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use super::parse::{Built, Reader, Rule};
+use super::{DEEPEST, errors};
+use crate::source::Span;
+use pest::iterators::Pair;
+use std::iter::Peekable;
+
+/// A formula of rule `expr`.
+pub(super) fn build(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
+    within(depth, reader.span(&pair))?;
+    let span = reader.span(&pair);
+    let mut inner = pair.into_inner().peekable();
+    match inner.next_if(|first| first.as_rule() == Rule::conditional) {
+        Some(first) => conditional(reader, first, depth),
+        None => Row {
+            reader,
+            tokens: inner,
+            end: span,
+        }
+        .either(depth),
+    }
+}
+
+/// An operand alone: a literal, a call, a name, parentheses.
+pub(super) fn build_operand(
+    reader: &Reader<'_>,
+    pair: Pair<'_, Rule>,
+    depth: usize,
+) -> Built<Expr> {
+    let span = reader.span(&pair);
+    within(depth, span)?;
+    let kind = match pair.as_rule() {
+        Rule::literal => literal(reader, pair)?,
+        Rule::word => ExprKind::Name(reader.name(&pair)),
+        Rule::member => {
+            let mut parts = pair.into_inner().map(|part| reader.name(&part));
+            match (parts.next(), parts.next()) {
+                (Some(owner), Some(feature)) => ExprKind::Member { owner, feature },
+                _ => return Err(reader.truncated()),
+            }
+        }
+        Rule::call => {
+            let mut parts = pair.into_inner();
+            let name = parts
+                .next()
+                .map(|part| reader.name(&part))
+                .ok_or_else(|| reader.truncated())?;
+            let arguments = parts
+                .map(|part| build(reader, part, depth + 1))
+                .collect::<Built<Vec<_>>>()?;
+            ExprKind::Call { name, arguments }
+        }
+        Rule::paren => {
+            let mut parts = pair
+                .into_inner()
+                .map(|part| build(reader, part, depth + 1))
+                .collect::<Built<Vec<_>>>()?;
+            match parts.pop() {
+                Some(only) if parts.is_empty() => ExprKind::Paren(Box::new(only)),
+                Some(last) => {
+                    parts.push(last);
+                    ExprKind::Tuple(parts)
+                }
+                None => return Err(reader.truncated()),
+            }
+        }
+        _ => return Err(reader.truncated()),
+    };
+    Ok(Expr { kind, span })
+}
+
+fn within(depth: usize, span: Span) -> Built<()> {
+    if depth > DEEPEST {
+        Err(Box::new(errors::too_deep(span)))
+    } else {
+        Ok(())
+    }
+}
+
+fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
+    let mut parts = pair.into_inner();
+    let number = parts.next().ok_or_else(|| reader.truncated())?;
+    let value = number.as_str().parse().map_err(|_| reader.truncated())?;
+    let Some(unit) = parts.next() else {
+        return Ok(ExprKind::Literal { value, unit: None });
+    };
+    let name = reader.name(&unit);
+    let power = match parts.next() {
+        None => 1,
+        Some(power) => {
+            let digits = power.as_str().trim_start_matches('^').trim();
+            let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| p.abs() <= 100);
+            whole.ok_or_else(|| {
+                Box::new(errors::misplaced(
+                    reader.span(&power),
+                    "the power of a unit is between -100 and 100",
+                    "too large",
+                ))
+            })?
+        }
+    };
+    Ok(ExprKind::Literal {
+        value,
+        unit: Some((name, power)),
+    })
+}
+
+fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
+    let span = reader.span(&pair);
+    let mut parts = pair
+        .into_inner()
+        .filter(|part| part.as_rule() == Rule::expr)
+        .map(|part| build(reader, part, depth + 1))
+        .collect::<Built<Vec<_>>>()?;
+    let otherwise = parts.pop().ok_or_else(|| reader.truncated())?;
+    let mut parts = parts.into_iter();
+    let mut arms = Vec::new();
+    while let (Some(condition), Some(value)) = (parts.next(), parts.next()) {
+        arms.push((condition, value));
+    }
+    Ok(Expr {
+        kind: ExprKind::If {
+            arms,
+            otherwise: Box::new(otherwise),
+        },
+        span,
+    })
+}
+
+/// Operands and operators in a row, read from the left; a method per precedence.
+struct Row<'a, 'i, I: Iterator<Item = Pair<'i, Rule>>> {
+    reader: &'a Reader<'a>,
+    tokens: Peekable<I>,
+    end: Span,
+}
+
+impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
+    fn infix(&mut self, operators: &[&str]) -> Option<Pair<'i, Rule>> {
+        self.tokens
+            .next_if(|pair| pair.as_rule() == Rule::infix && operators.contains(&pair.as_str()))
+    }
+
+    /// Whether a prefix operator comes next, taken off.
+    fn prefix(&mut self, operator: &str) -> Option<Pair<'i, Rule>> {
+        self.tokens
+            .next_if(|pair| pair.as_rule() == Rule::prefix && pair.as_str() == operator)
+    }
+
+    fn either(&mut self, depth: usize) -> Built<Expr> {
+        let first = self.both(depth)?;
+        let mut list = vec![first];
+        while self.infix(&["or"]).is_some() {
+            list.push(self.both(depth)?);
+        }
+        Ok(flat(list, ExprKind::Or))
+    }
+
+    fn both(&mut self, depth: usize) -> Built<Expr> {
+        let mut list = vec![self.negation(depth)?];
+        while self.infix(&["and"]).is_some() {
+            list.push(self.negation(depth)?);
+        }
+        Ok(flat(list, ExprKind::And))
+    }
+
+    fn negation(&mut self, depth: usize) -> Built<Expr> {
+        match self.prefix("not") {
+            Some(not) => {
+                let span = self.reader.span(&not);
+                within(depth + 1, span)?;
+                let inner = self.negation(depth + 1)?;
+                let span = span.to(inner.span);
+                Ok(Expr {
+                    kind: ExprKind::Not(Box::new(inner)),
+                    span,
+                })
+            }
+            None => self.comparison(depth),
+        }
+    }
+
+    fn comparison(&mut self, depth: usize) -> Built<Expr> {
+        const OPERATORS: &[&str] = &["<", "<=", ">", ">=", "==", "!="];
+        let left = self.sum(depth)?;
+        let Some(operator) = self.infix(OPERATORS) else {
+            return Ok(left);
+        };
+        let comparison = match operator.as_str() {
+            "<" => Comparison::Less,
+            "<=" => Comparison::LessEqual,
+            ">" => Comparison::Greater,
+            ">=" => Comparison::GreaterEqual,
+            "==" => Comparison::Equal,
+            _ => Comparison::NotEqual,
+        };
+        let right = self.sum(depth)?;
+        if let Some(second) = self.infix(OPERATORS) {
+            return Err(Box::new(errors::chained_comparison(
+                self.reader.span(&second),
+            )));
+        }
+        let span = left.span.to(right.span);
+        Ok(Expr {
+            kind: ExprKind::Compare(Box::new(left), comparison, Box::new(right)),
+            span,
+        })
+    }
+
+    fn sum(&mut self, depth: usize) -> Built<Expr> {
+        let first = self.product(depth)?;
+        let mut rest = Vec::new();
+        while let Some(operator) = self.infix(&["+", "-"]) {
+            let sign = if operator.as_str() == "+" {
+                Sign::Plus
+            } else {
+                Sign::Minus
+            };
+            rest.push((sign, self.product(depth)?));
+        }
+        let Some((_, last)) = rest.last() else {
+            return Ok(first);
+        };
+        let span = first.span.to(last.span);
+        Ok(Expr {
+            kind: ExprKind::Sum(Box::new(first), rest),
+            span,
+        })
+    }
+
+    fn product(&mut self, depth: usize) -> Built<Expr> {
+        let first = self.signed(depth)?;
+        let mut rest = Vec::new();
+        while let Some(operator) = self.infix(&["*", "/"]) {
+            let factor = if operator.as_str() == "*" {
+                Factor::Times
+            } else {
+                Factor::Over
+            };
+            rest.push((factor, self.signed(depth)?));
+        }
+        let Some((_, last)) = rest.last() else {
+            return Ok(first);
+        };
+        let span = first.span.to(last.span);
+        Ok(Expr {
+            kind: ExprKind::Product(Box::new(first), rest),
+            span,
+        })
+    }
+
+    fn signed(&mut self, depth: usize) -> Built<Expr> {
+        match self.prefix("-") {
+            Some(minus) => {
+                let span = self.reader.span(&minus);
+                within(depth + 1, span)?;
+                let inner = self.signed(depth + 1)?;
+                let span = span.to(inner.span);
+                Ok(Expr {
+                    kind: ExprKind::Negate(Box::new(inner)),
+                    span,
+                })
+            }
+            None => self.power(depth),
+        }
+    }
+
+    fn power(&mut self, depth: usize) -> Built<Expr> {
+        let base = self.operand(depth)?;
+        let Some(operator) = self.infix(&["^"]) else {
+            return Ok(base);
+        };
+        within(depth + 1, self.reader.span(&operator))?;
+        if let ExprKind::Literal {
+            unit: Some((_, 1)), ..
+        } = base.kind
+        {
+            let literal = &self.reader.text(base.span);
+            if !literal.contains('^') {
+                return Err(Box::new(errors::unit_power(
+                    self.reader.span(&operator),
+                    literal,
+                )));
+            }
+        }
+        let exponent = self.signed(depth + 1)?;
+        let mut bare = &exponent;
+        while let ExprKind::Negate(inner) = &bare.kind {
+            bare = inner;
+        }
+        let base_of_exponent = if let ExprKind::Power(inner, _) = &bare.kind {
+            inner
+        } else {
+            bare
+        };
+        if let ExprKind::Literal { unit: Some(_), .. } = base_of_exponent.kind {
+            return Err(Box::new(errors::quantity_as_exponent(
+                base_of_exponent.span,
+            )));
+        }
+        let span = base.span.to(exponent.span);
+        Ok(Expr {
+            kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
+            span,
+        })
+    }
+
+    fn operand(&mut self, depth: usize) -> Built<Expr> {
+        match self.tokens.next() {
+            // `2 * not a`: a condition where a number must stand
+            Some(pair) if pair.as_rule() == Rule::prefix => {
+                let span = self.reader.span(&pair);
+                Err(Box::new(errors::misplaced(
+                    span,
+                    "`not` cannot stand inside an operator without parentheses",
+                    "a condition begins here",
+                )))
+            }
+            Some(pair) => build_operand(self.reader, pair, depth),
+            None => Err(Box::new(errors::misplaced(
+                self.end,
+                "a formula is not complete",
+                "an operand is missing",
+            ))),
+        }
+    }
+}
+
+fn flat(mut list: Vec<Expr>, form: fn(Vec<Expr>) -> ExprKind) -> Expr {
+    match (list.len(), list.pop()) {
+        (1, Some(only)) => only,
+        (_, Some(last)) => {
+            let span = list
+                .first()
+                .map_or(last.span, |first| first.span.to(last.span));
+            list.push(last);
+            Expr {
+                kind: form(list),
+                span,
+            }
+        }
+        (_, None) => unreachable!("a row begins with an operand"),
+    }
+}

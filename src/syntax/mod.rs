@@ -1,0 +1,13 @@
+//! Text to tree: what was written, with its places, and no meaning.
+//!
+//! The grammar is `grammar/mech.pest`. This room knows words and precedences; it does not know which names exist,
+//! which units there are, or what a joint is.
+
+pub mod ast;
+mod depth;
+mod errors;
+mod formula;
+mod parse;
+
+pub use depth::DEEPEST;
+pub use parse::{is_name, normalized, parse, parse_expression};
