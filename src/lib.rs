@@ -37,3 +37,48 @@ pub mod analysis;
 pub mod output;
 
 pub mod cli;
+
+use check::Setting;
+use diag::Diagnostics;
+use source::Sources;
+use structure::Determined;
+use syntax::ast;
+
+/// Checks, lowers and proves one mechanism of a parsed file: the system, if it is determined, and all that is to be
+/// said of it.
+///
+/// ```
+/// use mechc::{analysis, program::Program, source::Sources, syntax};
+///
+/// let mut sources = Sources::default();
+/// let file = sources.add("disc.mech", "
+///     mechanism disc {
+///         ground { point O = (0, 0) }
+///         body wheel { point O = (0, 0) }
+///         joint axle: revolute(ground.O, wheel.O)
+///         driver motor: rotation(axle) = 90 deg/s * t
+///     }");
+/// let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+/// let (determined, _) = mechc::compile(&tree.mechanisms[0], &[], &sources);
+/// let determined = determined.expect("it is determined");
+/// let program = Program::new(determined.system());
+/// let mut started = analysis::start(&determined, &program, 0.0, analysis::TOLERANCE).expect("it assembles");
+/// let row = started.motion(1.0).row_at(1.0).expect("it moves").to_vec();
+/// assert_eq!(row[3], std::f64::consts::FRAC_PI_2);
+/// ```
+#[must_use]
+pub fn compile(
+    mechanism: &ast::Mechanism,
+    settings: &[Setting],
+    sources: &Sources,
+) -> (Option<Determined>, Diagnostics) {
+    let (model, mut diagnostics) = check::check(mechanism, settings, sources);
+    let determined = model.and_then(|model| match structure::prove(lower::lower(&model)) {
+        Ok(determined) => Some(determined),
+        Err(diagnostic) => {
+            diagnostics.push(*diagnostic);
+            None
+        }
+    });
+    (determined, diagnostics)
+}

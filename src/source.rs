@@ -21,11 +21,7 @@ impl Span {
     /// The smallest span that holds both; both must lie in one file.
     #[must_use]
     pub fn to(self, other: Span) -> Span {
-        Span {
-            file: self.file,
-            start: self.start.min(other.start),
-            end: self.end.max(other.end),
-        }
+        Span { file: self.file, start: self.start.min(other.start), end: self.end.max(other.end) }
     }
 }
 
@@ -43,15 +39,8 @@ pub struct Source {
 
 impl Source {
     fn new(name: String, text: String, is_option: bool) -> Source {
-        let line_starts = std::iter::once(0)
-            .chain(text.match_indices('\n').map(|(at, _)| at + 1))
-            .collect();
-        Source {
-            name,
-            text,
-            is_option,
-            line_starts,
-        }
+        let line_starts = std::iter::once(0).chain(text.match_indices('\n').map(|(at, _)| at + 1)).collect();
+        Source { name, text, is_option, line_starts }
     }
 
     /// Line and column of a byte offset, both from 1, the column in characters.
@@ -73,11 +62,7 @@ impl Source {
     #[must_use]
     pub fn line_range(&self, line: usize) -> Option<std::ops::Range<usize>> {
         let start = *self.line_starts.get(line)?;
-        let end = self
-            .line_starts
-            .get(line + 1)
-            .copied()
-            .unwrap_or(self.text.len());
+        let end = self.line_starts.get(line + 1).copied().unwrap_or(self.text.len());
         Some(start..end)
     }
 }
@@ -117,21 +102,14 @@ impl Sources {
     /// The words that a span covers.
     #[must_use]
     pub fn text(&self, span: Span) -> &str {
-        self.get(span.file)
-            .text
-            .get(span.start as usize..span.end as usize)
-            .unwrap_or("")
+        self.get(span.file).text.get(span.start as usize..span.end as usize).unwrap_or("")
     }
 
     /// A span of the whole of a file's last position: where something is missing.
     #[must_use]
     pub fn end_of(&self, file: FileId) -> Span {
         let end = self.get(file).text.len() as u32;
-        Span {
-            file,
-            start: end,
-            end,
-        }
+        Span { file, start: end, end }
     }
 }
 

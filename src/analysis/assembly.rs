@@ -7,7 +7,7 @@ use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::singular;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 
 /// Newton steps at most.
 const NEWTON_STEPS: usize = 200;
@@ -42,15 +42,12 @@ pub struct Moved {
 }
 
 /// Assembles at time `t`.
-pub(super) fn assemble(
-    kinematics: &mut Kinematics<'_>,
-    t: f64,
-) -> Result<(State, Moved), Box<Diagnostic>> {
+pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
     let system = kinematics.system();
     let estimates = kinematics.estimates();
     kinematics.set_time(t);
-    if let Err(Fault::NotFinite { row }) = kinematics.set_position(&estimates) {
-        return Err(Box::new(errors::not_finite(system, row, t)));
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
+        return Err(Box::new(errors::no_value(system, fault, t)));
     }
     let q = match newton(kinematics, &estimates) {
         Some(q) => q,
@@ -69,9 +66,7 @@ fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
             CoordinateKind::Length if way > moved.length => {
                 (moved.length, moved.length_body) = (way, coordinate.body);
             }
-            CoordinateKind::Angle if way > moved.angle => {
-                (moved.angle, moved.angle_body) = (way, coordinate.body)
-            }
+            CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, coordinate.body),
             _ => {}
         }
     }
@@ -116,11 +111,7 @@ fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-fn by_least_squares(
-    kinematics: &mut Kinematics<'_>,
-    estimates: &[f64],
-    t: f64,
-) -> Result<Vec<f64>, Box<Diagnostic>> {
+fn by_least_squares(kinematics: &mut Kinematics<'_>, estimates: &[f64], t: f64) -> Result<Vec<f64>, Box<Diagnostic>> {
     let mut nearest = None;
     let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
     for size in std::iter::once(0.0).chain(PERTURBATIONS) {
@@ -145,8 +136,8 @@ fn by_least_squares(
 
 /// The rows that stay open, worst first.
 fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
-    if let Err(Fault::NotFinite { row }) = kinematics.set_position(q) {
-        return errors::not_finite(kinematics.system(), row, t);
+    if let Err(fault) = kinematics.set_position(q) {
+        return errors::no_value(kinematics.system(), fault, t);
     }
     let _ = kinematics.factor();
     let mut rows: Vec<(usize, f64, f64)> = (0..q.len())
@@ -158,21 +149,16 @@ fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
         .collect();
     rows.sort_by(|a, b| b.2.total_cmp(&a.2));
     let worst = rows.first().map_or(0.0, |row| row.2);
-    rows.retain(|row| row.2 > 0.1 * worst);
+    rows.retain(|row| row.2 > 0.3 * worst);
+    // a length or a driver is more often wrong than a pin
+    rows.sort_by_key(|row| matches!(kinematics.system().declaration_of(row.0).kind, DeclarationKind::Joint(word) if word != "revolute_revolute"));
     errors::cannot_assemble(kinematics.system(), &rows, t)
 }
 
 /// The equations must be independent where the motion starts.
-fn refuse_singular(
-    kinematics: &mut Kinematics<'_>,
-    q: &[f64],
-    t: f64,
-) -> Result<(), Box<Diagnostic>> {
+fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
     let system = kinematics.system();
-    let regular = kinematics
-        .set_position(q)
-        .and_then(|()| kinematics.factor())
-        .is_ok();
+    let regular = kinematics.set_position(q).and_then(|()| kinematics.factor()).is_ok();
     if regular && kinematics.linear().smallest_pivot() > SAFE_PIVOT {
         return Ok(());
     }
@@ -180,12 +166,7 @@ fn refuse_singular(
     if regular && vectors.sigma > SINGULAR_START {
         return Ok(());
     }
-    Err(Box::new(singular::name_start(
-        system,
-        &vectors.left,
-        &vectors.right,
-        t,
-    )))
+    Err(Box::new(singular::name_start(system, &vectors.left, &vectors.right, t)))
 }
 
 /// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
@@ -196,35 +177,21 @@ fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
         let all: Vec<u32> = (0..n as u32).collect();
         levenberg_marquardt(kinematics, &mut q, &all, &all);
     } else {
-        for block in determined
-            .blocks()
-            .iter()
-            .filter(|block| block.rows.len() <= LARGEST_DENSE)
-        {
+        for block in determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST_DENSE) {
             levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
         }
     }
     q
 }
 
-fn levenberg_marquardt(
-    kinematics: &mut Kinematics<'_>,
-    q: &mut [f64],
-    rows: &[u32],
-    columns: &[u32],
-) {
+fn levenberg_marquardt(kinematics: &mut Kinematics<'_>, q: &mut [f64], rows: &[u32], columns: &[u32]) {
     let m = rows.len();
     let mut place = vec![usize::MAX; q.len()];
     for (k, &column) in columns.iter().enumerate() {
         place[column as usize] = k;
     }
-    let scale: Vec<f64> = columns
-        .iter()
-        .map(|&column| kinematics.linear().column_scale(column as usize))
-        .collect();
-    let Some((mut residual, mut jacobian, weights)) =
-        linearize(kinematics, q, rows, &place, &scale, None)
-    else {
+    let scale: Vec<f64> = columns.iter().map(|&column| kinematics.linear().column_scale(column as usize)).collect();
+    let Some((mut residual, mut jacobian, weights)) = linearize(kinematics, q, rows, &place, &scale, None) else {
         return;
     };
     let mut damping = 1e-3;
@@ -236,11 +203,7 @@ fn levenberg_marquardt(
         let step = damped_solution(&jacobian, &residual, damping, m);
         let before: Vec<f64> = q.to_vec();
         let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
-        let cut = if longest > LARGEST_STEP {
-            LARGEST_STEP / longest
-        } else {
-            1.0
-        };
+        let cut = if longest > LARGEST_STEP { LARGEST_STEP / longest } else { 1.0 };
         for (k, &column) in columns.iter().enumerate() {
             q[column as usize] += cut * step[k] * scale[k];
         }
@@ -298,10 +261,7 @@ fn linearize(
         line.iter_mut().for_each(|x| *x /= used[k]);
         residual[k] = kinematics.phi(row) / used[k];
     }
-    jacobian
-        .iter()
-        .all(|x| x.is_finite())
-        .then_some((residual, jacobian, used))
+    jacobian.iter().all(|x| x.is_finite()).then_some((residual, jacobian, used))
 }
 
 /// The x of least |J x + r|² + λ|x|², by Householder reflections of J above √λ I.
@@ -324,11 +284,7 @@ fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, m: usize) -
         column[k] -= pivot;
         let length = square(&column[k..]);
         for other in rest.chunks_exact_mut(height) {
-            let share: f64 = column[k..]
-                .iter()
-                .zip(&other[k..])
-                .map(|(x, y)| x * y)
-                .sum();
+            let share: f64 = column[k..].iter().zip(&other[k..]).map(|(x, y)| x * y).sum();
             for (x, y) in column[k..].iter().zip(&mut other[k..]) {
                 *y -= 2.0 * share / length * x;
             }

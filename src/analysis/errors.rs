@@ -1,6 +1,7 @@
 //! What is said of an analysis that cannot be completed.
 
 use super::assembly::Moved;
+use super::kinematics::Fault;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, DeclarationKind};
 
@@ -51,63 +52,37 @@ pub fn too_large(system: &ConstraintSystem, size: usize, largest: usize) -> Diag
     .at(system.span, "one closed chain of bodies")
 }
 
-pub fn not_finite(system: &ConstraintSystem, row: usize, t: f64) -> Diagnostic {
-    let declaration = system.declaration_of(row);
-    Diagnostic::new(
-        Code::E0605,
-        format!(
-            "the formula of {} has no finite value at {}",
-            named(system, row),
-            at(t)
-        ),
-    )
-    .at(
-        declaration.span,
-        "infinite or not a number, it or a derivative of it",
-    )
-    .datum("t", t)
+/// A formula that has no value, or not one that it may have.
+pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
+    match fault {
+        Fault::NotFinite { row } => {
+            let declaration = system.declaration_of(row);
+            let message = format!("the formula of {} has no finite value at {}", named(system, row), at(t));
+            Diagnostic::new(Code::E0605, message)
+                .at(declaration.span, "infinite or not a number, it or a derivative of it")
+                .datum("t", t)
+        }
+        Fault::Condition { index } => condition(system, index, t),
+        Fault::Singular | Fault::TooFar => cannot_follow(system, t, None),
+    }
 }
 
 pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let measure = &system.measures[index];
-    Diagnostic::new(
-        Code::E0605,
-        format!(
-            "measure `{}` has no finite value at {}",
-            measure.name,
-            at(t)
-        ),
-    )
-    .at(
-        measure.span,
-        "infinite or not a number, it or a derivative of it",
-    )
-    .datum("t", t)
+    Diagnostic::new(Code::E0605, format!("measure `{}` has no finite value at {}", measure.name, at(t)))
+        .at(measure.span, "infinite or not a number, it or a derivative of it")
+        .datum("t", t)
 }
 
-pub fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let condition = &system.conditions[index];
     let message = if condition.is_distance {
-        format!(
-            "the distance of `{}` is not positive at {}",
-            condition.owner,
-            at(t)
-        )
+        format!("the distance of `{}` is not positive at {}", condition.owner, at(t))
     } else {
-        format!(
-            "the interval of a motion in `{}` is empty at {}",
-            condition.owner,
-            at(t)
-        )
+        format!("the interval of a motion in `{}` is empty at {}", condition.owner, at(t))
     };
-    let diagnostic = Diagnostic::new(Code::E0606, message)
-        .at(condition.span, "reaches zero")
-        .datum("t", t);
-    if condition.is_distance {
-        diagnostic.help("a distance must stay above zero")
-    } else {
-        diagnostic
-    }
+    let diagnostic = Diagnostic::new(Code::E0606, message).at(condition.span, "reaches zero").datum("t", t);
+    if condition.is_distance { diagnostic.help("a distance must stay above zero") } else { diagnostic }
 }
 
 pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -> Diagnostic {
@@ -121,93 +96,49 @@ pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -
     }
 }
 
-fn with_places(
-    mut diagnostic: Diagnostic,
-    system: &ConstraintSystem,
-    joints: &[usize],
-    text: &str,
-) -> Diagnostic {
+fn with_places(mut diagnostic: Diagnostic, system: &ConstraintSystem, joints: &[usize], text: &str) -> Diagnostic {
     for (k, &declaration) in joints.iter().take(LISTED).enumerate() {
         let span = system.declarations[declaration].span;
         let text = if k == 0 { text } else { "" };
-        diagnostic = if diagnostic.labels.is_empty() {
-            diagnostic.at(span, text)
-        } else {
-            diagnostic.also(span, text)
-        };
+        diagnostic = if diagnostic.labels.is_empty() { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }
     diagnostic
 }
 
 fn bodies_of(system: &ConstraintSystem, bodies: &[usize]) -> String {
-    let names: Vec<String> = bodies
-        .iter()
-        .take(LISTED)
-        .map(|&body| format!("`{}`", system.bodies[body].name))
-        .collect();
+    let names: Vec<String> =
+        bodies.iter().take(LISTED).map(|&body| format!("`{}`", system.bodies[body].name)).collect();
     names.join(", ")
 }
 
-pub fn lock_up(
-    system: &ConstraintSystem,
-    driver: usize,
-    joints: &[usize],
-    bodies: &[usize],
-    t: f64,
-) -> Diagnostic {
+pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
     let declaration = system.declaration_of(driver);
     let diagnostic = Diagnostic::new(
         Code::E0602,
-        format!(
-            "the mechanism locks up at {}: driver `{}` cannot move on",
-            at(t),
-            declaration.name
-        ),
+        format!("the mechanism locks up at {}: driver `{}` cannot move on", at(t), declaration.name),
     )
     .at(declaration.span, "drives into a dead point");
     with_places(diagnostic, system, joints, "these joints hold it there")
-        .note(format!(
-            "the bodies that would have to jump: {}",
-            bodies_of(system, bodies)
-        ))
+        .note(format!("the bodies that would have to jump: {}", bodies_of(system, bodies)))
         .help("let the driver turn back before that time, drive another joint, or change a length")
         .datum("t", t)
 }
 
-pub fn bifurcation(
-    system: &ConstraintSystem,
-    joints: &[usize],
-    bodies: &[usize],
-    t: f64,
-) -> Diagnostic {
+pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::E0603,
-        format!(
-            "two branches of the motion meet at {}, and nothing decides between them",
-            at(t)
-        ),
+        format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
     );
     with_places(diagnostic, system, joints, "these joints leave it open")
-        .note(format!(
-            "the bodies that could go either way: {}",
-            bodies_of(system, bodies)
-        ))
+        .note(format!("the bodies that could go either way: {}", bodies_of(system, bodies)))
         .help("change a length a little, or stop before that time")
         .datum("t", t)
 }
 
-pub fn singular_start(
-    system: &ConstraintSystem,
-    joints: &[usize],
-    bodies: &[usize],
-    t: f64,
-) -> Diagnostic {
+pub fn singular_start(system: &ConstraintSystem, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::E0504,
-        format!(
-            "the equations are not independent in the assembled position at {}",
-            at(t)
-        ),
+        format!("the equations are not independent in the assembled position at {}", at(t)),
     );
     with_places(diagnostic, system, joints, "these depend on each other there")
         .note(format!("the bodies that are left free to move: {}", bodies_of(system, bodies)))
@@ -216,30 +147,17 @@ pub fn singular_start(
 }
 
 /// Residuals of the worst rows of an assembly that failed.
-pub fn cannot_assemble(
-    system: &ConstraintSystem,
-    worst: &[(usize, f64, f64)],
-    t: f64,
-) -> Diagnostic {
+pub fn cannot_assemble(system: &ConstraintSystem, worst: &[(usize, f64, f64)], t: f64) -> Diagnostic {
     let (row, _, residual) = worst.first().copied().unwrap_or((0, 0.0, 0.0));
     let gap = |row: usize, off: f64, scaled: f64| match system.declaration_of(row).kind {
-        DeclarationKind::Joint("revolute" | "translational" | "revolute_translational")
-            if off.is_finite() =>
-        {
+        DeclarationKind::Joint("revolute" | "translational" | "revolute_translational") if off.is_finite() => {
             format!("does not close, by {}", length(scaled * system.length))
         }
-        _ => format!(
-            "is not met, by {} of the mechanism's size",
-            three_digits(scaled)
-        ),
+        _ => format!("is not met, by {} of the mechanism's size", three_digits(scaled)),
     };
     let mut diagnostic = Diagnostic::new(
         Code::E0601,
-        format!(
-            "the mechanism cannot be assembled at {}: {} stays open",
-            at(t),
-            named(system, row)
-        ),
+        format!("the mechanism cannot be assembled at {}: {} stays open", at(t), named(system, row)),
     )
     .datum("t", t)
     .datum("residual", residual);
@@ -251,11 +169,7 @@ pub fn cannot_assemble(
         }
         let span = system.declarations[declaration].span;
         let text = gap(row, off, scaled);
-        diagnostic = if said.is_empty() {
-            diagnostic.at(span, text)
-        } else {
-            diagnostic.also(span, text)
-        };
+        diagnostic = if said.is_empty() { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
         said.push(declaration);
     }
     diagnostic.help("check the lengths of the links between these, the driver's first value, and the estimates in `at`")
@@ -263,32 +177,18 @@ pub fn cannot_assemble(
 
 /// A remark where assembly moved a body so far that its branch may not be the one meant.
 pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option<Diagnostic> {
-    let (far, turned) = (moved.length > 0.2 * system.length, moved.angle > 0.35);
+    let (far, turned) = (moved.length > system.length, moved.angle > std::f64::consts::FRAC_PI_2);
     if !far && !turned {
         return None;
     }
-    let body = if far {
-        moved.length_body
-    } else {
-        moved.angle_body
-    };
+    let body = if far { moved.length_body } else { moved.angle_body };
     let body = &system.bodies[body];
-    let how = if far {
-        format!("moved by {}", length(moved.length))
-    } else {
-        format!("turned by {}", degrees(moved.angle))
-    };
+    let how =
+        if far { format!("moved by {}", length(moved.length)) } else { format!("turned by {}", degrees(moved.angle)) };
     Some(
-        Diagnostic::new(
-            Code::N0601,
-            format!(
-                "assembling the mechanism at {} {how} the body `{}`",
-                at(t),
-                body.name
-            ),
-        )
-        .at(body.span, "far from its estimate")
-        .help("if this is not the branch meant, give better estimates in `at`"),
+        Diagnostic::new(Code::N0601, format!("assembling the mechanism at {} {how} the body `{}`", at(t), body.name))
+            .at(body.span, "far from its estimate")
+            .help("if this is not the branch meant, give better estimates in `at`"),
     )
 }
 

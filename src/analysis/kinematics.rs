@@ -28,13 +28,7 @@ pub(super) struct State {
 impl State {
     pub fn new(t: f64, q: Vec<f64>) -> State {
         let zero = vec![0.0; q.len()];
-        State {
-            t,
-            q,
-            qd: zero.clone(),
-            qdd: zero.clone(),
-            qddd: zero,
-        }
+        State { t, q, qd: zero.clone(), qdd: zero.clone(), qddd: zero }
     }
 
     /// Takes over another state without allocating.
@@ -76,16 +70,8 @@ impl<'d> Kinematics<'d> {
         tolerance: f64,
     ) -> Result<Kinematics<'d>, Box<Diagnostic>> {
         let system = determined.system();
-        if let Some(block) = determined
-            .blocks()
-            .iter()
-            .find(|block| block.rows.len() > LARGEST_BLOCK)
-        {
-            return Err(Box::new(errors::too_large(
-                system,
-                block.rows.len(),
-                LARGEST_BLOCK,
-            )));
+        if let Some(block) = determined.blocks().iter().find(|block| block.rows.len() > LARGEST_BLOCK) {
+            return Err(Box::new(errors::too_large(system, block.rows.len(), LARGEST_BLOCK)));
         }
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         Ok(Kinematics {
@@ -111,12 +97,7 @@ impl<'d> Kinematics<'d> {
 
     /// The estimates of the file [m, rad].
     pub fn estimates(&self) -> Vec<f64> {
-        self.program
-            .outputs
-            .estimates
-            .iter()
-            .map(|&register| self.registers.get(register))
-            .collect()
+        self.program.outputs.estimates.iter().map(|&register| self.registers.get(register)).collect()
     }
 
     pub fn set_time(&mut self, t: f64) {
@@ -126,9 +107,11 @@ impl<'d> Kinematics<'d> {
 
     /// Evaluates Φ and Φ_q at a position.
     pub fn set_position(&mut self, q: &[f64]) -> Result<(), Fault> {
-        self.registers
-            .set_all(self.program.inputs.coordinates[0], q);
+        self.registers.set_all(self.program.inputs.coordinates[0], q);
         self.program.run(Stage::Position, &mut self.registers);
+        if let Some(index) = self.broken_condition() {
+            return Err(Fault::Condition { index });
+        }
         match (0..q.len()).find(|&row| !self.phi(row).is_finite()) {
             Some(row) => Err(Fault::NotFinite { row }),
             None => Ok(()),
@@ -148,10 +131,7 @@ impl<'d> Kinematics<'d> {
     /// Factors Φ_q where the position was set.
     pub fn factor(&mut self) -> Result<(), Fault> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
-        match self
-            .linear
-            .factor(|position| registers.get(outputs.phi_q[position]))
-        {
+        match self.linear.factor(|position| registers.get(outputs.phi_q[position])) {
             Factored::Regular => Ok(()),
             Factored::Singular => match self.not_finite_slope() {
                 Some(row) => Err(Fault::NotFinite { row }),
@@ -162,18 +142,13 @@ impl<'d> Kinematics<'d> {
 
     fn not_finite_slope(&self) -> Option<usize> {
         let pattern = &self.system().phi_q;
-        (0..self.system().rows.len()).find(|&row| {
-            pattern
-                .range(row)
-                .any(|position| !self.phi_q(position).is_finite())
-        })
+        (0..self.system().rows.len()).find(|&row| pattern.range(row).any(|position| !self.phi_q(position).is_finite()))
     }
 
     /// Newton's correction of the position, and its largest scaled entry.
     pub fn correction(&mut self, delta: &mut [f64]) -> f64 {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
-        self.linear
-            .solve(|row| -registers.get(outputs.phi[row]), delta)
+        self.linear.solve(|row| -registers.get(outputs.phi[row]), delta)
     }
 
     /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
@@ -182,9 +157,7 @@ impl<'d> Kinematics<'d> {
     /// coordinates that it depends on.
     pub fn violated(&mut self) -> Option<(usize, f64)> {
         let n = self.system().rows.len();
-        let beyond = |this: &Self, row: usize| {
-            this.phi(row).abs() > this.tolerance * this.linear.row_norm(row)
-        };
+        let beyond = |this: &Self, row: usize| this.phi(row).abs() > this.tolerance * this.linear.row_norm(row);
         if !(0..n).any(|row| beyond(self, row)) {
             return None;
         }
@@ -204,32 +177,21 @@ impl<'d> Kinematics<'d> {
     /// 8 eps times the largest term of a row, the steps of its coordinates included.
     fn rounding(&self, row: usize) -> f64 {
         let pattern = &self.system().phi_q;
-        let terms = self.program.outputs.terms[row]
-            .iter()
-            .map(|&register| self.registers.get(register).abs());
-        let steps = pattern
-            .range(row)
-            .zip(pattern.row(row))
-            .map(|(position, &(column, _))| {
-                let q = self
-                    .registers
-                    .get(self.program.inputs.coordinates[0] + column);
-                (self.phi_q(position) * q).abs()
-            });
+        let terms = self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs());
+        let steps = pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {
+            let q = self.registers.get(self.program.inputs.coordinates[0] + column);
+            (self.phi_q(position) * q).abs()
+        });
         8.0 * f64::EPSILON * terms.chain(steps).fold(0.0, f64::max)
     }
 
     /// The formula that must be positive and is not.
     fn broken_condition(&self) -> Option<usize> {
         // a formula that is not a number is no better
-        self.program
-            .outputs
-            .conditions
-            .iter()
-            .position(|&register| {
-                let value = self.registers.get(register);
-                value.is_nan() || value <= 0.0
-            })
+        self.program.outputs.conditions.iter().position(|&register| {
+            let value = self.registers.get(register);
+            value.is_nan() || value <= 0.0
+        })
     }
 
     /// Velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
@@ -238,9 +200,6 @@ impl<'d> Kinematics<'d> {
         let [_, qd, qdd, qddd] = program.inputs.coordinates;
         let outputs = &program.outputs;
         program.run(Stage::Velocity, &mut self.registers);
-        if let Some(index) = self.broken_condition() {
-            return Err(Fault::Condition { index });
-        }
         let (linear, registers) = (&mut self.linear, &mut self.registers);
         linear.solve(|row| registers.get(outputs.nu[row]), &mut state.qd);
         registers.set_all(qd, &state.qd);
@@ -263,10 +222,7 @@ impl<'d> Kinematics<'d> {
         let outputs = &self.program.outputs;
         let row = [&outputs.nu, &outputs.gamma, &outputs.jerk]
             .into_iter()
-            .find_map(|list| {
-                list.iter()
-                    .position(|&register| !self.registers.get(register).is_finite())
-            });
+            .find_map(|list| list.iter().position(|&register| !self.registers.get(register).is_finite()));
         Err(row.map_or(Fault::Singular, |row| Fault::NotFinite { row }))
     }
 
@@ -277,11 +233,8 @@ impl<'d> Kinematics<'d> {
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Measures, registers);
         let outputs = &program.outputs;
-        let lists = [
-            (&state.q, &outputs.measures),
-            (&state.qd, &outputs.measures_d),
-            (&state.qdd, &outputs.measures_dd),
-        ];
+        let lists =
+            [(&state.q, &outputs.measures), (&state.qd, &outputs.measures_d), (&state.qdd, &outputs.measures_dd)];
         let mut cells = row.iter_mut();
         let mut put = |value: f64| {
             if let Some(cell) = cells.next() {
@@ -292,9 +245,7 @@ impl<'d> Kinematics<'d> {
         put(state.t);
         for (coordinates, measures) in lists {
             coordinates.iter().for_each(|&value| put(value));
-            measures
-                .iter()
-                .for_each(|&register| put(registers.get(register)));
+            measures.iter().for_each(|&register| put(registers.get(register)));
         }
     }
 
@@ -302,9 +253,7 @@ impl<'d> Kinematics<'d> {
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();
         let n = system.coordinates.len();
-        let having = |has: fn(&Measure) -> bool| {
-            (0..system.measures.len()).filter(move |&k| has(&system.measures[k]))
-        };
+        let having = |has: fn(&Measure) -> bool| (0..system.measures.len()).filter(move |&k| has(&system.measures[k]));
         let columns = std::iter::repeat_n(0, 1 + n)
             .chain(having(|_| true))
             .chain(std::iter::repeat_n(0, n))
@@ -317,8 +266,7 @@ impl<'d> Kinematics<'d> {
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
         let outputs = &self.program.outputs;
-        let measures =
-            outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
+        let measures = outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
         1 + 3 * self.system().coordinates.len() + measures
     }
 

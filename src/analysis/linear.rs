@@ -68,13 +68,7 @@ impl BlockLu {
         let mut matrix = 0;
         for (k, block) in blocks.iter().enumerate() {
             let size = block.rows.len();
-            parts.push(Part {
-                at: rows.len(),
-                size,
-                matrix,
-                smallest_pivot: 0.0,
-                positive: true,
-            });
+            parts.push(Part { at: rows.len(), size, matrix, smallest_pivot: 0.0, positive: true });
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
                 part_of_column[column as usize] = k as u32;
@@ -91,11 +85,7 @@ impl BlockLu {
                     let inside = part_of_column[column as usize] == k as u32;
                     let within = place * part.size + place_of_column[column as usize] as usize;
                     let dense = if inside { within as u32 } else { OUTSIDE };
-                    entries.push(Entry {
-                        position: position as u32,
-                        column,
-                        dense,
-                    });
+                    entries.push(Entry { position: position as u32, column, dense });
                 }
                 starts.push(entries.len());
             }
@@ -134,10 +124,7 @@ impl BlockLu {
 
     /// Smallest pivot of all blocks, against rows of unit norm.
     pub fn smallest_pivot(&self) -> f64 {
-        self.parts
-            .iter()
-            .map(|part| part.smallest_pivot)
-            .fold(f64::INFINITY, f64::min)
+        self.parts.iter().map(|part| part.smallest_pivot).fold(f64::INFINITY, f64::min)
     }
 
     /// Writes the sign of each block's determinant.
@@ -169,11 +156,7 @@ impl BlockLu {
             // also refuses a pivot that is not a number
             regular &= smallest > 1e-14;
         }
-        if regular {
-            Factored::Regular
-        } else {
-            Factored::Singular
-        }
+        if regular { Factored::Regular } else { Factored::Singular }
     }
 
     fn load_row(&mut self, k: usize, matrix: usize, value: impl Fn(usize) -> f64) -> bool {
@@ -225,11 +208,7 @@ impl BlockLu {
                 scaled[column] = value;
                 x[column] = value * self.column_scale[column];
                 // a value that is not a number must win
-                largest = if value.abs() > largest || value.is_nan() {
-                    value.abs()
-                } else {
-                    largest
-                };
+                largest = if value.abs() > largest || value.is_nan() { value.abs() } else { largest };
             }
         }
         largest
@@ -240,15 +219,10 @@ impl BlockLu {
         let n = self.rows.len();
         let mut rest = b.to_vec();
         for part in self.parts.iter().rev() {
-            let mut block: Vec<f64> = (0..part.size)
-                .map(|place| rest[self.columns[part.at + place] as usize])
-                .collect();
+            let mut block: Vec<f64> =
+                (0..part.size).map(|place| rest[self.columns[part.at + place] as usize]).collect();
             let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
-            solve_dense_transposed(
-                dense,
-                &self.pivots[part.at..part.at + part.size],
-                &mut block,
-            );
+            solve_dense_transposed(dense, &self.pivots[part.at..part.at + part.size], &mut block);
             for (place, &value) in block.iter().enumerate() {
                 let k = part.at + place;
                 w[self.rows[k] as usize] = value;
@@ -327,11 +301,7 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
         let pivot = pivot_row[k];
         positive ^= pivot < 0.0;
         // a pivot that is not a number must win
-        smallest = if pivot.abs() >= smallest {
-            smallest
-        } else {
-            pivot.abs()
-        };
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
         if pivot == 0.0 {
             continue;
         }

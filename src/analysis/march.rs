@@ -51,11 +51,7 @@ struct Accepted {
 }
 
 impl<'m, 'd> Motion<'m, 'd> {
-    pub(super) fn new(
-        kinematics: &'m mut Kinematics<'d>,
-        state: &'m mut State,
-        span: f64,
-    ) -> Motion<'m, 'd> {
+    pub(super) fn new(kinematics: &'m mut Kinematics<'d>, state: &'m mut State, span: f64) -> Motion<'m, 'd> {
         let n = state.q.len();
         let blocks = kinematics.linear().blocks();
         let smallest = SMALLEST_STEP * span;
@@ -88,14 +84,10 @@ impl<'m, 'd> Motion<'m, 'd> {
         while self.state.t < t {
             let left = t - self.state.t;
             // no crumb at the end
-            let (h, next) = if self.h >= 0.999 * left {
-                (left, t)
-            } else {
-                (self.h, self.state.t + self.h)
-            };
+            let (h, next) = if self.h >= 0.999 * left { (left, t) } else { (self.h, self.state.t + self.h) };
             match self.try_step(h, next, next >= t) {
                 Ok(accepted) => self.accept(h, &accepted),
-                Err(fault) => self.shorten(h, fault)?,
+                Err(fault) => self.shorten(h, fault, t)?,
             }
         }
         match self.row.iter().all(|value| value.is_finite()) {
@@ -106,16 +98,8 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
     fn explain_row(&mut self, t: f64) -> Diagnostic {
-        let column = self
-            .row
-            .iter()
-            .position(|value| !value.is_finite())
-            .unwrap_or(0);
-        errors::measure_not_finite(
-            self.kinematics.system(),
-            self.kinematics.measure_of_column(column),
-            t,
-        )
+        let column = self.row.iter().position(|value| !value.is_finite()).unwrap_or(0);
+        errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
     }
 
     /// Derivatives at the start.
@@ -124,35 +108,22 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.kinematics.restore(self.state);
         self.kinematics.linear().signs(&mut self.signs);
         if let Err(fault) = self.kinematics.derivatives(self.state) {
-            let t = self.state.t;
-            return Err(Box::new(singular::explain(
-                self.kinematics,
-                self.state,
-                fault,
-                t,
-            )));
+            return Err(Box::new(self.explain_start(fault)));
         }
         Ok(())
+    }
+
+    fn explain_start(&mut self, fault: Fault) -> Diagnostic {
+        let t = self.state.t;
+        singular::explain(self.kinematics, self.state, fault, 0.0, t)
     }
 
     /// The row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
         self.kinematics.restore(self.state);
-        match self
-            .kinematics
-            .derivatives(self.state)
-            .and_then(|()| self.trustworthy())
-        {
+        match self.kinematics.derivatives(self.state).and_then(|()| self.trustworthy()) {
             Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
-            Err(fault) => {
-                let t = self.state.t;
-                return Err(Box::new(singular::explain(
-                    self.kinematics,
-                    self.state,
-                    fault,
-                    t,
-                )));
-            }
+            Err(fault) => return Err(Box::new(self.explain_start(fault))),
         }
         Ok(())
     }
@@ -172,10 +143,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         let at_midpoint = self.correction_at_midpoint(h)?;
-        Ok(Accepted {
-            first_correction,
-            at_midpoint,
-        })
+        Ok(Accepted { first_correction, at_midpoint })
     }
 
     /// Taylor's predictor, which costs nothing: both derivatives are known.
@@ -187,11 +155,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.trial.q[k] = self.state.q[k] + step;
             motion = motion.max(step.abs() / self.kinematics.linear().column_scale(k));
         }
-        if motion <= LARGEST_MOTION {
-            Ok(())
-        } else {
-            Err(Fault::TooFar)
-        }
+        if motion <= LARGEST_MOTION { Ok(()) } else { Err(Fault::TooFar) }
     }
 
     /// Newton, until the full Φ is below the tolerance; gives the first correction.
@@ -202,11 +166,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         for _ in 0..ITERATIONS {
             self.kinematics.factor()?;
             let size = self.kinematics.correction(&mut self.delta);
-            let bound = if first.is_none() {
-                LARGEST_CORRECTION
-            } else {
-                0.25 * LARGEST_CORRECTION
-            };
+            let bound = if first.is_none() { LARGEST_CORRECTION } else { 0.25 * LARGEST_CORRECTION };
             // also refuses what is not a number
             if !(size <= bound) {
                 return Err(Fault::TooFar);
@@ -256,19 +216,15 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.kinematics.set_time(a.t + 0.5 * h);
         self.kinematics.set_position(&self.middle)?;
         let size = self.kinematics.correction(&mut self.delta);
-        if size <= LARGEST_AT_MIDPOINT {
-            Ok(size)
-        } else {
-            Err(Fault::TooFar)
-        }
+        if size <= LARGEST_AT_MIDPOINT { Ok(size) } else { Err(Fault::TooFar) }
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
         self.state.copy_from(&self.trial);
         self.signs.copy_from_slice(&self.trial_signs);
         // the predictor's error grows with h³, the midpoint's with h⁶
-        let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0
-            && accepted.at_midpoint < LARGEST_AT_MIDPOINT / 100.0;
+        let calm =
+            accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.at_midpoint < LARGEST_AT_MIDPOINT / 100.0;
         if calm {
             // a step cut short by an output time says little of a longer one
             self.h = self.h.max(2.0 * h);
@@ -277,17 +233,11 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
     }
 
-    fn shorten(&mut self, h: f64, fault: Fault) -> Result<(), Box<Diagnostic>> {
+    fn shorten(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
         self.h = 0.5 * h;
         let vanishes = self.state.t + self.h <= self.state.t;
         if self.h < self.smallest || vanishes {
-            let t = self.trial.t;
-            return Err(Box::new(singular::explain(
-                self.kinematics,
-                self.state,
-                fault,
-                t,
-            )));
+            return Err(Box::new(singular::explain(self.kinematics, self.state, fault, h, target)));
         }
         Ok(())
     }

@@ -47,11 +47,7 @@ pub fn start<'d>(
 ) -> Result<Started<'d>, Box<Diagnostic>> {
     let mut kinematics = Kinematics::new(determined, program, tolerance)?;
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
-    Ok(Started {
-        kinematics,
-        state,
-        moved,
-    })
+    Ok(Started { kinematics, state, moved })
 }
 
 impl<'d> Started<'d> {
@@ -59,11 +55,7 @@ impl<'d> Started<'d> {
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {
         let mut diagnostics = Diagnostics::default();
-        diagnostics.extend(errors::far_estimates(
-            self.kinematics.system(),
-            &self.moved,
-            self.state.t,
-        ));
+        diagnostics.extend(errors::far_estimates(self.kinematics.system(), &self.moved, self.state.t));
         diagnostics
     }
 
@@ -90,31 +82,14 @@ impl<'d> Started<'d> {
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         let system = self.kinematics.system();
-        let coordinates = || {
-            system
-                .coordinates
-                .iter()
-                .map(|coordinate| coordinate.name.clone())
-        };
+        let coordinates = || system.coordinates.iter().map(|coordinate| coordinate.name.clone());
         let mut columns = vec!["t".to_owned()];
         columns.extend(coordinates());
         columns.extend(system.measures.iter().map(|measure| measure.name.clone()));
         columns.extend(coordinates().map(|name| name + ".d"));
-        columns.extend(
-            system
-                .measures
-                .iter()
-                .filter(|m| m.first.is_some())
-                .map(|m| format!("{}.d", m.name)),
-        );
+        columns.extend(system.measures.iter().filter(|m| m.first.is_some()).map(|m| format!("{}.d", m.name)));
         columns.extend(coordinates().map(|name| name + ".dd"));
-        columns.extend(
-            system
-                .measures
-                .iter()
-                .filter(|m| m.second.is_some())
-                .map(|m| format!("{}.dd", m.name)),
-        );
+        columns.extend(system.measures.iter().filter(|m| m.second.is_some()).map(|m| format!("{}.dd", m.name)));
         columns
     }
 

@@ -10,25 +10,32 @@ const NEAR: f64 = 1e-2;
 /// A driver takes part in a dependency if its share is above this part of the largest.
 const TAKES_PART: f64 = 1e-3;
 
-/// The diagnosis at the last good state, before a step towards `t` failed.
-pub(super) fn explain(
-    kinematics: &mut Kinematics<'_>,
-    state: &State,
-    fault: Fault,
-    t: f64,
-) -> Diagnostic {
+/// The diagnosis at the last good state, after steps of the span's smallest part `h` failed on the way to `target`.
+pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
     let system = kinematics.system();
-    match fault {
-        Fault::NotFinite { row } => return errors::not_finite(system, row, t),
-        Fault::Condition { index } => return errors::condition(system, index, t),
-        Fault::Singular | Fault::TooFar => {}
+    if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
+        return errors::no_value(system, fault, state.t + h);
+    }
+    // a formula that ends just ahead, or at the end of the step, explains more than the equations do
+    let just_ahead = f64::min(state.t + 1000.0 * h, target);
+    if let Some(fault) = without_value(kinematics, state, just_ahead) {
+        return errors::no_value(system, fault, state.t);
     }
     kinematics.restore(state);
     let singular = kinematics.smallest_singular();
-    if !(singular.sigma < NEAR) {
-        return errors::cannot_follow(system, state.t, fastest_driver(kinematics, state));
+    if singular.sigma < NEAR {
+        return name_singular(system, &singular.left, &singular.right, state.t);
     }
-    name_singular(system, &singular.left, &singular.right, state.t)
+    if let Some(fault) = without_value(kinematics, state, target) {
+        return errors::no_value(system, fault, target);
+    }
+    errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
+}
+
+/// Why a formula has no value at a time, the position being as it is.
+fn without_value(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Option<Fault> {
+    kinematics.set_time(t);
+    kinematics.set_position(&state.q).err()
 }
 
 /// A lock-up where a driver takes part in the dependency of the equations, a bifurcation where none does.
@@ -41,18 +48,8 @@ fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64)
 }
 
 /// A start that is in such a position already.
-pub(super) fn name_start(
-    system: &ConstraintSystem,
-    left: &[f64],
-    right: &[f64],
-    t: f64,
-) -> Diagnostic {
-    errors::singular_start(
-        system,
-        &joints_in(system, left),
-        &bodies_in(system, right),
-        t,
-    )
+pub(super) fn name_start(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
+    errors::singular_start(system, &joints_in(system, left), &bodies_in(system, right), t)
 }
 
 fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
@@ -65,9 +62,8 @@ fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
 /// The joints and constraints that the dependency is made of, those that weigh most first.
 fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    let mut rows: Vec<usize> = (0..left.len())
-        .filter(|&row| !system.is_driver(row) && left[row].abs() > 0.1 * largest)
-        .collect();
+    let mut rows: Vec<usize> =
+        (0..left.len()).filter(|&row| !system.is_driver(row) && left[row].abs() > 0.1 * largest).collect();
     rows.sort_by(|&a, &b| left[b].abs().total_cmp(&left[a].abs()));
     let mut joints: Vec<usize> = Vec::new();
     for row in rows {
@@ -104,7 +100,5 @@ fn fastest_driver(kinematics: &Kinematics<'_>, state: &State) -> Option<usize> {
             })
             .fold(0.0, f64::max)
     };
-    (0..system.rows.len())
-        .filter(|&row| system.is_driver(row))
-        .max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
+    (0..system.rows.len()).filter(|&row| system.is_driver(row)).max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
 }

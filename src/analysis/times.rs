@@ -20,23 +20,12 @@ impl Times {
     pub fn grid(from: f64, to: f64, every: f64) -> Option<Times> {
         let steps = (to - from) / every;
         let nearest = steps.round();
-        let last = if (steps - nearest).abs() <= 1e-9 {
-            nearest
-        } else {
-            crate::math::floor(steps)
-        };
+        let last = if (steps - nearest).abs() <= 1e-9 { nearest } else { crate::math::floor(steps) };
         // also false for what is not a number
         if !(0.0..9e15).contains(&last) || (last > 0.0 && from + every == from) {
             return None;
         }
-        Some(Times {
-            from,
-            kind: Kind::Grid {
-                every,
-                to,
-                last: last as u64,
-            },
-        })
+        Some(Times { from, kind: Kind::Grid { every, to, last: last as u64 } })
     }
 
     /// Only these times, sorted and each once; followed from `from`.
@@ -44,10 +33,7 @@ impl Times {
     pub fn listed(from: f64, mut times: Vec<f64>) -> Times {
         times.sort_by(f64::total_cmp);
         times.dedup();
-        Times {
-            from,
-            kind: Kind::Listed(times),
-        }
+        Times { from, kind: Kind::Listed(times) }
     }
 
     /// Where the motion begins [s].
@@ -85,11 +71,7 @@ impl Times {
         (0..self.len()).map(|k| match &self.kind {
             Kind::Grid { every, to, last } => {
                 let t = self.from + k as f64 * every;
-                if k == *last && (t - to).abs() <= 1e-9 * every {
-                    *to
-                } else {
-                    t
-                }
+                if k == *last && (t - to).abs() <= 1e-9 * every { *to } else { t }
             }
             Kind::Listed(times) => times[k as usize],
         })
@@ -109,10 +91,7 @@ mod tests {
         assert_eq!(times(0.0, 0.3, 0.1), [0.0, 0.1, 0.2, 0.3]);
         assert_eq!(times(0.0, 0.35, 0.1).last(), Some(&(3.0 * 0.1)));
         assert_eq!(times(1.0, 1.0, 0.1), [1.0]);
-        assert!(
-            Times::grid(1e20, 2e20, 1.0).is_none(),
-            "steps that do not change the time"
-        );
+        assert!(Times::grid(1e20, 2e20, 1.0).is_none(), "steps that do not change the time");
     }
 
     #[test]

@@ -46,12 +46,7 @@ impl Checker<'_> {
     ) -> Option<Value> {
         if name.text == "der" {
             let [argument] = arguments else {
-                self.report(errors::argument_count(
-                    "der",
-                    e.span,
-                    "one argument",
-                    arguments.len(),
-                ));
+                self.report(errors::argument_count("der", e.span, "one argument", arguments.len()));
                 return None;
             };
             return self.derivative(e, argument, context);
@@ -66,18 +61,10 @@ impl Checker<'_> {
                 (_, usize::MAX) => format!("{least} arguments or more"),
                 _ => format!("{least} arguments"),
             };
-            self.report(errors::argument_count(
-                &name.text,
-                e.span,
-                &wanted,
-                arguments.len(),
-            ));
+            self.report(errors::argument_count(&name.text, e.span, &wanted, arguments.len()));
             return None;
         }
-        let values: Vec<Option<Value>> = arguments
-            .iter()
-            .map(|argument| self.number(argument, context))
-            .collect();
+        let values: Vec<Option<Value>> = arguments.iter().map(|argument| self.number(argument, context)).collect();
         let values: Vec<Argument> = arguments
             .iter()
             .zip(values)
@@ -86,25 +73,11 @@ impl Checker<'_> {
         self.apply(&name.text, &values, context)
     }
 
-    fn apply(
-        &mut self,
-        function: &str,
-        arguments: &[Argument],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn apply(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         if let Some(&(_, unary)) = PURE_UNARY.iter().find(|&&(f, _)| f == function) {
             let (span, value) = arguments[0];
-            self.demand(
-                &format!("the argument of `{function}`"),
-                Dimension::PURE,
-                span,
-                value.dim,
-                context,
-            )?;
-            return Some(Value {
-                id: self.model.graph.unary(unary, value.id),
-                dim: Dim::PURE,
-            });
+            self.demand(&format!("the argument of `{function}`"), Dimension::PURE, span, value.dim, context)?;
+            return Some(Value { id: self.model.graph.unary(unary, value.id), dim: Dim::PURE });
         }
         if let Some(&(_, motion)) = MOTIONS.iter().find(|&&(f, _)| f == function) {
             return self.motion(function, motion, arguments, context);
@@ -123,26 +96,15 @@ impl Checker<'_> {
             "hypot" => (graph.binary(Binary::Hypot, ids[0], ids[1]), dim),
             "mod" => (graph.modulo(ids[0], ids[1]), dim),
             _ => {
-                let binary = if function == "min" {
-                    Binary::Min
-                } else {
-                    Binary::Max
-                };
-                let id = ids[1..]
-                    .iter()
-                    .fold(ids[0], |all, &next| graph.binary(binary, all, next));
+                let binary = if function == "min" { Binary::Min } else { Binary::Max };
+                let id = ids[1..].iter().fold(ids[0], |all, &next| graph.binary(binary, all, next));
                 (id, dim)
             }
         };
         Some(Value { id, dim })
     }
 
-    fn all_alike(
-        &mut self,
-        function: &str,
-        arguments: &[Argument],
-        context: &Context<'_>,
-    ) -> Option<Dim> {
+    fn all_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
         let what = format!("the arguments of `{function}` are");
         let (mut span, first) = arguments[0];
         let mut dim = first.dim;
@@ -156,13 +118,7 @@ impl Checker<'_> {
         Some(dim)
     }
 
-    fn motion(
-        &mut self,
-        name: &str,
-        motion: Motion,
-        arguments: &[Argument],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn motion(&mut self, name: &str, motion: Motion, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let &[u, u0, v0, u1, v1] = arguments else {
             return None;
         };
@@ -179,26 +135,13 @@ impl Checker<'_> {
             _ => {
                 let positive = self.model.graph.sub(u1.1.id, u0.1.id);
                 let owner = context.place.to_owned();
-                let condition = Condition {
-                    positive,
-                    kind: ConditionKind::Interval,
-                    span: u1.0,
-                    owner,
-                };
-                if self
-                    .model
-                    .conditions
-                    .iter()
-                    .all(|known| known.positive != positive)
-                {
+                let condition = Condition { positive, kind: ConditionKind::Interval, span: u1.0, owner };
+                if self.model.conditions.iter().all(|known| known.positive != positive) {
                     self.model.conditions.push(condition);
                 }
             }
         }
-        let id = self
-            .model
-            .graph
-            .motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);
+        let id = self.model.graph.motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);
         Some(Value { id, dim })
     }
 
@@ -209,15 +152,8 @@ impl Checker<'_> {
         let mut dim = Dim::Any;
         let mut first = coefficients[0].0;
         for (power, &(span, c)) in coefficients.iter().enumerate() {
-            let term = c
-                .dim
-                .with(step, |c, step| c.times(step.to_the(power as f64)));
-            let joint = self.alike(
-                "the terms of `poly` are",
-                (first, dim),
-                (span, term),
-                context,
-            )?;
+            let term = c.dim.with(step, |c, step| c.times(step.to_the(power as f64)));
+            let joint = self.alike("the terms of `poly` are", (first, dim), (span, term), context)?;
             if dim == Dim::Any {
                 first = span;
             }
@@ -225,10 +161,7 @@ impl Checker<'_> {
         }
         let way = self.model.graph.sub(u.1.id, u0.1.id);
         let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
-        Some(Value {
-            id: self.model.graph.polynomial_of(way, &ids),
-            dim,
-        })
+        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim })
     }
 }
 

@@ -4,59 +4,29 @@ use super::formula::Context;
 use super::{Checker, declared, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Joint, JointKind,
-    Measure, Named, PointId, Quantity,
+    Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Joint, JointKind, Measure, Named,
+    PointId, Quantity,
 };
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 
-const JOINTS: &[&str] = &[
-    "revolute",
-    "translational",
-    "weld",
-    "revolute_revolute",
-    "revolute_translational",
-];
+const JOINTS: &[&str] = &["revolute", "translational", "weld", "revolute_revolute", "revolute_translational"];
 
 /// Joints of the language that this version reads only.
-const LATER_JOINTS: &[&str] = &[
-    "gear",
-    "internal_gear",
-    "rack_pinion",
-    "point_follower",
-    "cam",
-    "flat_follower",
-];
+const LATER_JOINTS: &[&str] = &["gear", "internal_gear", "rack_pinion", "point_follower", "cam", "flat_follower"];
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
         for item in self.items() {
-            if let ItemKind::Joint {
-                name,
-                kind,
-                arguments,
-                call_span,
-            } = &item.kind
-            {
+            if let ItemKind::Joint { name, kind, arguments, call_span } = &item.kind {
                 let joint = self.joint_kind(name, kind, arguments, *call_span);
-                let id = joint.map(|kind| {
-                    self.model.add_joint(Joint {
-                        declared: declared(name),
-                        kind,
-                    })
-                });
+                let id = joint.map(|kind| self.model.add_joint(Joint { declared: declared(name), kind }));
                 self.joints.push(id);
             }
         }
     }
 
-    fn joint_kind(
-        &mut self,
-        name: &Name,
-        kind: &Name,
-        arguments: &[Expr],
-        span: Span,
-    ) -> Option<JointKind> {
+    fn joint_kind(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
         let joint = match (kind.text.as_str(), arguments) {
             ("revolute", [p, q]) => {
                 let (p, q) = self.two_points(p, q)?;
@@ -103,10 +73,7 @@ impl Checker<'_> {
                 return None;
             }
             (word, _) if LATER_JOINTS.contains(&word) => {
-                self.report(errors::not_available(
-                    &format!("the joint `{word}`"),
-                    kind.span,
-                ));
+                self.report(errors::not_available(&format!("the joint `{word}`"), kind.span));
                 return None;
             }
             _ => {
@@ -123,11 +90,7 @@ impl Checker<'_> {
         let frames = joint.frames(&self.model);
         if frames[0] == frames[1] {
             let frame = self.model.frame_name(frames[0]).to_owned();
-            self.report(errors::joint_with_itself(
-                name,
-                &frame,
-                [arguments[0].span, arguments[1].span],
-            ));
+            self.report(errors::joint_with_itself(name, &frame, [arguments[0].span, arguments[1].span]));
             return None;
         }
         Some(joint)
@@ -147,22 +110,14 @@ impl Checker<'_> {
         let mut values = vec![None; self.measures.len()];
         for &k in order {
             let judged = self.measures[k].dimensional;
-            let context = Context {
-                judged,
-                time: true,
-                quantities: true,
-                measures: true,
-                ..Context::constant("a measure")
-            };
+            let context =
+                Context { judged, time: true, quantities: true, measures: true, ..Context::constant("a measure") };
             values[k] = self.formula(self.measures[k].value, &context);
             self.measures[k].sound = values[k].is_some();
         }
         for (state, value) in self.measures.iter().zip(values) {
             if let Some(value) = value {
-                let measure = Measure {
-                    declared: declared(state.name),
-                    value: value.id,
-                };
+                let measure = Measure { declared: declared(state.name), value: value.id };
                 self.model.measures.push(measure);
             }
         }
@@ -170,20 +125,10 @@ impl Checker<'_> {
 
     pub(super) fn equations(&mut self) {
         for item in self.items() {
-            if let ItemKind::Equation {
-                driver,
-                name,
-                left,
-                right,
-            } = &item.kind
-            {
+            if let ItemKind::Equation { driver, name, left, right } = &item.kind {
                 let form = self.equation(*driver, name, [left, right]);
                 if let Some(form) = form {
-                    let equation = Equation {
-                        declared: declared(name),
-                        driver: *driver,
-                        form,
-                    };
+                    let equation = Equation { declared: declared(name), driver: *driver, form };
                     self.model.equations.push(equation);
                 }
             }
@@ -213,12 +158,7 @@ impl Checker<'_> {
             condition.owner.clone_from(&name.text);
         }
         let (a, b) = (a?, b?);
-        self.alike(
-            "the two sides are",
-            (left.span, a.dim),
-            (right.span, b.dim),
-            &context,
-        )?;
+        self.alike("the two sides are", (left.span, a.dim), (right.span, b.dim), &context)?;
         if !self.a_body_moves([a.id, b.id]) {
             self.report(errors::nobody_moves(name, left.span.to(right.span)));
             return None;
@@ -270,21 +210,17 @@ impl Checker<'_> {
     }
 
     fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
-        self.quantities_in(ids).into_iter().any(|quantity| {
-            self.frames_of(quantity)
-                .iter()
-                .any(|&frame| frame != Frame::Ground)
-        })
+        self.quantities_in(ids)
+            .into_iter()
+            .any(|quantity| self.frames_of(quantity).iter().any(|&frame| frame != Frame::Ground))
     }
 
     fn as_distance(&self, written: &Expr, id: ExprId) -> Option<(PointId, PointId)> {
         match &written.bare().kind {
-            ExprKind::Call { name, .. } if name.text == "distance" => {
-                match self.quantities_in([id, id]).first() {
-                    Some(&Quantity::Distance(p, q)) => Some((p, q)),
-                    _ => None,
-                }
-            }
+            ExprKind::Call { name, .. } if name.text == "distance" => match self.quantities_in([id, id]).first() {
+                Some(&Quantity::Distance(p, q)) => Some((p, q)),
+                _ => None,
+            },
             _ => None,
         }
     }
@@ -313,12 +249,7 @@ impl Checker<'_> {
             self.report(errors::ends_before_start(to.span, start, end));
             return;
         }
-        self.model.analysis = Some(Analysis {
-            from: start,
-            to: end,
-            every: step,
-            span,
-        });
+        self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
     }
 }
 

@@ -24,12 +24,9 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
         [] => format!("`{owner}` has none"),
         _ => format!("`{owner}` has {}", list(known)),
     };
-    Diagnostic::new(
-        Code::E0201,
-        format!("`{owner}` has no {what} `{}`", name.text),
-    )
-    .at(name.span, "not declared there")
-    .help_if(meant(&name.text, known).or(Some(listed)))
+    Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
+        .at(name.span, "not declared there")
+        .help_if(meant(&name.text, known).or(Some(listed)))
 }
 
 pub fn unknown_function(name: &Name, own: &[&str]) -> Diagnostic {
@@ -78,12 +75,9 @@ pub fn reserved(name: &Name) -> Diagnostic {
         n if QUANTITIES.contains(&n) => "a kinematic quantity",
         _ => "a function of the language",
     };
-    Diagnostic::new(
-        Code::E0204,
-        format!("`{}` cannot be declared: it is {what}", name.text),
-    )
-    .at(name.span, "reserved")
-    .help(format!("choose a longer name, `{}_1` say", name.text))
+    Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
+        .at(name.span, "reserved")
+        .help(format!("choose a longer name, `{}_1` say", name.text))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
@@ -94,43 +88,32 @@ pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
 }
 
 pub fn second_mechanism(name: &Name, first: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0205,
-        format!("there are two mechanisms `{}`", name.text),
-    )
-    .at(name.span, "the second one")
-    .also(first, "the first one")
-    .help("give one of them another name")
+    Diagnostic::new(Code::E0205, format!("there are two mechanisms `{}`", name.text))
+        .at(name.span, "the second one")
+        .also(first, "the first one")
+        .help("give one of them another name")
 }
 
 pub fn circle(names: &[&Name]) -> Diagnostic {
     let first = names[0];
-    let mut chain: Vec<String> = names
-        .iter()
-        .map(|name| format!("`{}`", name.text))
-        .collect();
+    let mut chain: Vec<String> = names.iter().map(|name| format!("`{}`", name.text)).collect();
     chain.push(format!("`{}`", first.text));
     let message = match names {
         [only] => format!("`{}` is defined by itself", only.text),
         _ => format!("definitions go in a circle: {}", chain.join(" needs ")),
     };
-    names[1..].iter().fold(
-        Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"),
-        |diagnostic, name| diagnostic.also(name.span, "on the circle"),
-    )
+    names[1..]
+        .iter()
+        .fold(Diagnostic::new(Code::E0206, message).at(first.span, "needs its own value"), |diagnostic, name| {
+            diagnostic.also(name.span, "on the circle")
+        })
 }
 
 pub fn hidden_name(argument: &Name, declared: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0207,
-        format!(
-            "the argument `{}` hides a name of the mechanism",
-            argument.text
-        ),
-    )
-    .at(argument.span, "this argument")
-    .also(declared, "declared here")
-    .help("rename the argument; `u` is usual")
+    Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
+        .at(argument.span, "this argument")
+        .also(declared, "declared here")
+        .help("rename the argument; `u` is usual")
 }
 
 pub fn not_available(what: &str, span: Span) -> Diagnostic {
@@ -145,12 +128,9 @@ pub fn not_available(what: &str, span: Span) -> Diagnostic {
 // ---- kinds and arguments
 
 pub fn argument_count(what: &str, span: Span, wanted: &str, found: usize) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0301,
-        format!("`{what}` takes {wanted}, found {found}"),
-    )
-    .at(span, format!("found {found}"))
-    .help_if(signature(what).map(|form| format!("it is written {form}")))
+    Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
+        .at(span, format!("found {found}"))
+        .help_if(signature(what).map(|form| format!("it is written {form}")))
 }
 
 /// How a joint, quantity or function is called.
@@ -160,17 +140,13 @@ pub fn signature(what: &str) -> Option<&'static str> {
         "translational" => "`translational(a, b)`, a and b axes",
         "weld" => "`weld(P, Q)` or `weld(P, Q, angle)`",
         "revolute_revolute" => "`revolute_revolute(P, Q, length)`",
-        "revolute_translational" => {
-            "`revolute_translational(P, a)` or `revolute_translational(P, a, offset)`"
-        }
+        "revolute_translational" => "`revolute_translational(P, a)` or `revolute_translational(P, a, offset)`",
         "x" | "y" => "`x(P)` or `x(P, Q)`",
         "angle" => "`angle(b)`, `angle(b, c)`, `angle(b.u)` or `angle(b.u, c.v)`",
         "distance" => "`distance(P, Q)`",
         "rotation" => "`rotation(joint)` or `rotation(joint, b.u, c.v)`",
         "displacement" => "`displacement(joint)`",
-        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => {
-            "`step(u, u0, v0, u1, v1)`"
-        }
+        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => "`step(u, u0, v0, u1, v1)`",
         "poly" => "`poly(u, u0, c0, c1, …)`",
         "point" => "`point P = (x, y)`",
         "at" => "`at (x, y, phi)`",
@@ -180,124 +156,81 @@ pub fn signature(what: &str) -> Option<&'static str> {
 }
 
 pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
-    Diagnostic::new(Code::E0302, format!("expected {wanted}, found {found}"))
-        .at(span, format!("this is {found}"))
+    Diagnostic::new(Code::E0302, format!("expected {wanted}, found {found}")).at(span, format!("this is {found}"))
 }
 
 pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0302,
-        format!("`{}` is {}, and cannot be called", name.text, entity.noun()),
-    )
-    .at(name.span, "called here")
-    .help("a product is written with `*`")
+    Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
+        .at(name.span, "called here")
+        .help("a product is written with `*`")
 }
 
 pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0303,
-        format!("joint `{}` joins `{frame}` with itself", joint.text),
-    )
-    .at(spans[1], format!("this is on `{frame}` too"))
-    .also(spans[0], format!("on `{frame}`"))
-    .help("a joint needs features of two different bodies, or of a body and the ground")
+    Diagnostic::new(Code::E0303, format!("joint `{}` joins `{frame}` with itself", joint.text))
+        .at(spans[1], format!("this is on `{frame}` too"))
+        .also(spans[0], format!("on `{frame}`"))
+        .help("a joint needs features of two different bodies, or of a body and the ground")
 }
 
-pub fn joint_without(
-    quantity: &str,
-    wanted: &str,
-    joint: &str,
-    kind: &str,
-    span: Span,
-    declared: Span,
-) -> Diagnostic {
+pub fn joint_without(quantity: &str, wanted: &str, joint: &str, kind: &str, span: Span, declared: Span) -> Diagnostic {
     let other = match kind {
         "revolute" => Some(format!("was `rotation({joint})` meant?")),
         "translational" => Some(format!("was `displacement({joint})` meant?")),
         _ => None,
     };
-    Diagnostic::new(
-        Code::E0304,
-        format!("`{quantity}` is of {wanted} joints; `{joint}` is {kind}"),
-    )
-    .at(span, format!("a {kind} joint"))
-    .also(declared, "declared here")
-    .help_if(other)
+    Diagnostic::new(Code::E0304, format!("`{quantity}` is of {wanted} joints; `{joint}` is {kind}"))
+        .at(span, format!("a {kind} joint"))
+        .also(declared, "declared here")
+        .help_if(other)
 }
 
 pub fn axes_elsewhere(joint: &str, axis: &str, span: Span, wanted: &str) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0305,
-        format!("axis `{axis}` is not on `{wanted}`, which joint `{joint}` asks for here"),
-    )
-    .at(span, format!("an axis of `{wanted}` is wanted"))
-    .help(format!(
-        "the first axis is of the first body of `{joint}`, the second of its second"
-    ))
+    Diagnostic::new(Code::E0305, format!("axis `{axis}` is not on `{wanted}`, which joint `{joint}` asks for here"))
+        .at(span, format!("an axis of `{wanted}` is wanted"))
+        .help(format!("the first axis is of the first body of `{joint}`, the second of its second"))
 }
 
 pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagnostic {
     let diagnostic = match through {
-        None => Diagnostic::new(Code::E0306, format!("time `t` may not stand in {place}"))
-            .at(span, "depends on time"),
-        Some((function, at)) => Diagnostic::new(
-            Code::E0306,
-            format!("`{function}` depends on time, which may not stand in {place}"),
-        )
-        .at(span, "brings time in")
-        .also(at, "`t` is used here"),
+        None => Diagnostic::new(Code::E0306, format!("time `t` may not stand in {place}")).at(span, "depends on time"),
+        Some((function, at)) => {
+            Diagnostic::new(Code::E0306, format!("`{function}` depends on time, which may not stand in {place}"))
+                .at(span, "brings time in")
+                .also(at, "`t` is used here")
+        }
     };
-    if place == "a constraint" {
-        diagnostic.help("an equation that holds time is a `driver`")
-    } else {
-        diagnostic
-    }
+    if place == "a constraint" { diagnostic.help("an equation that holds time is a `driver`") } else { diagnostic }
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0307,
-        format!("the kinematic quantity `{name}` may not stand in {place}"),
-    )
-    .at(span, "depends on the motion")
-    .help("kinematic quantities stand in constraints, drivers and measures")
+    Diagnostic::new(Code::E0307, format!("the kinematic quantity `{name}` may not stand in {place}"))
+        .at(span, "depends on the motion")
+        .help("kinematic quantities stand in constraints, drivers and measures")
 }
 
 pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
     let what = if driver { "driver" } else { "constraint" };
-    Diagnostic::new(
-        Code::E0308,
-        format!("{what} `{}` holds no kinematic quantity", name.text),
-    )
-    .at(span, "an equation about no body")
-    .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
+    Diagnostic::new(Code::E0308, format!("{what} `{}` holds no kinematic quantity", name.text))
+        .at(span, "an equation about no body")
+        .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
 }
 
 pub fn nobody_moves(name: &Name, span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0311,
-        format!("no body takes part in the equation `{}`", name.text),
-    )
-    .at(span, "all of this is fixed to the ground")
-    .help("an equation needs a point, axis or angle of a body")
+    Diagnostic::new(Code::E0311, format!("no body takes part in the equation `{}`", name.text))
+        .at(span, "all of this is fixed to the ground")
+        .help("an equation needs a point, axis or angle of a body")
 }
 
 pub fn condition_as_number(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0309,
-        "a condition cannot stand where a number is wanted",
-    )
-    .at(span, "true or false")
-    .help("choose a number by it: `if … then 1 else 0`")
+    Diagnostic::new(Code::E0309, "a condition cannot stand where a number is wanted")
+        .at(span, "true or false")
+        .help("choose a number by it: `if … then 1 else 0`")
 }
 
 pub fn number_as_condition(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0309,
-        "a number cannot stand where a condition is wanted",
-    )
-    .at(span, "expected a comparison")
-    .help("compare it: `… > 0`")
+    Diagnostic::new(Code::E0309, "a number cannot stand where a condition is wanted")
+        .at(span, "expected a comparison")
+        .help("compare it: `… > 0`")
 }
 
 pub fn derivative_in(place: &str, span: Span) -> Diagnostic {
@@ -330,17 +263,10 @@ pub fn unlike(what: &str, first: Part, second: Part) -> Diagnostic {
             other.dimension.in_words()
         )
     });
-    Diagnostic::new(
-        Code::E0401,
-        format!(
-            "{what} {} and {}",
-            first.dimension.in_words(),
-            second.dimension.in_words()
-        ),
-    )
-    .at(second.span, second.dimension.in_words())
-    .also(first.span, first.dimension.in_words())
-    .help_if(help)
+    Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
+        .at(second.span, second.dimension.in_words())
+        .also(first.span, first.dimension.in_words())
+        .help_if(help)
 }
 
 pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnostic {
@@ -354,102 +280,58 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnosti
         }
     };
     let help = if wanted.is(Dimension::PURE) {
-        Some(format!(
-            "divide it by {} to get a pure number",
-            one(found.dimension)
-        ))
+        Some(format!("divide it by {} to get a pure number", one(found.dimension)))
     } else {
-        units(wanted).map(|units| {
-            format!(
-                "units of {}: {units}",
-                wanted.in_words().trim_start_matches("a ")
-            )
-        })
+        units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
     };
-    Diagnostic::new(
-        Code::E0402,
-        format!(
-            "{place} must be {}, found {}",
-            wanted.in_words(),
-            found.dimension.in_words()
-        ),
-    )
-    .at(found.span, found.dimension.in_words())
-    .help_if(help)
+    Diagnostic::new(Code::E0402, format!("{place} must be {}, found {}", wanted.in_words(), found.dimension.in_words()))
+        .at(found.span, found.dimension.in_words())
+        .help_if(help)
 }
 
 /// `1 s`, `1 m`, `1 m/s`.
 fn one(dimension: Dimension) -> String {
     let unit = dimension.unit();
-    if unit.starts_with('1') {
-        format!("`{unit}`")
-    } else {
-        format!("`1 {unit}`")
-    }
+    if unit.starts_with('1') { format!("`{unit}`") } else { format!("`1 {unit}`") }
 }
 
 pub fn exponent(span: Span, base: Part) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0403,
-        format!(
-            "{} takes a constant exponent only",
-            base.dimension.in_words()
-        ),
-    )
-    .at(span, "not constant")
-    .also(base.span, base.dimension.in_words())
-    .help("divide the base by a unit first")
+    Diagnostic::new(Code::E0403, format!("{} takes a constant exponent only", base.dimension.in_words()))
+        .at(span, "not constant")
+        .also(base.span, base.dimension.in_words())
+        .help("divide the base by a unit first")
 }
 
 pub fn not_finite(span: Span, value: f64) -> Diagnostic {
-    let what = if value.is_nan() {
-        "not a number"
-    } else {
-        "infinite"
-    };
+    let what = if value.is_nan() { "not a number" } else { "infinite" };
     Diagnostic::new(Code::E0404, format!("this constant is {what}")).at(span, what)
 }
 
 pub fn zero_direction(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0405,
-        "an axis needs a direction, and this one has length zero",
-    )
-    .at(span, "no direction")
-    .help("`along (1, 0)` is the direction of x, `along (0, 1)` that of y")
+    Diagnostic::new(Code::E0405, "an axis needs a direction, and this one has length zero")
+        .at(span, "no direction")
+        .help("`along (1, 0)` is the direction of x, `along (0, 1)` that of y")
 }
 
 pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0406,
-        format!("{what} must be positive, it is {value} m"),
-    )
-    .at(span, format!("{value} m"))
+    Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value} m")).at(span, format!("{value} m"))
 }
 
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0407,
-        format!("the analysis needs a positive step, it is {value} s"),
-    )
-    .at(span, format!("{value} s"))
+    Diagnostic::new(Code::E0407, format!("the analysis needs a positive step, it is {value} s"))
+        .at(span, format!("{value} s"))
 }
 
 pub fn ends_before_start(span: Span, from: f64, to: f64) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0408,
-        format!("the analysis ends at {to} s, before its start at {from} s"),
-    )
-    .at(span, "the end")
-    .help(format!("`from {to} s to {from} s`"))
+    Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
+        .at(span, "the end")
+        .help(format!("`from {to} s to {from} s`"))
 }
 
 pub fn empty_interval(function: &str, span: Span, from: f64, to: f64) -> Diagnostic {
     Diagnostic::new(
         Code::E0409,
-        format!(
-            "`{function}` needs an interval that goes forward, this one is from {from} to {to}"
-        ),
+        format!("`{function}` needs an interval that goes forward, this one is from {from} to {to}"),
     )
     .at(span, "the end of the interval")
     .help("the arguments are `(u, u0, v0, u1, v1)`, with `u0 < u1`")
@@ -462,25 +344,17 @@ pub fn too_large(span: Span) -> Diagnostic {
 }
 
 pub fn degrees(span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(
-        Code::W0401,
-        format!("{value} rad is more than a turn; degrees were probably meant"),
-    )
-    .at(span, "a bare number is in radians")
-    .help(format!(
-        "write `{value} deg`, or `{value} rad` if radians are meant"
-    ))
+    Diagnostic::new(Code::W0401, format!("{value} rad is more than a turn; degrees were probably meant"))
+        .at(span, "a bare number is in radians")
+        .help(format!("write `{value} deg`, or `{value} rad` if radians are meant"))
 }
 
 // ---- the whole
 
 pub fn empty(name: &Name) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0501,
-        format!("mechanism `{}` has no body that could move", name.text),
-    )
-    .at(name.span, "empty")
-    .help("declare a body: `body crank at (0, 0, 0) { … }`")
+    Diagnostic::new(Code::E0501, format!("mechanism `{}` has no body that could move", name.text))
+        .at(name.span, "empty")
+        .help("declare a body: `body crank at (0, 0, 0) { … }`")
 }
 
 /// `a`, `b` and `c`.

@@ -36,9 +36,7 @@ impl Checker<'_> {
         for item in self.items() {
             match &item.kind {
                 ItemKind::Ground { features } => frames.push((Frame::Ground, features)),
-                ItemKind::Body { name, features, .. } => {
-                    frames.push((self.add_body(item, name), features))
-                }
+                ItemKind::Body { name, features, .. } => frames.push((self.add_body(item, name), features)),
                 _ => {}
             }
         }
@@ -63,11 +61,7 @@ impl Checker<'_> {
 
     fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
         let zero = self.model.graph.constant(0.0);
-        let id = self.model.add_body(Body {
-            declared: declared(name),
-            docs: item.docs.clone(),
-            pose: [zero; 3],
-        });
+        let id = self.model.add_body(Body { declared: declared(name), docs: item.docs.clone(), pose: [zero; 3] });
         self.bodies.push(id);
         self.features.insert(Frame::Body(id), Space::new());
         Frame::Body(id)
@@ -81,17 +75,12 @@ impl Checker<'_> {
                 FeatureKind::Circle { .. } => Feature::Circle,
                 FeatureKind::Curve { .. } => Feature::Curve,
             };
-            let first = self
-                .features
-                .get_mut(&frame)
-                .and_then(|space| space.declare(&feature.name, entity).err());
+            let first = self.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {
                 self.report(errors::declared_twice(&feature.name, first));
             }
             match entity {
-                Feature::Circle => {
-                    self.report(errors::not_available("`circle`", feature.name.span))
-                }
+                Feature::Circle => self.report(errors::not_available("`circle`", feature.name.span)),
                 Feature::Curve => self.report(errors::not_available("`curve`", feature.name.span)),
                 _ => {}
             }
@@ -105,12 +94,7 @@ impl Checker<'_> {
             };
             let point = self.pair(at, "point", "a point").map(|at| {
                 let name = Some(feature.name.text.clone());
-                self.model.add_point(Point {
-                    frame,
-                    name,
-                    span: feature.name.span,
-                    at,
-                })
+                self.model.add_point(Point { frame, name, span: feature.name.span, at })
             });
             self.settle(frame, &feature.name, Feature::Point(point));
         }
@@ -129,21 +113,14 @@ impl Checker<'_> {
                     from.zip(to).and_then(|(from, to)| {
                         let (p, q) = (self.model[from].at, self.model[to].at);
                         let direction = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
-                        self.not_zero(direction, origin.span.to(target.span))
-                            .map(|direction| (from, direction))
+                        self.not_zero(direction, origin.span.to(target.span)).map(|direction| (from, direction))
                     })
                 }
                 _ => continue,
             };
             let axis = ends.map(|(origin, direction)| {
                 let name = feature.name.text.clone();
-                self.model.add_axis(Axis {
-                    frame,
-                    name,
-                    span: feature.name.span,
-                    origin,
-                    direction,
-                })
+                self.model.add_axis(Axis { frame, name, span: feature.name.span, origin, direction })
             });
             self.settle(frame, &feature.name, Feature::Axis(axis));
         }
@@ -164,23 +141,13 @@ impl Checker<'_> {
             return None;
         };
         let [dx, dy] = parts.as_slice() else {
-            self.report(errors::argument_count(
-                "along",
-                e.span,
-                "two numbers",
-                parts.len(),
-            ));
+            self.report(errors::argument_count("along", e.span, "two numbers", parts.len()));
             return None;
         };
         let context = self.pair_context([dx, dy], "a direction");
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
-        self.alike(
-            "the two parts of the direction are",
-            (dx.span, x.dim),
-            (dy.span, y.dim),
-            &context,
-        )?;
+        self.alike("the two parts of the direction are", (dx.span, x.dim), (dy.span, y.dim), &context)?;
         self.not_zero([x.id, y.id], e.span)
     }
 
@@ -195,10 +162,7 @@ impl Checker<'_> {
 
     fn pair_context(&self, parts: [&Expr; 2], place: &'static str) -> Context<'static> {
         let judged = parts.iter().any(|part| self.is_dimensional(part));
-        Context {
-            judged,
-            ..Context::constant(place)
-        }
+        Context { judged, ..Context::constant(place) }
     }
 
     /// Two lengths, judged together.
@@ -207,20 +171,9 @@ impl Checker<'_> {
         let values = parts.map(|part| self.formula(part, &context));
         let [x, y] = values;
         let (x, y) = (x?, y?);
-        self.alike(
-            "the two lengths are",
-            (parts[0].span, x.dim),
-            (parts[1].span, y.dim),
-            &context,
-        )?;
+        self.alike("the two lengths are", (parts[0].span, x.dim), (parts[1].span, y.dim), &context)?;
         for (part, value) in parts.into_iter().zip([x, y]) {
-            self.demand(
-                "a coordinate",
-                Dimension::LENGTH,
-                part.span,
-                value.dim,
-                &context,
-            )?;
+            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, &context)?;
         }
         Some([x.id, y.id])
     }
@@ -231,12 +184,7 @@ impl Checker<'_> {
             ExprKind::Tuple(parts) => match parts.as_slice() {
                 [x, y] => self.lengths([x, y], place),
                 _ => {
-                    self.report(errors::argument_count(
-                        what,
-                        e.span,
-                        "two lengths",
-                        parts.len(),
-                    ));
+                    self.report(errors::argument_count(what, e.span, "two lengths", parts.len()));
                     None
                 }
             },
@@ -258,12 +206,7 @@ impl Checker<'_> {
         };
         let [x, y, phi] = parts else {
             let found = if parts.is_empty() { 1 } else { parts.len() };
-            self.report(errors::argument_count(
-                "at",
-                e.span,
-                "two lengths and an angle",
-                found,
-            ));
+            self.report(errors::argument_count("at", e.span, "two lengths and an angle", found));
             return;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");
@@ -295,12 +238,7 @@ impl Checker<'_> {
             ExprKind::Name(name) => self.point_named(frame, name),
             _ => {
                 let at = self.pair(e, "point", "a point")?;
-                Some(self.model.add_point(Point {
-                    frame,
-                    name: None,
-                    span: e.span,
-                    at,
-                }))
+                Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
             }
         }
     }
@@ -325,9 +263,7 @@ impl Checker<'_> {
     }
 
     fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
-        match self.feature(frame, name, "point", |feature| {
-            matches!(feature, Feature::Point(_))
-        })? {
+        match self.feature(frame, name, "point", |feature| matches!(feature, Feature::Point(_)))? {
             Feature::Point(point) => point,
             other => {
                 self.wrong_kind(name.span, "a point", other.noun());
@@ -341,9 +277,7 @@ impl Checker<'_> {
         match &e.kind {
             ExprKind::Member { owner, feature } => {
                 let frame = self.body(owner)?;
-                match self.feature(frame, feature, "axis", |feature| {
-                    matches!(feature, Feature::Axis(_))
-                })? {
+                match self.feature(frame, feature, "axis", |feature| matches!(feature, Feature::Axis(_)))? {
                     Feature::Axis(axis) => axis,
                     other => {
                         self.wrong_kind(feature.span, "an axis", other.noun());
@@ -367,11 +301,7 @@ impl Checker<'_> {
         let wanted = if what == "axis" { "an axis" } else { "a point" };
         let owners: Vec<String> = std::iter::once(Frame::Ground)
             .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
-            .filter(|frame| {
-                self.features
-                    .get(frame)
-                    .is_some_and(|space| space.get(&name.text).is_some())
-            })
+            .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
             .collect();
         let help = match (owners.is_empty(), self.space.get(&name.text)) {
@@ -386,13 +316,7 @@ impl Checker<'_> {
         self.report(errors::wrong_kind(name.span, wanted, &found).help(help));
     }
 
-    fn feature(
-        &mut self,
-        frame: Frame,
-        name: &Name,
-        what: &str,
-        wanted: impl Fn(Feature) -> bool,
-    ) -> Option<Feature> {
+    fn feature(&mut self, frame: Frame, name: &Name, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<Feature> {
         let space = self.features.get(&frame)?;
         if let Some(feature) = space.get(&name.text) {
             return Some(feature);
@@ -410,12 +334,7 @@ impl Checker<'_> {
             Some(Entity::Body(k)) if k < self.bodies.len() => Frame::Body(self.bodies[k]),
             _ => return "a feature of a body".to_owned(),
         };
-        let found = self
-            .features
-            .get(&frame)
-            .and_then(|space| space.get(&feature.text));
-        found
-            .map_or("a feature of a body", Feature::noun)
-            .to_owned()
+        let found = self.features.get(&frame).and_then(|space| space.get(&feature.text));
+        found.map_or("a feature of a body", Feature::noun).to_owned()
     }
 }

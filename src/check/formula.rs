@@ -73,15 +73,7 @@ pub(super) struct Context<'c> {
 impl<'c> Context<'c> {
     /// A constant over params and functions.
     pub fn constant(place: &'c str) -> Context<'c> {
-        Context {
-            place,
-            judged: false,
-            time: false,
-            quantities: false,
-            measures: false,
-            names: true,
-            argument: None,
-        }
+        Context { place, judged: false, time: false, quantities: false, measures: false, names: true, argument: None }
     }
 }
 
@@ -101,14 +93,9 @@ impl Checker<'_> {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             let holds = match &e.kind {
-                ExprKind::Literal {
-                    unit: Some((name, _)),
-                    ..
-                } => self.is_dimensional_name(name),
+                ExprKind::Literal { unit: Some((name, _)), .. } => self.is_dimensional_name(name),
                 ExprKind::Name(name) => self.is_dimensional_name(name),
-                ExprKind::Call { name, .. } if !names::is_builtin(&name.text) => {
-                    self.is_dimensional_name(name)
-                }
+                ExprKind::Call { name, .. } if !names::is_builtin(&name.text) => self.is_dimensional_name(name),
                 // a literal point says nothing about the formula around it
                 ExprKind::Tuple(_) => continue,
                 _ => false,
@@ -173,10 +160,7 @@ impl Checker<'_> {
             ExprKind::Call { name, arguments } => self.call(e, name, arguments, context),
             ExprKind::Negate(inner) => {
                 let inner = self.number(inner, context)?;
-                Some(Value {
-                    id: self.model.graph.neg(inner.id),
-                    dim: inner.dim,
-                })
+                Some(Value { id: self.model.graph.neg(inner.id), dim: inner.dim })
             }
             ExprKind::Sum(first, rest) => self.sum(first, rest, context),
             ExprKind::Product(first, rest) => self.product(first, rest, context),
@@ -210,38 +194,22 @@ impl Checker<'_> {
         }
     }
 
-    fn literal(
-        &mut self,
-        e: &Expr,
-        value: f64,
-        unit: Option<&(Name, i32)>,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn literal(&mut self, e: &Expr, value: f64, unit: Option<&(Name, i32)>, context: &Context<'_>) -> Option<Value> {
         if !value.is_finite() {
             self.report(errors::not_finite(e.span, value));
             return None;
         }
         let Some((name, power)) = unit else {
             let dim = if value == 0.0 { Dim::Any } else { Dim::PURE };
-            return Some(Value {
-                id: self.model.graph.constant(value),
-                dim,
-            });
+            return Some(Value { id: self.model.graph.constant(value), dim });
         };
         let Some(unit) = Unit::named(&name.text) else {
-            let is_argument = context
-                .argument
-                .is_some_and(|(argument, _)| argument == name.text);
-            let is_a_name = is_argument
-                || matches!(name.text.as_str(), "t" | "pi" | "tau")
-                || self.space.get(&name.text).is_some();
+            let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
+            let is_a_name =
+                is_argument || matches!(name.text.as_str(), "t" | "pi" | "tau") || self.space.get(&name.text).is_some();
             self.report(errors::not_a_unit(
                 name,
-                self.sources
-                    .text(e.span)
-                    .split_whitespace()
-                    .next()
-                    .unwrap_or("2"),
+                self.sources.text(e.span).split_whitespace().next().unwrap_or("2"),
                 is_a_name,
             ));
             return None;
@@ -251,10 +219,7 @@ impl Checker<'_> {
             self.report(errors::not_finite(e.span, si));
             return None;
         }
-        Some(Value {
-            id: self.model.graph.constant(si),
-            dim: Dim::Of(unit.dimension.to_the(f64::from(*power))),
-        })
+        Some(Value { id: self.model.graph.constant(si), dim: Dim::Of(unit.dimension.to_the(f64::from(*power))) })
     }
 
     fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
@@ -266,10 +231,7 @@ impl Checker<'_> {
         match name.text.as_str() {
             "t" if context.time => {
                 let id = self.model.graph.symbol(Symbol::Time);
-                return Some(Value {
-                    id,
-                    dim: Dim::Of(Dimension::TIME),
-                });
+                return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
             }
             "t" => {
                 self.report(errors::time_in(context.place, name.span, None));
@@ -281,22 +243,15 @@ impl Checker<'_> {
         }
         if let Some(unit) = Unit::named(&name.text) {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));
-            return Some(Value {
-                id,
-                dim: Dim::Of(unit.dimension),
-            });
+            return Some(Value { id, dim: Dim::Of(unit.dimension) });
         }
         match self.space.get(&name.text).filter(|_| context.names) {
             Some(Entity::Param(k)) => self.params[k],
-            Some(Entity::Measure(k)) if context.measures => {
-                self.measure_value(k, name.span, context)
-            }
+            Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) => {
                 self.report(
-                    errors::wrong_kind(name.span, "a number", "a measure").help(format!(
-                        "measures stand in other measures only, not in {}",
-                        context.place
-                    )),
+                    errors::wrong_kind(name.span, "a number", "a measure")
+                        .help(format!("measures stand in other measures only, not in {}", context.place)),
                 );
                 None
             }
@@ -312,6 +267,15 @@ impl Checker<'_> {
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
+        if name.text == "min" {
+            self.report(errors::not_a_unit(name, "", false));
+            return;
+        }
+        if names::is_builtin(&name.text) {
+            let help = format!("call it: `{}(…)`", name.text);
+            self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
+            return;
+        }
         let mut known: Vec<&str> = Vec::new();
         if context.names {
             known.extend(self.space.names(|entity| match entity {
@@ -322,30 +286,17 @@ impl Checker<'_> {
         }
         known.extend(context.argument.map(|(argument, _)| argument));
         known.extend(["t", "pi", "tau"]);
-        let what = if context.measures {
-            "parameter or measure"
-        } else {
-            "parameter"
-        };
+        let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown(what, name, &known);
         self.report(diagnostic);
     }
 
     fn pure(&mut self, value: f64) -> Value {
-        Value {
-            id: self.model.graph.constant(value),
-            dim: Dim::PURE,
-        }
+        Value { id: self.model.graph.constant(value), dim: Dim::PURE }
     }
 
     /// Both dimensions, which must be alike where dimensions count.
-    pub(super) fn alike(
-        &mut self,
-        what: &str,
-        a: (Span, Dim),
-        b: (Span, Dim),
-        context: &Context<'_>,
-    ) -> Option<Dim> {
+    pub(super) fn alike(&mut self, what: &str, a: (Span, Dim), b: (Span, Dim), context: &Context<'_>) -> Option<Dim> {
         match (a.1, b.1) {
             (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
                 let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
@@ -367,11 +318,7 @@ impl Checker<'_> {
     ) -> Option<()> {
         match found {
             Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
-                self.report(errors::wrong_dimension(
-                    place,
-                    wanted,
-                    Part { span, dimension },
-                ));
+                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }));
                 None
             }
             _ => Some(()),
@@ -386,32 +333,21 @@ impl Checker<'_> {
                 sum = None;
                 continue;
             };
-            let what = if *sign == Sign::Plus {
-                "this adds"
-            } else {
-                "this subtracts"
-            };
-            sum = self
-                .alike(what, (span, left.dim), (term.span, right.dim), context)
-                .map(|dim| {
-                    let id = match sign {
-                        Sign::Plus => self.model.graph.add(left.id, right.id),
-                        Sign::Minus => self.model.graph.sub(left.id, right.id),
-                    };
-                    Value { id, dim }
-                });
+            let what = if *sign == Sign::Plus { "this adds" } else { "this subtracts" };
+            sum = self.alike(what, (span, left.dim), (term.span, right.dim), context).map(|dim| {
+                let id = match sign {
+                    Sign::Plus => self.model.graph.add(left.id, right.id),
+                    Sign::Minus => self.model.graph.sub(left.id, right.id),
+                };
+                Value { id, dim }
+            });
             span = span.to(term.span);
             sum = sum.and_then(|value| self.finite(span, value));
         }
         sum
     }
 
-    fn product(
-        &mut self,
-        first: &Expr,
-        rest: &[(Factor, Expr)],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn product(&mut self, first: &Expr, rest: &[(Factor, Expr)], context: &Context<'_>) -> Option<Value> {
         let mut product = self.number(first, context);
         let mut span = first.span;
         for (factor, term) in rest {
@@ -421,14 +357,12 @@ impl Checker<'_> {
             };
             let graph = &mut self.model.graph;
             let value = match factor {
-                Factor::Times => Value {
-                    id: graph.mul(left.id, right.id),
-                    dim: left.dim.with(right.dim, Dimension::times),
-                },
-                Factor::Over => Value {
-                    id: graph.div(left.id, right.id),
-                    dim: left.dim.with(right.dim, Dimension::over),
-                },
+                Factor::Times => {
+                    Value { id: graph.mul(left.id, right.id), dim: left.dim.with(right.dim, Dimension::times) }
+                }
+                Factor::Over => {
+                    Value { id: graph.div(left.id, right.id), dim: left.dim.with(right.dim, Dimension::over) }
+                }
             };
             span = span.to(term.span);
             product = self.finite(span, value);
@@ -439,24 +373,12 @@ impl Checker<'_> {
     fn power(&mut self, base: &Expr, exponent: &Expr, context: &Context<'_>) -> Option<Value> {
         let (a, b) = (self.number(base, context), self.number(exponent, context));
         let (a, b) = (a?, b?);
-        self.demand(
-            "an exponent",
-            Dimension::PURE,
-            exponent.span,
-            b.dim,
-            context,
-        )?;
+        self.demand("an exponent", Dimension::PURE, exponent.span, b.dim, context)?;
         let id = self.model.graph.pow(a.id, b.id);
         let dim = match a.dim {
             Dim::Of(dimension) if context.judged && !dimension.is(Dimension::PURE) => {
                 let Some(power) = self.constant_value(b.id) else {
-                    self.report(errors::exponent(
-                        exponent.span,
-                        Part {
-                            span: base.span,
-                            dimension,
-                        },
-                    ));
+                    self.report(errors::exponent(exponent.span, Part { span: base.span, dimension }));
                     return None;
                 };
                 Dim::Of(dimension.to_the(power))
@@ -466,12 +388,7 @@ impl Checker<'_> {
         Some(Value { id, dim })
     }
 
-    fn choice(
-        &mut self,
-        arms: &[(Expr, Expr)],
-        otherwise: &Expr,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
         let outer = self.untaken;
         let mut decided = false;
         let mut parts = Vec::new();
@@ -489,16 +406,8 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim = self.alike(
-                "the branches are",
-                (value_span, value.dim),
-                (span, choice.dim),
-                context,
-            )?;
-            choice = Value {
-                id: self.model.graph.select(condition, value.id, choice.id),
-                dim,
-            };
+            let dim = self.alike("the branches are", (value_span, value.dim), (span, choice.dim), context)?;
+            choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }
         Some(choice)
@@ -512,10 +421,7 @@ impl Checker<'_> {
                 Some(self.model.graph.not(inner))
             }
             ExprKind::And(list) | ExprKind::Or(list) => {
-                let ids: Vec<Option<ExprId>> = list
-                    .iter()
-                    .map(|part| self.condition(part, context))
-                    .collect();
+                let ids: Vec<Option<ExprId>> = list.iter().map(|part| self.condition(part, context)).collect();
                 let mut ids = ids.into_iter();
                 let mut all = ids.next()??;
                 for id in ids {
@@ -529,12 +435,7 @@ impl Checker<'_> {
             ExprKind::Compare(a, comparison, b) => {
                 let (left, right) = (self.number(a, context), self.number(b, context));
                 let (left, right) = (left?, right?);
-                self.alike(
-                    "this compares",
-                    (a.span, left.dim),
-                    (b.span, right.dim),
-                    context,
-                )?;
+                self.alike("this compares", (a.span, left.dim), (b.span, right.dim), context)?;
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {
                     Comparison::Less => graph.compare(Relation::Less, x, y),
@@ -555,34 +456,19 @@ impl Checker<'_> {
         }
     }
 
-    fn call(
-        &mut self,
-        e: &Expr,
-        name: &Name,
-        arguments: &[Expr],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if names::is_builtin(&name.text) {
             return self.builtin(e, name, arguments, context);
         }
         match self.space.get(&name.text).filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {
-                    self.report(errors::argument_count(
-                        &name.text,
-                        e.span,
-                        "one argument",
-                        arguments.len(),
-                    ));
+                    self.report(errors::argument_count(&name.text, e.span, "one argument", arguments.len()));
                     return None;
                 };
                 let argument = self.number(argument, context)?;
                 if let Some(at) = self.functions[k].time.filter(|_| !context.time) {
-                    self.report(errors::time_in(
-                        context.place,
-                        e.span,
-                        Some((&name.text, at)),
-                    ));
+                    self.report(errors::time_in(context.place, e.span, Some((&name.text, at))));
                     return None;
                 }
                 self.function_value(k, argument, e.span, context)
@@ -594,10 +480,7 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let own: Vec<&str> = self
-                    .space
-                    .names(|entity| matches!(entity, Entity::Function(_)))
-                    .collect();
+                let own: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Function(_))).collect();
                 let diagnostic = errors::unknown_function(name, &own);
                 self.report(diagnostic);
                 None
@@ -606,22 +489,14 @@ impl Checker<'_> {
     }
 
     /// A function's formula where it is called, as if it stood there.
-    fn function_value(
-        &mut self,
-        at: usize,
-        argument: Value,
-        span: Span,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn function_value(&mut self, at: usize, argument: Value, span: Span, context: &Context<'_>) -> Option<Value> {
         let function = &self.functions[at];
         if !function.sound {
             return None;
         }
         let (formula, name) = (function.value, function.argument);
         let bits = match argument.dim {
-            Dim::Of(d) if context.judged => {
-                Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits()))
-            }
+            Dim::Of(d) if context.judged => Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits())),
             Dim::Any | Dim::Of(_) => None,
         };
         let key = Call {
@@ -647,30 +522,11 @@ impl Checker<'_> {
             return None;
         }
         let formula = self.measures[at].value;
-        let key = Call {
-            entity: Entity::Measure(at),
-            argument: None,
-            judged: context.judged,
-            untaken: self.untaken,
-        };
-        self.expand(
-            key,
-            formula,
-            span,
-            &Context {
-                argument: None,
-                ..*context
-            },
-        )
+        let key = Call { entity: Entity::Measure(at), argument: None, judged: context.judged, untaken: self.untaken };
+        self.expand(key, formula, span, &Context { argument: None, ..*context })
     }
 
-    fn expand(
-        &mut self,
-        key: Call,
-        formula: &Expr,
-        span: Span,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    fn expand(&mut self, key: Call, formula: &Expr, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&known) = self.calls.get(&key) {
             return known;
         }
@@ -700,12 +556,7 @@ impl Checker<'_> {
     }
 
     /// `der(e)`
-    pub(super) fn derivative(
-        &mut self,
-        e: &Expr,
-        argument: &Expr,
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    pub(super) fn derivative(&mut self, e: &Expr, argument: &Expr, context: &Context<'_>) -> Option<Value> {
         if !context.measures {
             self.report(errors::derivative_in(context.place, e.span));
             return None;
@@ -718,15 +569,9 @@ impl Checker<'_> {
         }
         let dim = inner.dim.map(|d| d.over(Dimension::TIME));
         if self.model.graph.dependence(inner.id).is_constant() {
-            return Some(Value {
-                id: self.model.graph.constant(0.0),
-                dim,
-            });
+            return Some(Value { id: self.model.graph.constant(0.0), dim });
         }
-        Some(Value {
-            id: self.name_symbol(Named::Derivative(inner.id), order),
-            dim,
-        })
+        Some(Value { id: self.name_symbol(Named::Derivative(inner.id), order), dim })
     }
 
     /// Whether a formula as written holds a kinematic quantity.
@@ -744,12 +589,7 @@ impl Checker<'_> {
     }
 
     /// A constant of a given dimension, judged on its own: its place in the graph and its value.
-    pub(super) fn constant(
-        &mut self,
-        e: &Expr,
-        place: &str,
-        wanted: Dimension,
-    ) -> Option<(ExprId, f64)> {
+    pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
         self.constant_in(e, place, wanted, judged)
     }
@@ -762,10 +602,7 @@ impl Checker<'_> {
         wanted: Dimension,
         judged: bool,
     ) -> Option<(ExprId, f64)> {
-        let context = Context {
-            judged,
-            ..Context::constant(place)
-        };
+        let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
         self.demand(place, wanted, e.span, value.dim, &context)?;
         let number = self.constant_value(value.id)?;

@@ -46,18 +46,10 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 
 /// The model of one mechanism, if it is sound, and all that is to be said of it.
 #[must_use]
-pub fn check(
-    tree: &ast::Mechanism,
-    settings: &[Setting],
-    sources: &Sources,
-) -> (Option<Mechanism>, Diagnostics) {
+pub fn check(tree: &ast::Mechanism, settings: &[Setting], sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
     let mut checker = Checker::new(tree, settings, sources);
     checker.run();
-    let Checker {
-        mut diagnostics,
-        model,
-        ..
-    } = checker;
+    let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.sort_by_place();
     let sound = !diagnostics.has_errors();
     (sound.then_some(model), diagnostics)
@@ -67,22 +59,9 @@ pub fn check(
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn constant(
-    formula: &Expr,
-    place: &str,
-    wanted: Dimension,
-    sources: &Sources,
-) -> Result<f64, Diagnostics> {
-    let nobody = Name {
-        text: String::new(),
-        span: formula.span,
-    };
-    let tree = ast::Mechanism {
-        docs: Vec::new(),
-        name: nobody,
-        span: formula.span,
-        items: Vec::new(),
-    };
+pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
+    let nobody = Name { text: String::new(), span: formula.span };
+    let tree = ast::Mechanism { docs: Vec::new(), name: nobody, span: formula.span, items: Vec::new() };
     let mut checker = Checker::new(&tree, &[], sources);
     match checker.constant(formula, place, wanted) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
@@ -181,7 +160,8 @@ impl<'a> Checker<'a> {
     /// Says something, with the place of the call through which it came up.
     fn report(&mut self, diagnostic: Diagnostic) {
         self.diagnostics.push(match self.callers.first() {
-            Some(&caller) => diagnostic.also(caller, "called here"),
+            // a formula is judged where it is called
+            Some(&caller) => diagnostic.raised_by(caller, "brought in here"),
             None => diagnostic,
         });
     }
@@ -210,30 +190,15 @@ impl<'a> Checker<'a> {
                     definitions.push((name, value));
                     self.params.push(None);
                 }
-                ItemKind::Function {
-                    name,
-                    argument,
-                    value,
-                } => {
+                ItemKind::Function { name, argument, value } => {
                     entities.push(Entity::Function(self.functions.len()));
                     definitions.push((name, value));
-                    self.functions.push(Function {
-                        argument,
-                        value,
-                        dimensional: false,
-                        time: None,
-                        sound: false,
-                    });
+                    self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
                 }
                 ItemKind::Measure { name, value } => {
                     entities.push(Entity::Measure(self.measures.len()));
                     definitions.push((name, value));
-                    self.measures.push(MeasureState {
-                        name,
-                        value,
-                        dimensional: false,
-                        sound: false,
-                    });
+                    self.measures.push(MeasureState { name, value, dimensional: false, sound: false });
                 }
                 _ => {}
             }
@@ -255,13 +220,8 @@ impl<'a> Checker<'a> {
         measures
     }
 
-    fn uses<'d>(
-        &self,
-        definitions: &[(&'d Name, &Expr)],
-        entities: &[Entity],
-    ) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
-        let position: FxHashMap<Entity, usize> =
-            entities.iter().enumerate().map(|(k, &e)| (e, k)).collect();
+    fn uses<'d>(&self, definitions: &[(&'d Name, &Expr)], entities: &[Entity]) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
+        let position: FxHashMap<Entity, usize> = entities.iter().enumerate().map(|(k, &e)| (e, k)).collect();
         let arguments: FxHashMap<usize, &str> = entities
             .iter()
             .enumerate()
@@ -292,44 +252,24 @@ impl<'a> Checker<'a> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
         let settings = self.settings;
-        let setting = settings
-            .iter()
-            .rev()
-            .find(|setting| setting.name == name.text);
+        let setting = settings.iter().rev().find(|setting| setting.name == name.text);
         let value = match setting {
             None => in_file,
             Some(setting) => {
-                let given = self.param_value(
-                    &setting.value,
-                    Context {
-                        names: false,
-                        ..context
-                    },
-                )?;
+                let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
                         let place = format!("the parameter `{}`", name.text);
-                        let part = errors::Part {
-                            span: setting.value.span,
-                            dimension: found,
-                        };
+                        let part = errors::Part { span: setting.value.span, dimension: found };
                         self.report(errors::wrong_dimension(&place, wanted, part));
                         return None;
                     }
-                    (Dim::Of(wanted), _) => Value {
-                        dim: Dim::Of(wanted),
-                        ..given
-                    },
+                    (Dim::Of(wanted), _) => Value { dim: Dim::Of(wanted), ..given },
                     (Dim::Any, _) => given,
                 }
             }
         };
-        if self
-            .model
-            .graph
-            .dependence(value.id)
-            .on(crate::expr::Dependence::PARAMS)
-        {
+        if self.model.graph.dependence(value.id).on(crate::expr::Dependence::PARAMS) {
             return Some(value);
         }
         let number = self.constant_value(value.id)?;
@@ -343,10 +283,7 @@ impl<'a> Checker<'a> {
                 Dim::Any => Dimension::PURE,
             },
         });
-        Some(Value {
-            id: self.model.graph.symbol(Symbol::Param(index)),
-            dim: value.dim,
-        })
+        Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
 
     fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {
@@ -376,13 +313,7 @@ impl<'a> Checker<'a> {
         let named = self.name_symbol(Named::Argument, 0);
         let context = Context {
             time: true,
-            argument: Some((
-                &argument.text,
-                Value {
-                    id: named,
-                    dim: Dim::Of(Dimension::PURE),
-                },
-            )),
+            argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
             ..Context::constant("a function")
         };
         let sound = self.formula(value, &context).is_some();
@@ -397,8 +328,7 @@ impl<'a> Checker<'a> {
                 Some(Entity::Function(k)) => self.functions[k].time.is_some(),
                 _ => false,
             };
-            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call)
-            {
+            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call) {
                 time = Some(name.span);
             }
         });
@@ -425,19 +355,14 @@ impl<'a> Checker<'a> {
             return None;
         }
         let params = &self.model.params;
-        self.model
-            .graph
-            .extend_values(&mut self.values, |symbol| match symbol {
-                Symbol::Param(k) => params[k as usize].value,
-                _ => f64::NAN,
-            });
+        self.model.graph.extend_values(&mut self.values, |symbol| match symbol {
+            Symbol::Param(k) => params[k as usize].value,
+            _ => f64::NAN,
+        });
         self.values.get(id.index()).copied()
     }
 }
 
 fn declared(name: &Name) -> Declared {
-    Declared {
-        name: name.text.clone(),
-        span: name.span,
-    }
+    Declared { name: name.text.clone(), span: name.span }
 }

@@ -76,10 +76,7 @@ pub(super) struct Space<T> {
 
 impl<T: Copy> Space<T> {
     pub fn new() -> Space<T> {
-        Space {
-            entries: FxHashMap::default(),
-            order: Vec::new(),
-        }
+        Space { entries: FxHashMap::default(), order: Vec::new() }
     }
 
     /// Declares a name, or gives the place where it already is.
@@ -109,10 +106,7 @@ impl<T: Copy> Space<T> {
 
     /// Names of the entities that `wanted` accepts, in order of declaration.
     pub fn names(&self, wanted: impl Fn(T) -> bool) -> impl Iterator<Item = &str> {
-        self.order
-            .iter()
-            .filter(move |name| self.get(name).is_some_and(&wanted))
-            .map(String::as_str)
+        self.order.iter().filter(move |name| self.get(name).is_some_and(&wanted)).map(String::as_str)
     }
 }
 
@@ -148,7 +142,9 @@ impl Checker<'_> {
             let callable = matches!(entity, Entity::Function(_) | Entity::Table);
             if is_taken(&name.text) || callable && is_builtin(&name.text) {
                 self.report(errors::reserved(name));
-            } else if let Err(first) = self.space.declare(name, entity) {
+            }
+            // declared all the same, so that its uses are not reported too
+            if let Err(first) = self.space.declare(name, entity) {
                 self.report(errors::declared_twice(name, first));
             }
         }
@@ -225,9 +221,7 @@ impl Checker<'_> {
                         let from = path.iter().position(|&(k, _)| k == used).unwrap_or(0);
                         let mut circle: Vec<usize> = path[from..].iter().map(|&(k, _)| k).collect();
                         // told from the definition that comes first in the text
-                        let first = (0..circle.len())
-                            .min_by_key(|&k| definitions[circle[k]].0.span)
-                            .unwrap_or(0);
+                        let first = (0..circle.len()).min_by_key(|&k| definitions[circle[k]].0.span).unwrap_or(0);
                         circle.rotate_left(first);
                         let names: Vec<&Name> = circle.iter().map(|&k| definitions[k].0).collect();
                         self.report(errors::circle(&names));

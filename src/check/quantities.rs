@@ -42,9 +42,7 @@ impl Checker<'_> {
             }
             ("rotation", [joint]) => Quantity::Rotation(self.joint_with("rotation", joint)?, None),
             ("rotation", [joint, u, v]) => self.rotation_between(joint, u, v)?,
-            ("displacement", [joint]) => {
-                Quantity::Displacement(self.joint_with("displacement", joint)?)
-            }
+            ("displacement", [joint]) => Quantity::Displacement(self.joint_with("displacement", joint)?),
             (what, _) => {
                 let wanted = match what {
                     "displacement" => "one argument, a joint",
@@ -53,12 +51,7 @@ impl Checker<'_> {
                     "angle" => "one body or axis, or two",
                     _ => "one point, or two",
                 };
-                self.report(errors::argument_count(
-                    what,
-                    e.span,
-                    wanted,
-                    arguments.len(),
-                ));
+                self.report(errors::argument_count(what, e.span, wanted, arguments.len()));
                 return None;
             }
         };
@@ -66,10 +59,7 @@ impl Checker<'_> {
             Quantity::Angle(..) | Quantity::Rotation(..) => Dim::PURE,
             _ => Dim::LENGTH,
         };
-        Some(Value {
-            id: self.name_symbol(Named::Quantity(quantity), 0),
-            dim,
-        })
+        Some(Value { id: self.name_symbol(Named::Quantity(quantity), 0), dim })
     }
 
     pub(super) fn two_points(&mut self, p: &Expr, q: &Expr) -> Option<(PointId, PointId)> {
@@ -99,10 +89,7 @@ impl Checker<'_> {
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
                 let wanted = self.model.frame_name(frame).to_owned();
-                let (joint, axis) = (
-                    self.model[joint].declared.name.clone(),
-                    self.model[axis].name.clone(),
-                );
+                let (joint, axis) = (self.model[joint].declared.name.clone(), self.model[axis].name.clone());
                 self.report(errors::axes_elsewhere(&joint, &axis, e.span, &wanted));
                 return None;
             }
@@ -124,10 +111,7 @@ impl Checker<'_> {
                 return None;
             }
             None => {
-                let known: Vec<&str> = self
-                    .space
-                    .names(|entity| matches!(entity, Entity::Joint(_)))
-                    .collect();
+                let known: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Joint(_))).collect();
                 let diagnostic = errors::unknown("joint", name, &known);
                 self.report(diagnostic);
                 return None;
@@ -136,23 +120,13 @@ impl Checker<'_> {
         let kind = self.model[joint].kind;
         let (fits, wanted) = match quantity {
             "rotation" => (matches!(kind, JointKind::Revolute(..)), "revolute"),
-            _ => (
-                matches!(kind, JointKind::Translational(..)),
-                "translational",
-            ),
+            _ => (matches!(kind, JointKind::Translational(..)), "translational"),
         };
         if fits {
             return Some(joint);
         }
         let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(
-            quantity,
-            wanted,
-            &declared.name,
-            kind.word(),
-            name.span,
-            declared.span,
-        ));
+        self.report(errors::joint_without(quantity, wanted, &declared.name, kind.word(), name.span, declared.span));
         None
     }
 
@@ -166,10 +140,7 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let mut known: Vec<&str> = self
-                    .space
-                    .names(|entity| matches!(entity, Entity::Body(_)))
-                    .collect();
+                let mut known: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Body(_))).collect();
                 known.push("ground");
                 let diagnostic = errors::unknown("body", name, &known);
                 self.report(diagnostic);
@@ -185,9 +156,7 @@ impl Checker<'_> {
             ExprKind::Tuple(_) => "a literal point",
             ExprKind::Member { .. } => "a feature of a body",
             ExprKind::Name(_) => "a name",
-            ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
-                "a condition"
-            }
+            ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => "a condition",
             _ => "a formula",
         }
     }

@@ -13,12 +13,7 @@ pub(super) struct Unit {
 }
 
 const fn unit(name: &'static str, numerator: f64, denominator: f64, dimension: Dimension) -> Unit {
-    Unit {
-        name,
-        numerator,
-        denominator,
-        dimension,
-    }
+    Unit { name, numerator, denominator, dimension }
 }
 
 const UNITS: &[Unit] = &[
@@ -55,11 +50,7 @@ impl Unit {
     /// `value` in this unit to a power, in SI.
     pub fn to_si(&self, value: f64, power: i32) -> f64 {
         (0..power.abs()).fold(value, |v, _| {
-            if power > 0 {
-                v * self.numerator / self.denominator
-            } else {
-                v * self.denominator / self.numerator
-            }
+            if power > 0 { v * self.numerator / self.denominator } else { v * self.denominator / self.numerator }
         })
     }
 }

@@ -32,15 +32,9 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", system.name);
     text += &structure::table(system);
     text += &format!("\n\nat t = {t} s\n  {moved}\n");
-    text += &format!(
-        "  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n"
-    );
+    text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
-        text += &format!(
-            "  {} = {}\n",
-            coordinate.name,
-            zmij::Buffer::new().format(q + 0.0)
-        );
+        text += &format!("  {} = {}\n", coordinate.name, zmij::Buffer::new().format(q + 0.0));
     }
     text
 }

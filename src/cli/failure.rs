@@ -41,24 +41,15 @@ impl From<Box<Diagnostic>> for Failure {
 
 /// The exit code of a command that ended with these.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    let Some(first) = diagnostics
-        .iter()
-        .find(|d| d.severity() == crate::diag::Severity::Error)
-    else {
+    let Some(first) = diagnostics.iter().find(|d| d.severity() == crate::diag::Severity::Error) else {
         return 0;
     };
     // what is wrong with an option is wrong usage, whatever it is
-    if first
-        .labels
-        .first()
-        .is_some_and(|label| sources.get(label.span.file).is_option)
-    {
+    if first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
         return USAGE;
     }
     match first.code {
-        Code::E0601 | Code::E0602 | Code::E0603 | Code::E0604 | Code::E0605 | Code::E0606 => {
-            ANALYSIS
-        }
+        Code::E0601 | Code::E0602 | Code::E0603 | Code::E0604 | Code::E0605 | Code::E0606 => ANALYSIS,
         Code::E0701 | Code::E0702 => FILES,
         Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
         _ => INPUT,

@@ -11,10 +11,7 @@ use std::path::{Path, PathBuf};
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
     let (shown, bytes) = if name == "-" {
         let mut bytes = Vec::new();
-        (
-            "<stdin>",
-            io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes),
-        )
+        ("<stdin>", io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
     } else {
         (name, fs::read(name))
     };
@@ -22,26 +19,18 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
     if bytes.len() > u32::MAX as usize {
         return Err(cannot_read(shown, &io::Error::other("it is larger than 4 GB")).into());
     }
-    String::from_utf8(bytes)
-        .map(|text| sources.add(shown, text))
-        .map_err(|error| {
-            let at = error.utf8_error().valid_up_to();
-            not_utf8(shown, error.as_bytes(), at, sources).into()
-        })
+    String::from_utf8(bytes).map(|text| sources.add(shown, text)).map_err(|error| {
+        let at = error.utf8_error().valid_up_to();
+        not_utf8(shown, error.as_bytes(), at, sources).into()
+    })
 }
 
 fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0701,
-        format!("cannot read `{name}`: {}", reason(error)),
-    )
+    Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error)))
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0702,
-        format!("cannot write `{name}`: {}", reason(error)),
-    )
+    Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", reason(error)))
 }
 
 /// The system's words, without its number.
@@ -49,9 +38,7 @@ fn reason(error: &io::Error) -> String {
     let text = error.to_string();
     let text = text.split(" (os error").next().unwrap_or(&text);
     let mut chars = text.chars();
-    chars.next().map_or(String::new(), |first| {
-        first.to_lowercase().chain(chars).collect()
-    })
+    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
 }
 
 /// Shows the text up to the byte that is not UTF-8.
@@ -59,11 +46,7 @@ fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagn
     let valid = String::from_utf8_lossy(&bytes[..at]).into_owned();
     let file = sources.add(name, valid);
     let end = sources.get(file).text.len() as u32;
-    let span = Span {
-        file,
-        start: end,
-        end,
-    };
+    let span = Span { file, start: end, end };
     let byte = bytes.get(at).copied().unwrap_or_default();
     Diagnostic::new(Code::E0102, format!("`{name}` is not UTF-8"))
         .at(span, format!("the byte {byte:#04x} follows here"))
@@ -115,10 +98,7 @@ impl Output {
         };
         let destination = destination.map_err(|error| cannot_write(name, &error))?;
         let name = if name == "-" { "standard output" } else { name };
-        Ok(Output {
-            name: name.to_owned(),
-            writer: BufWriter::with_capacity(1 << 16, destination),
-        })
+        Ok(Output { name: name.to_owned(), writer: BufWriter::with_capacity(1 << 16, destination) })
     }
 
     /// Whether it is standard output.
@@ -145,10 +125,9 @@ impl Output {
         }
         let name = self.name.clone();
         match self.writer.into_inner() {
-            Ok(Destination::File { temporary, path }) => temporary
-                .persist(path)
-                .map(|_| ())
-                .map_err(|error| cannot_write(&name, &error.error).into()),
+            Ok(Destination::File { temporary, path }) => {
+                temporary.persist(path).map(|_| ()).map_err(|error| cannot_write(&name, &error.error).into())
+            }
             Ok(Destination::Standard(_) | Destination::Device(_)) => Ok(()),
             Err(error) => Err(cannot_write(&name, error.error()).into()),
         }
@@ -175,10 +154,7 @@ impl Destination {
             _ => Path::new("."),
         };
         if !folder.is_dir() {
-            return Err(io::Error::other(format!(
-                "there is no folder `{}`",
-                folder.display()
-            )));
+            return Err(io::Error::other(format!("there is no folder `{}`", folder.display())));
         }
         let mut builder = tempfile::Builder::new();
         builder.prefix(".mechc-");

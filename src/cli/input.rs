@@ -6,10 +6,9 @@ use super::files;
 use super::report::Reporter;
 use crate::check::{self, Setting};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
-use crate::lower;
 use crate::model::Dimension;
 use crate::source::Sources;
-use crate::structure::{self, Determined};
+use crate::structure::Determined;
 use crate::syntax::{self, ast};
 
 /// Reads, checks, lowers and proves the mechanism of a command; prints its warnings.
@@ -22,53 +21,35 @@ pub(super) fn determined(input: &Input, reporter: &mut Reporter) -> Result<Deter
     }
     let mechanism = chosen(&tree, input)?;
     let settings = settings(&input.set, mechanism, &mut reporter.sources)?;
-    let (model, found) = check::check(mechanism, &settings, &reporter.sources);
+    let (determined, found) = crate::compile(mechanism, &settings, &reporter.sources);
     diagnostics.extend(found);
-    match model {
+    match determined {
         None => Err(diagnostics.into()),
-        Some(model) => {
+        Some(determined) => {
             reporter.print(&diagnostics);
-            Ok(structure::prove(lower::lower(&model))?)
+            Ok(determined)
         }
     }
 }
 
 fn chosen<'t>(tree: &'t ast::File, input: &Input) -> Result<&'t ast::Mechanism, Failure> {
-    let names: Vec<&str> = tree
-        .mechanisms
-        .iter()
-        .map(|mechanism| mechanism.name.text.as_str())
-        .collect();
+    let names: Vec<&str> = tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str()).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
     match (&input.mechanism, tree.mechanisms.as_slice()) {
         (None, [only]) => Ok(only),
-        (None, _) => Err(Diagnostic::new(
-            Code::E0704,
-            format!("`{}` holds {} mechanisms", input.file, names.len()),
-        )
-        .help(format!("choose one with `--mechanism NAME`; {listed}"))
-        .into()),
-        (Some(name), all) => all
-            .iter()
-            .find(|mechanism| mechanism.name.text == *name)
-            .ok_or_else(|| {
-                let meant =
-                    nearest(name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
-                Diagnostic::new(
-                    Code::E0704,
-                    format!("`{}` holds no mechanism `{name}`", input.file),
-                )
+        (None, _) => Err(Diagnostic::new(Code::E0704, format!("`{}` holds {} mechanisms", input.file, names.len()))
+            .help(format!("choose one with `--mechanism NAME`; {listed}"))
+            .into()),
+        (Some(name), all) => all.iter().find(|mechanism| mechanism.name.text == *name).ok_or_else(|| {
+            let meant = nearest(name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
+            Diagnostic::new(Code::E0704, format!("`{}` holds no mechanism `{name}`", input.file))
                 .help(meant.unwrap_or(listed))
                 .into()
-            }),
+        }),
     }
 }
 
-fn settings(
-    given: &[String],
-    mechanism: &ast::Mechanism,
-    sources: &mut Sources,
-) -> Result<Vec<Setting>, Failure> {
+fn settings(given: &[String], mechanism: &ast::Mechanism, sources: &mut Sources) -> Result<Vec<Setting>, Failure> {
     let params: Vec<&str> = mechanism
         .items
         .iter()
@@ -89,8 +70,7 @@ fn settings(
         };
         let name = syntax::normalized(name.trim());
         if !params.contains(&name.as_str()) {
-            let meant =
-                nearest(&name, params.iter().copied()).map(|name| format!("was `{name}` meant?"));
+            let meant = nearest(&name, params.iter().copied()).map(|name| format!("was `{name}` meant?"));
             let listed = if params.is_empty() {
                 "it has no parameters".to_owned()
             } else {
@@ -98,11 +78,8 @@ fn settings(
             };
             let mechanism = &mechanism.name.text;
             diagnostics.push(
-                Diagnostic::new(
-                    Code::E0703,
-                    format!("mechanism `{mechanism}` has no parameter `{name}`"),
-                )
-                .help(meant.unwrap_or(listed)),
+                Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no parameter `{name}`"))
+                    .help(meant.unwrap_or(listed)),
             );
             continue;
         }
@@ -112,11 +89,7 @@ fn settings(
             Err(faults) => diagnostics.extend(faults),
         }
     }
-    if diagnostics.is_empty() {
-        Ok(settings)
-    } else {
-        Err(diagnostics.into())
-    }
+    if diagnostics.is_empty() { Ok(settings) } else { Err(diagnostics.into()) }
 }
 
 /// A time of the command line [s]: a number of seconds, or a formula with units.

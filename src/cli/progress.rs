@@ -22,13 +22,7 @@ impl Progress {
     pub fn new(total: u64, to_standard_output: bool) -> Progress {
         let rows_on_terminal = to_standard_output && std::io::stdout().is_terminal();
         let wanted = std::io::stderr().is_terminal() && !rows_on_terminal;
-        Progress {
-            total,
-            done: 0,
-            wanted,
-            began: Instant::now(),
-            bar: None,
-        }
+        Progress { total, done: 0, wanted, began: Instant::now(), bar: None }
     }
 
     /// A row is done.
@@ -45,10 +39,7 @@ impl Progress {
                 if let Ok(style) = ProgressStyle::with_template(template) {
                     bar.set_style(style);
                 }
-                self.bar = Some(
-                    bar.with_elapsed(self.began.elapsed())
-                        .with_position(self.done),
-                );
+                self.bar = Some(bar.with_elapsed(self.began.elapsed()).with_position(self.done));
             }
             None => {}
         }

@@ -24,18 +24,13 @@ impl Reporter {
             When::Always => true,
             When::Never => false,
             When::Auto => {
-                let set =
-                    |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
+                let set = |name: &str| std::env::var_os(name).is_some_and(|value| !value.is_empty());
                 let dumb = std::env::var_os("TERM").is_some_and(|term| term == "dumb");
                 std::io::stderr().is_terminal() && !set("NO_COLOR") && !dumb
             }
         };
         let color = if colored { Color::Always } else { Color::Never };
-        Reporter {
-            sources: Sources::default(),
-            format,
-            color,
-        }
+        Reporter { sources: Sources::default(), format, color }
     }
 
     pub fn print(&self, diagnostics: &Diagnostics) {
@@ -43,10 +38,7 @@ impl Reporter {
         for diagnostic in diagnostics.iter() {
             text += &render(diagnostic, &self.sources, self.format, self.color);
         }
-        let errors = diagnostics
-            .iter()
-            .filter(|d| d.severity() == Severity::Error)
-            .count();
+        let errors = diagnostics.iter().filter(|d| d.severity() == Severity::Error).count();
         if errors > 1 && self.format == Format::Human {
             text += &format!("error: {errors} errors\n");
         }

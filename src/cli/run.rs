@@ -15,11 +15,7 @@ use std::path::Path;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let determined = input::determined(&arguments.input, reporter)?;
-    let times = times(
-        arguments,
-        determined.system().analysis,
-        &mut reporter.sources,
-    )?;
+    let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
     let output = Output::open(&arguments.output)?;
     let program = Program::new(determined.system());
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
@@ -68,41 +64,27 @@ fn format(arguments: &RunArguments) -> TableFormat {
     match arguments.format {
         Some(Format::Csv) => TableFormat::Csv,
         Some(Format::Json) => TableFormat::Json,
-        None if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => {
-            TableFormat::Json
-        }
+        None if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => TableFormat::Json,
         None => TableFormat::Csv,
     }
 }
 
 /// The output times: those of the command line over those of the file.
-fn times(
-    arguments: &RunArguments,
-    analysis: Option<[f64; 3]>,
-    sources: &mut Sources,
-) -> Result<Times, Failure> {
-    let mut given = |option: &str, text: &Option<String>| {
-        text.as_ref()
-            .map(|text| input::time(option, text, sources))
-            .transpose()
-    };
+fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sources) -> Result<Times, Failure> {
+    let mut given =
+        |option: &str, text: &Option<String>| text.as_ref().map(|text| input::time(option, text, sources)).transpose();
     let from = given("--from", &arguments.from)?.or(analysis.map(|[from, ..]| from));
     let to = given("--to", &arguments.to)?.or(analysis.map(|[_, to, _]| to));
     let every = given("--every", &arguments.every)?.or(analysis.map(|[.., every]| every));
-    let listed = arguments
-        .at
-        .iter()
-        .map(|text| input::time("--at", text, sources))
-        .collect::<Result<Vec<f64>, Failure>>()?;
+    let listed =
+        arguments.at.iter().map(|text| input::time("--at", text, sources)).collect::<Result<Vec<f64>, Failure>>()?;
     let earliest = listed.iter().copied().reduce(f64::min);
     if let Some(earliest) = earliest {
         let from = from.unwrap_or(earliest);
         if earliest < from {
-            return Err(unusable(format!(
-                "`--at` {earliest} s is before the start of the analysis at {from} s"
-            ))
-            .help("start earlier with `--from`")
-            .into());
+            return Err(unusable(format!("`--at` {earliest} s is before the start of the analysis at {from} s"))
+                .help("start earlier with `--from`")
+                .into());
         }
         return Ok(Times::listed(from, listed));
     }
@@ -115,17 +97,10 @@ fn times(
         return Err(unusable(format!("the step must be positive, it is {every} s")).into());
     }
     if to < from {
-        return Err(unusable(format!(
-            "the analysis would end at {to} s, before its start at {from} s"
-        ))
-        .into());
+        return Err(unusable(format!("the analysis would end at {to} s, before its start at {from} s")).into());
     }
-    Times::grid(from, to, every).ok_or_else(|| {
-        unusable(format!(
-            "a step of {every} s is too small to get from {from} s to {to} s"
-        ))
-        .into()
-    })
+    Times::grid(from, to, every)
+        .ok_or_else(|| unusable(format!("a step of {every} s is too small to get from {from} s to {to} s")).into())
 }
 
 fn unusable(message: String) -> Diagnostic {

@@ -71,22 +71,24 @@ impl Diagnostic {
     /// The place of the fault, and what is there.
     #[must_use]
     pub fn at(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label {
-            span,
-            text: text.into(),
-            primary: true,
-        });
+        self.labels.push(Label { span, text: text.into(), primary: true });
         self
     }
 
     /// A place that helps to understand the fault.
     #[must_use]
     pub fn also(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
-        self.labels.push(Label {
-            span,
-            text: text.into(),
-            primary: false,
-        });
+        self.labels.push(Label { span, text: text.into(), primary: false });
+        self
+    }
+
+    /// Moves the blame to a place that brought the faulty one in.
+    #[must_use]
+    pub fn raised_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
+        for label in &mut self.labels {
+            label.primary = false;
+        }
+        self.labels.insert(0, Label { span, text: text.into(), primary: true });
         self
     }
 
@@ -136,11 +138,10 @@ pub struct Diagnostics {
 impl Diagnostics {
     /// Adds one; the same code at the same place is said once.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let seen = self.list.iter().any(|d| {
-            d.code == diagnostic.code
-                && d.labels == diagnostic.labels
-                && d.message == diagnostic.message
-        });
+        let seen = self
+            .list
+            .iter()
+            .any(|d| d.code == diagnostic.code && d.labels == diagnostic.labels && d.message == diagnostic.message);
         if !seen {
             self.list.push(diagnostic);
         }
@@ -177,9 +178,7 @@ impl Diagnostics {
 
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Diagnostics {
-        Diagnostics {
-            list: vec![diagnostic],
-        }
+        Diagnostics { list: vec![diagnostic] }
     }
 }
 

@@ -12,17 +12,11 @@ pub fn nearest<'a>(wanted: &str, names: impl IntoIterator<Item = &'a str>) -> Op
         .filter(|name| *name != wanted)
         .map(|name| {
             let same_but_case = name.to_lowercase() == lower;
-            let distance = if same_but_case {
-                0
-            } else {
-                strsim::damerau_levenshtein(wanted, name)
-            };
+            let distance = if same_but_case { 0 } else { strsim::damerau_levenshtein(wanted, name) };
             (distance, name)
         })
         // one letter for another says nothing
-        .filter(|&(distance, name)| {
-            distance <= limit && (distance == 0 || distance < name.chars().count())
-        })
+        .filter(|&(distance, name)| distance <= limit && (distance == 0 || distance < name.chars().count()))
         .min_by_key(|&(distance, _)| distance)
         .map(|(_, name)| name)
 }

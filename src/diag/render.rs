@@ -103,32 +103,18 @@ fn fits_a_terminal(diagnostic: &Diagnostic, sources: &Sources) -> bool {
         let source = sources.get(label.span.file);
         let first = source.line_index(label.span.start as usize);
         let last = source.line_index(label.span.end as usize);
-        [first, last]
-            .into_iter()
-            .filter_map(|line| source.line_range(line))
-            .all(|range| range.len() <= LONGEST_LINE)
+        [first, last].into_iter().filter_map(|line| source.line_range(line)).all(|range| range.len() <= LONGEST_LINE)
     })
 }
 
 fn short(diagnostic: &Diagnostic, sources: &Sources) -> String {
-    let place = diagnostic.labels.first().map_or(String::new(), |label| {
-        format!("{}: ", place(label.span, sources))
-    });
-    format!(
-        "{place}{}[{}]: {}\n",
-        diagnostic.severity().as_str(),
-        diagnostic.code,
-        diagnostic.message
-    )
+    let place = diagnostic.labels.first().map_or(String::new(), |label| format!("{}: ", place(label.span, sources)));
+    format!("{place}{}[{}]: {}\n", diagnostic.severity().as_str(), diagnostic.code, diagnostic.message)
 }
 
 fn without_lines(diagnostic: &Diagnostic, sources: &Sources) -> String {
     let mut text = short(diagnostic, sources);
-    for label in diagnostic
-        .labels
-        .iter()
-        .filter(|label| !label.text.is_empty())
-    {
+    for label in diagnostic.labels.iter().filter(|label| !label.text.is_empty()) {
         text += &format!("  {}: {}\n", place(label.span, sources), label.text);
     }
     for note in &diagnostic.notes {
@@ -197,8 +183,6 @@ impl<'a> Files<'a> for Sources {
     fn line_range(&'a self, id: FileId, line: usize) -> Result<Range<usize>, Error> {
         let given = line;
         let max = self.get(id).line_index(usize::MAX);
-        self.get(id)
-            .line_range(line)
-            .ok_or(Error::LineTooLarge { given, max })
+        self.get(id).line_range(line).ok_or(Error::LineTooLarge { given, max })
     }
 }

@@ -4,9 +4,7 @@
 //! products. None looks at the value of a parameter, and none changes a value beyond rounding; a result that is not
 //! finite is never folded, so that it shows when it is evaluated.
 
-use super::{
-    Binary, Comparison, ExprId, Graph, Node, Symbol, Unary, binary_value, compare, unary_value,
-};
+use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary, binary_value, compare, unary_value};
 use crate::math;
 
 /// Whole exponents up to this are products; others are the general power.
@@ -25,17 +23,12 @@ impl Graph {
     }
 
     fn folded(&mut self, value: f64, node: Node) -> ExprId {
-        if value.is_finite() {
-            self.constant(value)
-        } else {
-            self.intern(node)
-        }
+        if value.is_finite() { self.constant(value) } else { self.intern(node) }
     }
 
     fn is(&self, id: ExprId, value: f64) -> bool {
         // exact: a constructor may only act on the very number
-        self.as_const(id)
-            .is_some_and(|c| c.to_bits() == value.to_bits())
+        self.as_const(id).is_some_and(|c| c.to_bits() == value.to_bits())
     }
 
     /// `a + b`
@@ -149,9 +142,7 @@ impl Graph {
                 self.mul(x, product)
             }
             _ if a == b => self.power(a, 2),
-            (Node::Power(x, n), Node::Power(y, m)) if x == y && n > 0 && m > 0 => {
-                self.power(x, n + m)
-            }
+            (Node::Power(x, n), Node::Power(y, m)) if x == y && n > 0 && m > 0 => self.power(x, n + m),
             (Node::Power(x, n), _) if x == b && n > 0 => self.power(x, n + 1),
             (_, Node::Power(y, m)) if y == a && m > 0 => self.power(y, m + 1),
             _ => self.intern(Node::Mul(a.min(b), a.max(b))),
@@ -195,9 +186,7 @@ impl Graph {
                 self.folded(value, Node::Power(a, n))
             }
             (Node::Neg(x), _) if n % 2 == 0 => self.power(x, n),
-            (Node::Power(x, m), _) if n > 0 && m > 0 && n * m <= LARGEST_WHOLE_POWER => {
-                self.power(x, n * m)
-            }
+            (Node::Power(x, m), _) if n > 0 && m > 0 && n * m <= LARGEST_WHOLE_POWER => self.power(x, n * m),
             _ => self.intern(Node::Power(a, n)),
         }
     }
@@ -205,9 +194,7 @@ impl Graph {
     /// `a` to any power; a whole number that is small becomes products.
     pub fn pow(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match self.as_const(b) {
-            Some(n) if math::floor(n) == n && n.abs() <= f64::from(LARGEST_WHOLE_POWER) => {
-                self.power(a, n as i32)
-            }
+            Some(n) if math::floor(n) == n && n.abs() <= f64::from(LARGEST_WHOLE_POWER) => self.power(a, n as i32),
             Some(n) if n.to_bits() == 0.5_f64.to_bits() => self.unary(Unary::Sqrt, a),
             _ => self.binary(Binary::Pow, a, b),
         }
@@ -222,13 +209,7 @@ impl Graph {
         match (function, self.node(a)) {
             (Unary::Cos | Unary::Cosh | Unary::Abs, Node::Neg(x)) => self.unary(function, x),
             (
-                Unary::Sin
-                | Unary::Tan
-                | Unary::Asin
-                | Unary::Atan
-                | Unary::Sinh
-                | Unary::Tanh
-                | Unary::Sign,
+                Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh | Unary::Sign,
                 Node::Neg(x),
             ) => {
                 let positive = self.unary(function, x);
@@ -343,11 +324,7 @@ impl Graph {
     }
 
     /// The same operation on other operands.
-    pub(super) fn rebuild(
-        &mut self,
-        node: Node,
-        mut operand: impl FnMut(ExprId) -> ExprId,
-    ) -> ExprId {
+    pub(super) fn rebuild(&mut self, node: Node, mut operand: impl FnMut(ExprId) -> ExprId) -> ExprId {
         match node {
             Node::Const(_) | Node::Symbol(_) => self.intern(node),
             Node::Add(a, b) => self.add(operand(a), operand(b)),

@@ -34,10 +34,7 @@ impl Graph {
             }
         }
         let zero = self.constant(0.0);
-        roots
-            .iter()
-            .map(|root| known.get(root).copied().unwrap_or(zero))
-            .collect()
+        roots.iter().map(|root| known.get(root).copied().unwrap_or(zero)).collect()
     }
 
     /// Backward: the partial derivatives of one root by every symbol that `wanted` holds, in the symbols' order;
@@ -100,12 +97,7 @@ impl Graph {
         sum
     }
 
-    fn select_derivative(
-        &mut self,
-        condition: ExprId,
-        a: Option<ExprId>,
-        b: Option<ExprId>,
-    ) -> Option<ExprId> {
+    fn select_derivative(&mut self, condition: ExprId, a: Option<ExprId>, b: Option<ExprId>) -> Option<ExprId> {
         if a.is_none() && b.is_none() {
             return None;
         }
@@ -136,9 +128,7 @@ impl Graph {
                 self.mul(factor, slope)
             }
             (Node::Unary(function, a), _) => return self.unary_share(function, id, a, factor),
-            (Node::Binary(function, a, b), _) => {
-                self.binary_share(function, id, [a, b], place, factor)
-            }
+            (Node::Binary(function, a, b), _) => self.binary_share(function, id, [a, b], place, factor),
             (Node::Select(condition, ..), 1) => {
                 let zero = self.constant(0.0);
                 self.select(condition, factor, zero)
@@ -148,21 +138,12 @@ impl Graph {
                 self.select(condition, zero, factor)
             }
             // conditions are constant between their switches
-            (
-                Node::Select(..) | Node::Compare(..) | Node::And(..) | Node::Or(..) | Node::Not(_),
-                _,
-            )
+            (Node::Select(..) | Node::Compare(..) | Node::And(..) | Node::Or(..) | Node::Not(_), _)
             | (Node::Const(_) | Node::Symbol(_), _) => return None,
         })
     }
 
-    fn unary_share(
-        &mut self,
-        function: Unary,
-        id: ExprId,
-        a: ExprId,
-        factor: ExprId,
-    ) -> Option<ExprId> {
+    fn unary_share(&mut self, function: Unary, id: ExprId, a: ExprId, factor: ExprId) -> Option<ExprId> {
         let one = self.constant(1.0);
         Some(match function {
             Unary::Sin => {
@@ -184,11 +165,7 @@ impl Graph {
                 let rest = self.sub(one, square);
                 let root = self.unary(Unary::Sqrt, rest);
                 let share = self.div(factor, root);
-                if function == Unary::Asin {
-                    share
-                } else {
-                    self.neg(share)
-                }
+                if function == Unary::Asin { share } else { self.neg(share) }
             }
             Unary::Atan => {
                 let square = self.power(a, 2);

@@ -53,12 +53,7 @@ pub fn compare(comparison: Comparison, x: f64, y: f64) -> f64 {
 impl Graph {
     /// The value of one node from the values of its operands.
     #[must_use]
-    pub fn node_value(
-        &self,
-        node: Node,
-        operand: impl Fn(ExprId) -> f64,
-        symbol: impl Fn(Symbol) -> f64,
-    ) -> f64 {
+    pub fn node_value(&self, node: Node, operand: impl Fn(ExprId) -> f64, symbol: impl Fn(Symbol) -> f64) -> f64 {
         match node {
             Node::Const(bits) => f64::from_bits(bits),
             Node::Symbol(s) => symbol(s),

@@ -129,9 +129,7 @@ impl Node {
     pub fn children(self) -> Children {
         match self {
             Node::Const(_) | Node::Symbol(_) => Children::new(&[]),
-            Node::Neg(a) | Node::Power(a, _) | Node::Unary(_, a) | Node::Not(a) => {
-                Children::new(&[a])
-            }
+            Node::Neg(a) | Node::Power(a, _) | Node::Unary(_, a) | Node::Not(a) => Children::new(&[a]),
             Node::Add(a, b)
             | Node::Sub(a, b)
             | Node::Mul(a, b)
@@ -156,10 +154,7 @@ impl Children {
     fn new(ids: &[ExprId]) -> Children {
         let mut list = [ExprId(0); 3];
         list[..ids.len()].copy_from_slice(ids);
-        Children {
-            list,
-            len: ids.len(),
-        }
+        Children { list, len: ids.len() }
     }
 
     /// In order.
@@ -208,9 +203,7 @@ impl Dependence {
     /// The highest order of coordinates among these.
     #[must_use]
     pub fn highest_order(self) -> Option<u8> {
-        (0..4)
-            .rev()
-            .find(|&order| self.on(Self::coordinates(order)))
+        (0..4).rev().find(|&order| self.on(Self::coordinates(order)))
     }
 
     fn of(symbol: Symbol) -> Dependence {
@@ -258,10 +251,7 @@ impl Graph {
 
     /// All nodes, children before parents.
     pub fn nodes(&self) -> impl Iterator<Item = (ExprId, Node)> {
-        self.nodes
-            .iter()
-            .enumerate()
-            .map(|(k, node)| (ExprId(k as u32), *node))
+        self.nodes.iter().enumerate().map(|(k, node)| (ExprId(k as u32), *node))
     }
 
     /// Which kinds of symbols a formula holds.
@@ -348,12 +338,7 @@ impl Graph {
             let node = from.node(id);
             if !children_done {
                 open.push((id, true));
-                open.extend(
-                    node.children()
-                        .as_slice()
-                        .iter()
-                        .map(|&child| (child, false)),
-                );
+                open.extend(node.children().as_slice().iter().map(|&child| (child, false)));
                 continue;
             }
             let rebuilt = match node {
@@ -375,9 +360,7 @@ impl Graph {
                 .children()
                 .as_slice()
                 .iter()
-                .fold(Dependence::default(), |all, &child| {
-                    all.or(self.dependence(child))
-                }),
+                .fold(Dependence::default(), |all, &child| all.or(self.dependence(child))),
         };
         self.nodes.push(node);
         self.dependence.push(dependence);

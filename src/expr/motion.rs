@@ -25,13 +25,7 @@ pub enum Motion {
 
 impl Graph {
     /// A motion from `v0` at `u0` to `v1` at `u1`.
-    pub fn motion(
-        &mut self,
-        motion: Motion,
-        u: ExprId,
-        from: [ExprId; 2],
-        to: [ExprId; 2],
-    ) -> ExprId {
+    pub fn motion(&mut self, motion: Motion, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {
         let ([u0, v0], [u1, v1]) = (from, to);
         let way = self.sub(u, u0);
         let length = self.sub(u1, u0);
@@ -87,14 +81,12 @@ impl Graph {
     /// With `k = 1/(4 + π)`: `k(πs − sin(4πs)/4)` up to s = 1/8, `k(2 + πs − (9/4) sin((π + 4πs)/3))` up to 7/8, then
     /// `k(4 + πs − sin(4πs)/4)`.
     fn modified_sine(&mut self, s: ExprId) -> ExprId {
-        let [k, quarter, nine_quarters, pi] =
-            [1.0 / (4.0 + PI), 0.25, 2.25, PI].map(|c| self.constant(c));
+        let [k, quarter, nine_quarters, pi] = [1.0 / (4.0 + PI), 0.25, 2.25, PI].map(|c| self.constant(c));
         let linear = self.mul(pi, s);
         let fast = self.wave(Unary::Sin, 4.0 * PI, s);
         let ripple = self.mul(quarter, fast);
         let ends = self.sub(linear, ripple);
-        let [third, four_thirds, two, four] =
-            [PI / 3.0, 4.0 * PI / 3.0, 2.0, 4.0].map(|c| self.constant(c));
+        let [third, four_thirds, two, four] = [PI / 3.0, 4.0 * PI / 3.0, 2.0, 4.0].map(|c| self.constant(c));
         let turned = self.mul(four_thirds, s);
         let angle = self.add(third, turned);
         let slow = self.unary(Unary::Sin, angle);

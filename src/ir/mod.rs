@@ -182,10 +182,7 @@ impl SparseRows {
     /// One without rows.
     #[must_use]
     pub fn new() -> SparseRows {
-        SparseRows {
-            starts: vec![0],
-            entries: Vec::new(),
-        }
+        SparseRows { starts: vec![0], entries: Vec::new() }
     }
 
     /// Adds a row; columns in ascending order.
@@ -220,10 +217,7 @@ impl ConstraintSystem {
         graph.derivatives(roots, |graph, symbol| match symbol {
             Symbol::Time => Some(graph.constant(1.0)),
             Symbol::Coordinate { index, order } if order < highest => {
-                Some(graph.symbol(Symbol::Coordinate {
-                    index,
-                    order: order + 1,
-                }))
+                Some(graph.symbol(Symbol::Coordinate { index, order: order + 1 }))
             }
             _ => None,
         })
@@ -236,14 +230,10 @@ impl ConstraintSystem {
         self.phi_q = SparseRows::new();
         for &row in &phi {
             let gradient = graph.gradient(row, Dependence::coordinates(0));
-            self.phi_q.push(
-                gradient
-                    .into_iter()
-                    .filter_map(|(symbol, slope)| match symbol {
-                        Symbol::Coordinate { index, order: 0 } => Some((index, slope)),
-                        _ => None,
-                    }),
-            );
+            self.phi_q.push(gradient.into_iter().filter_map(|(symbol, slope)| match symbol {
+                Symbol::Coordinate { index, order: 0 } => Some((index, slope)),
+                _ => None,
+            }));
         }
         let phi_t = Self::time_derivatives(graph, &phi, 0);
         self.nu = phi_t.into_iter().map(|id| graph.neg(id)).collect();

@@ -14,10 +14,7 @@ impl Lowering<'_> {
             }
             // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
             JointKind::Translational(a, b) => {
-                let (origin, other) = (
-                    self.global(self.model[a].origin),
-                    self.global(self.model[b].origin),
-                );
+                let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
                 let d = self.minus(other, origin);
                 let (v, w) = (self.direction(a), self.direction(b));
                 vec![self.left_of(v, d), self.left_of(v, w)]
@@ -51,12 +48,7 @@ impl Lowering<'_> {
     }
 
     /// `dᵀd − C²`: no square root, and no singularity at the solution.
-    pub(super) fn squared_distance_row(
-        &mut self,
-        p: PointId,
-        q: PointId,
-        distance: ExprId,
-    ) -> ExprId {
+    pub(super) fn squared_distance_row(&mut self, p: PointId, q: PointId, distance: ExprId) -> ExprId {
         let (p, q) = (self.global(p), self.global(q));
         let d = self.minus(q, p);
         let square = self.dot(d, d);

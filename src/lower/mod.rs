@@ -9,8 +9,8 @@ mod size;
 
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{
-    Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind,
-    Measure, Param, Row, SparseRows,
+    Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Measure, Param, Row,
+    SparseRows,
 };
 use crate::model::{ConditionKind, EquationForm, Mechanism, Named, Quantity};
 use rustc_hash::FxHashMap;
@@ -41,21 +41,11 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
-        params: model
-            .params
-            .iter()
-            .map(|p| Param {
-                name: p.declared.name.clone(),
-                value: p.value,
-            })
-            .collect(),
+        params: model.params.iter().map(|p| Param { name: p.declared.name.clone(), value: p.value }).collect(),
         bodies: model
             .bodies
             .iter()
-            .map(|body| Body {
-                name: body.declared.name.clone(),
-                span: body.declared.span,
-            })
+            .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span })
             .collect(),
         coordinates,
         declarations: lowering.declarations,
@@ -68,9 +58,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         measures,
         conditions,
         length: size::characteristic_length(model),
-        analysis: model
-            .analysis
-            .map(|analysis| [analysis.from, analysis.to, analysis.every]),
+        analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
     system
@@ -91,15 +79,10 @@ impl Lowering<'_> {
     /// A formula of the model in this graph.
     fn formula(&mut self, id: ExprId) -> ExprId {
         let named = &self.named;
-        self.graph.import(
-            &self.model.graph,
-            &[id],
-            &mut self.known,
-            |graph, symbol| match symbol {
-                Symbol::Named(k) => named[k as usize],
-                other => graph.symbol(other),
-            },
-        );
+        self.graph.import(&self.model.graph, &[id], &mut self.known, |graph, symbol| match symbol {
+            Symbol::Named(k) => named[k as usize],
+            other => graph.symbol(other),
+        });
         self.known[&id]
     }
 
@@ -120,11 +103,8 @@ impl Lowering<'_> {
     }
 
     fn coordinates(&mut self) -> Vec<Coordinate> {
-        const PARTS: [(&str, CoordinateKind); 3] = [
-            ("x", CoordinateKind::Length),
-            ("y", CoordinateKind::Length),
-            ("phi", CoordinateKind::Angle),
-        ];
+        const PARTS: [(&str, CoordinateKind); 3] =
+            [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
         let mut coordinates = Vec::with_capacity(3 * model.bodies.len());
         for (k, body) in model.bodies.iter().enumerate() {
@@ -142,40 +122,23 @@ impl Lowering<'_> {
 
     fn declare(&mut self, name: &crate::model::Declared, kind: DeclarationKind, phi: &[ExprId]) {
         let declaration = self.declarations.len();
-        self.declarations.push(Declaration {
-            name: name.name.clone(),
-            span: name.span,
-            kind,
-            rows: phi.len(),
-        });
-        self.rows
-            .extend(phi.iter().map(|&phi| Row { declaration, phi }));
+        self.declarations.push(Declaration { name: name.name.clone(), span: name.span, kind, rows: phi.len() });
+        self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
     }
 
     fn joint_rows(&mut self) {
         let model = self.model;
         for joint in &model.joints {
             let phi = self.joint(joint.kind);
-            self.declare(
-                &joint.declared,
-                DeclarationKind::Joint(joint.kind.word()),
-                &phi,
-            );
+            self.declare(&joint.declared, DeclarationKind::Joint(joint.kind.word()), &phi);
         }
     }
 
     /// Constraints, then drivers.
     fn equation_rows(&mut self) {
         let model = self.model;
-        for (drivers, kind) in [
-            (false, DeclarationKind::Constraint),
-            (true, DeclarationKind::Driver),
-        ] {
-            for equation in model
-                .equations
-                .iter()
-                .filter(|equation| equation.driver == drivers)
-            {
+        for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
+            for equation in model.equations.iter().filter(|equation| equation.driver == drivers) {
                 let phi = match equation.form {
                     EquationForm::Difference(left, right) => {
                         let (left, right) = (self.formula(left), self.formula(right));
@@ -215,13 +178,7 @@ impl Lowering<'_> {
                 let first = self.along_the_motion(value);
                 let second = first.and_then(|first| self.along_the_motion(first));
                 let (name, span) = (measure.declared.name.clone(), measure.declared.span);
-                Measure {
-                    name,
-                    value,
-                    first,
-                    second,
-                    span,
-                }
+                Measure { name, value, first, second, span }
             })
             .collect()
     }

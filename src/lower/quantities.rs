@@ -6,12 +6,7 @@ use crate::model::{AxisId, Direction, JointId, JointKind, PointId};
 
 impl Lowering<'_> {
     /// x (part 0) or y (part 1) of a point, or from one point to another [m].
-    pub(super) fn coordinate_between(
-        &mut self,
-        from: Option<PointId>,
-        to: PointId,
-        part: usize,
-    ) -> ExprId {
+    pub(super) fn coordinate_between(&mut self, from: Option<PointId>, to: PointId, part: usize) -> ExprId {
         let end = self.global(to)[part];
         match from {
             None => end,
@@ -73,10 +68,7 @@ impl Lowering<'_> {
         let JointKind::Translational(a, b) = self.model[joint].kind else {
             unreachable!("check gives displacement to translational joints only")
         };
-        let (origin, other) = (
-            self.global(self.model[a].origin),
-            self.global(self.model[b].origin),
-        );
+        let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
         let d = self.minus(other, origin);
         let v = self.direction(a);
         self.dot(v, d)

@@ -13,25 +13,17 @@ const MANY_POINTS: usize = 500;
 /// lengths, the bodies' places; 1 m if there is nothing.
 pub(super) fn characteristic_length(model: &Mechanism) -> f64 {
     let mut values = Vec::new();
-    model
-        .graph
-        .extend_values(&mut values, |symbol| match symbol {
-            Symbol::Param(k) => model.params[k as usize].value,
-            _ => f64::NAN,
-        });
+    model.graph.extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => model.params[k as usize].value,
+        _ => f64::NAN,
+    });
     let value = |id: crate::expr::ExprId| values[id.index()];
     let mut frames: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for point in &model.points {
-        frames
-            .entry(point.frame)
-            .or_default()
-            .push(point.at.map(value));
+        frames.entry(point.frame).or_default().push(point.at.map(value));
     }
     // a maximum does not depend on the order of the map
-    let within_frames = frames
-        .values()
-        .map(|points| extent(points))
-        .fold(0.0, f64::max);
+    let within_frames = frames.values().map(|points| extent(points)).fold(0.0, f64::max);
     if is_size(within_frames) {
         return within_frames;
     }
@@ -45,15 +37,8 @@ pub(super) fn characteristic_length(model: &Mechanism) -> f64 {
         JointKind::RevoluteTranslational(_, _, offset) => Some(value(offset).abs()),
         _ => None,
     });
-    let places: Vec<[f64; 2]> = model
-        .bodies
-        .iter()
-        .map(|body| [value(body.pose[0]), value(body.pose[1])])
-        .collect();
-    let size = offsets
-        .chain(links)
-        .chain([extent(&places)])
-        .fold(0.0, f64::max);
+    let places: Vec<[f64; 2]> = model.bodies.iter().map(|body| [value(body.pose[0]), value(body.pose[1])]).collect();
+    let size = offsets.chain(links).chain([extent(&places)]).fold(0.0, f64::max);
     if is_size(size) { size } else { 1.0 }
 }
 
@@ -72,11 +57,8 @@ fn extent(points: &[[f64; 2]]) -> f64 {
         return largest;
     }
     let side = |k: usize| {
-        let (low, high) = points
-            .iter()
-            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| {
-                (low.min(p[k]), high.max(p[k]))
-            });
+        let (low, high) =
+            points.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), p| (low.min(p[k]), high.max(p[k])));
         high - low
     };
     crate::math::hypot(side(0), side(1))

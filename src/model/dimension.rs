@@ -11,25 +11,13 @@ pub struct Dimension {
 
 impl Dimension {
     /// No dimension.
-    pub const PURE: Dimension = Dimension {
-        length: 0.0,
-        time: 0.0,
-    };
+    pub const PURE: Dimension = Dimension { length: 0.0, time: 0.0 };
     /// A length.
-    pub const LENGTH: Dimension = Dimension {
-        length: 1.0,
-        time: 0.0,
-    };
+    pub const LENGTH: Dimension = Dimension { length: 1.0, time: 0.0 };
     /// A time.
-    pub const TIME: Dimension = Dimension {
-        length: 0.0,
-        time: 1.0,
-    };
+    pub const TIME: Dimension = Dimension { length: 0.0, time: 1.0 };
     /// One over a time.
-    pub const RATE: Dimension = Dimension {
-        length: 0.0,
-        time: -1.0,
-    };
+    pub const RATE: Dimension = Dimension { length: 0.0, time: -1.0 };
 
     /// Whether two are the same, fractions being only nearly equal.
     #[must_use]
@@ -40,10 +28,7 @@ impl Dimension {
     /// Of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
-        Dimension {
-            length: self.length + other.length,
-            time: self.time + other.time,
-        }
+        Dimension { length: self.length + other.length, time: self.time + other.time }
     }
 
     /// Of a quotient.
@@ -55,10 +40,7 @@ impl Dimension {
     /// Of a power.
     #[must_use]
     pub fn to_the(self, power: f64) -> Dimension {
-        Dimension {
-            length: self.length * power,
-            time: self.time * power,
-        }
+        Dimension { length: self.length * power, time: self.time * power }
     }
 
     /// In words: `a length`, `a speed`, or the unit.
@@ -77,10 +59,7 @@ impl Dimension {
         WORDS
             .iter()
             .find(|&&(length, time, _)| self.is(Dimension { length, time }))
-            .map_or_else(
-                || format!("a quantity in {}", self.unit()),
-                |(.., words)| (*words).to_owned(),
-            )
+            .map_or_else(|| format!("a quantity in {}", self.unit()), |(.., words)| (*words).to_owned())
     }
 
     /// As a product of SI units: `m^2/s`; `1` for a pure number.
@@ -99,11 +78,7 @@ impl Dimension {
                 below.push(part(unit, -power));
             }
         }
-        let above = if above.is_empty() {
-            "1".to_owned()
-        } else {
-            above.join("*")
-        };
+        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
         match below.len() {
             0 => above,
             1 => format!("{above}/{}", below[0]),

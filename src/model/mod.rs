@@ -227,9 +227,9 @@ impl JointKind {
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {
         match self {
-            JointKind::Revolute(p, q)
-            | JointKind::Weld(p, q, _)
-            | JointKind::RevoluteRevolute(p, q, _) => [mechanism[p].frame, mechanism[q].frame],
+            JointKind::Revolute(p, q) | JointKind::Weld(p, q, _) | JointKind::RevoluteRevolute(p, q, _) => {
+                [mechanism[p].frame, mechanism[q].frame]
+            }
             JointKind::Translational(a, b) => [mechanism[a].frame, mechanism[b].frame],
             JointKind::RevoluteTranslational(p, a, _) => [mechanism[p].frame, mechanism[a].frame],
         }

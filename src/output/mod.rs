@@ -31,18 +31,9 @@ impl<W: Write> TableWriter<W> {
         match format {
             // a name holds neither comma nor quote
             TableFormat::Csv => writeln!(out, "{}", columns.join(","))?,
-            TableFormat::Json => write!(
-                out,
-                "{{\"columns\": {}, \"rows\": [",
-                serde_json::json!(columns)
-            )?,
+            TableFormat::Json => write!(out, "{{\"columns\": {}, \"rows\": [", serde_json::json!(columns))?,
         }
-        Ok(TableWriter {
-            out,
-            format,
-            number: zmij::Buffer::new(),
-            rows: 0,
-        })
+        Ok(TableWriter { out, format, number: zmij::Buffer::new(), rows: 0 })
     }
 
     /// Writes a row of finite numbers.
@@ -51,16 +42,14 @@ impl<W: Write> TableWriter<W> {
     /// As the writer underneath.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         if self.format == TableFormat::Json {
-            self.out
-                .write_all(if self.rows == 0 { b"\n[" } else { b",\n[" })?;
+            self.out.write_all(if self.rows == 0 { b"\n[" } else { b",\n[" })?;
         }
         self.rows += 1;
         for (k, &value) in values.iter().enumerate() {
             if k > 0 {
                 self.out.write_all(b",")?;
             }
-            self.out
-                .write_all(self.number.format_finite(value).as_bytes())?;
+            self.out.write_all(self.number.format_finite(value).as_bytes())?;
         }
         self.out.write_all(match self.format {
             TableFormat::Csv => b"\n",
@@ -98,12 +87,8 @@ mod tests {
     fn numbers_read_back_to_the_same_bits() {
         let values = [0.1 + 0.2, 1e-300, -5e-324, f64::MAX, 3.0];
         let text = written(TableFormat::Csv, &[&values[..2], &values[2..4]]);
-        let read: Vec<f64> = text
-            .lines()
-            .skip(1)
-            .flat_map(|line| line.split(','))
-            .map(|n| n.parse().unwrap())
-            .collect();
+        let read: Vec<f64> =
+            text.lines().skip(1).flat_map(|line| line.split(',')).map(|n| n.parse().unwrap()).collect();
         assert_eq!(read, values[..4]);
     }
 
@@ -113,8 +98,7 @@ mod tests {
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["columns"][1], "a.x");
         assert_eq!(value["rows"][1][1], -2e30);
-        let empty: serde_json::Value =
-            serde_json::from_str(&written(TableFormat::Json, &[])).unwrap();
+        let empty: serde_json::Value = serde_json::from_str(&written(TableFormat::Json, &[])).unwrap();
         assert_eq!(empty["rows"].as_array().unwrap().len(), 0);
     }
 }

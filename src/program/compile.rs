@@ -13,38 +13,19 @@ impl Program {
     pub fn new(system: &ConstraintSystem) -> Program {
         let mut layout = Layout::new(system);
         let mut outputs = Outputs {
-            estimates: layout.place(
-                Stage::Prologue,
-                system.coordinates.iter().map(|c| c.estimate),
-            ),
+            estimates: layout.place(Stage::Prologue, system.coordinates.iter().map(|c| c.estimate)),
             phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
-            phi_q: layout.place(
-                Stage::Position,
-                system.phi_q.entries().iter().map(|&(_, id)| id),
-            ),
+            phi_q: layout.place(Stage::Position, system.phi_q.entries().iter().map(|&(_, id)| id)),
+            conditions: layout.place(Stage::Position, system.conditions.iter().map(|c| c.positive)),
             nu: layout.place(Stage::Velocity, system.nu.iter().copied()),
-            conditions: layout.place(
-                Stage::Velocity,
-                system.conditions.iter().map(|c| c.positive),
-            ),
             gamma: layout.place(Stage::Acceleration, system.gamma.iter().copied()),
             jerk: layout.place(Stage::Jerk, system.jerk.iter().flatten().copied()),
             measures: layout.place(Stage::Measures, system.measures.iter().map(|m| m.value)),
-            measures_d: layout.place(
-                Stage::Measures,
-                system.measures.iter().filter_map(|m| m.first),
-            ),
-            measures_dd: layout.place(
-                Stage::Measures,
-                system.measures.iter().filter_map(|m| m.second),
-            ),
+            measures_d: layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first)),
+            measures_dd: layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second)),
             terms: Vec::new(),
         };
-        outputs.terms = system
-            .rows
-            .iter()
-            .map(|row| layout.place(Stage::Terms, system.graph.terms(row.phi)))
-            .collect();
+        outputs.terms = system.rows.iter().map(|row| layout.place(Stage::Terms, system.graph.terms(row.phi))).collect();
         layout.finish(outputs)
     }
 }
@@ -71,12 +52,7 @@ impl<'s> Layout<'s> {
             pairs: pairs(&system.graph),
             operations: STAGES.map(|_| Vec::new()).to_vec(),
             constants: Vec::new(),
-            inputs: Inputs {
-                params: 0,
-                time: params,
-                coordinates,
-                n,
-            },
+            inputs: Inputs { params: 0, time: params, coordinates, n },
             next: params + 1 + 4 * n,
         }
     }
@@ -100,10 +76,7 @@ impl<'s> Layout<'s> {
                 self.emit(stage, id);
             }
         }
-        roots
-            .iter()
-            .map(|id| self.register_of[id.index()])
-            .collect()
+        roots.iter().map(|id| self.register_of[id.index()]).collect()
     }
 
     /// The stage in which a node is computed when `wanted` needs it first.
@@ -148,67 +121,18 @@ impl<'s> Layout<'s> {
                 self.sine_and_cosine(stage, id, function, a);
                 return;
             }
-            Node::Add(a, b) => Op::Add {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Sub(a, b) => Op::Sub {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Mul(a, b) => Op::Mul {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Div(a, b) => Op::Div {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Neg(a) => Op::Neg {
-                to: self.next,
-                a: r(a),
-            },
-            Node::Unary(function, a) => Op::Unary {
-                function,
-                to: self.next,
-                a: r(a),
-            },
-            Node::Binary(function, a, b) => Op::Binary {
-                function,
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Compare(comparison, a, b) => Op::Compare {
-                comparison,
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::And(a, b) => Op::And {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Or(a, b) => Op::Or {
-                to: self.next,
-                a: r(a),
-                b: r(b),
-            },
-            Node::Not(a) => Op::Not {
-                to: self.next,
-                a: r(a),
-            },
-            Node::Select(c, a, b) => Op::Select {
-                to: self.next,
-                condition: r(c),
-                a: r(a),
-                b: r(b),
-            },
+            Node::Add(a, b) => Op::Add { to: self.next, a: r(a), b: r(b) },
+            Node::Sub(a, b) => Op::Sub { to: self.next, a: r(a), b: r(b) },
+            Node::Mul(a, b) => Op::Mul { to: self.next, a: r(a), b: r(b) },
+            Node::Div(a, b) => Op::Div { to: self.next, a: r(a), b: r(b) },
+            Node::Neg(a) => Op::Neg { to: self.next, a: r(a) },
+            Node::Unary(function, a) => Op::Unary { function, to: self.next, a: r(a) },
+            Node::Binary(function, a, b) => Op::Binary { function, to: self.next, a: r(a), b: r(b) },
+            Node::Compare(comparison, a, b) => Op::Compare { comparison, to: self.next, a: r(a), b: r(b) },
+            Node::And(a, b) => Op::And { to: self.next, a: r(a), b: r(b) },
+            Node::Or(a, b) => Op::Or { to: self.next, a: r(a), b: r(b) },
+            Node::Not(a) => Op::Not { to: self.next, a: r(a) },
+            Node::Select(c, a, b) => Op::Select { to: self.next, condition: r(c), a: r(a), b: r(b) },
         };
         self.register_of[id.index()] = self.fresh();
         self.operations[stage as usize].push(op);
@@ -219,16 +143,8 @@ impl<'s> Layout<'s> {
         let (sin, cos) = (self.fresh(), self.fresh());
         let a = self.register_of[angle.index()];
         self.operations[stage as usize].push(Op::SinCos { sin, cos, a });
-        let other = if function == Unary::Sin {
-            Unary::Cos
-        } else {
-            Unary::Sin
-        };
-        let (this_register, other_register) = if function == Unary::Sin {
-            (sin, cos)
-        } else {
-            (cos, sin)
-        };
+        let other = if function == Unary::Sin { Unary::Cos } else { Unary::Sin };
+        let (this_register, other_register) = if function == Unary::Sin { (sin, cos) } else { (cos, sin) };
         self.register_of[id.index()] = this_register;
         if let Some(partner) = self.graph.find_unary(other, angle) {
             self.register_of[partner.index()] = other_register;
@@ -242,20 +158,12 @@ impl<'s> Layout<'s> {
         }
         let half = self.power(stage, base, n / 2);
         let square = self.fresh();
-        self.operations[stage as usize].push(Op::Mul {
-            to: square,
-            a: half,
-            b: half,
-        });
+        self.operations[stage as usize].push(Op::Mul { to: square, a: half, b: half });
         if n.is_multiple_of(2) {
             return square;
         }
         let to = self.fresh();
-        self.operations[stage as usize].push(Op::Mul {
-            to,
-            a: square,
-            b: base,
-        });
+        self.operations[stage as usize].push(Op::Mul { to, a: square, b: base });
         to
     }
 
@@ -295,8 +203,5 @@ fn pairs(graph: &Graph) -> FxHashSet<ExprId> {
             .collect()
     };
     let cosines = arguments(Unary::Cos);
-    arguments(Unary::Sin)
-        .into_iter()
-        .filter(|a| cosines.contains(a))
-        .collect()
+    arguments(Unary::Sin).into_iter().filter(|a| cosines.contains(a)).collect()
 }

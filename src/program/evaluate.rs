@@ -32,9 +32,7 @@ impl Program {
     /// Registers with the constants and parameters in place, and the prologue run.
     #[must_use]
     pub fn start(&self, params: &[f64]) -> Registers {
-        let mut registers = Registers {
-            values: vec![0.0; self.registers()],
-        };
+        let mut registers = Registers { values: vec![0.0; self.registers()] };
         for &(register, value) in &self.constants {
             registers.set(register, value);
         }
@@ -54,41 +52,19 @@ impl Program {
                 Op::Div { to, a, b } => v[to as usize] = v[a as usize] / v[b as usize],
                 Op::Neg { to, a } => v[to as usize] = -v[a as usize],
                 Op::Recip { to, a } => v[to as usize] = 1.0 / v[a as usize],
-                Op::SinCos { sin, cos, a } => {
-                    (v[sin as usize], v[cos as usize]) = math::sin_cos(v[a as usize])
-                }
-                Op::Unary { function, to, a } => {
-                    v[to as usize] = unary_value(function, v[a as usize])
-                }
+                Op::SinCos { sin, cos, a } => (v[sin as usize], v[cos as usize]) = math::sin_cos(v[a as usize]),
+                Op::Unary { function, to, a } => v[to as usize] = unary_value(function, v[a as usize]),
                 Op::Binary { function, to, a, b } => {
                     v[to as usize] = binary_value(function, v[a as usize], v[b as usize]);
                 }
-                Op::Compare {
-                    comparison,
-                    to,
-                    a,
-                    b,
-                } => {
+                Op::Compare { comparison, to, a, b } => {
                     v[to as usize] = compare(comparison, v[a as usize], v[b as usize]);
                 }
-                Op::And { to, a, b } => {
-                    v[to as usize] = f64::from(v[a as usize] != 0.0 && v[b as usize] != 0.0)
-                }
-                Op::Or { to, a, b } => {
-                    v[to as usize] = f64::from(v[a as usize] != 0.0 || v[b as usize] != 0.0)
-                }
+                Op::And { to, a, b } => v[to as usize] = f64::from(v[a as usize] != 0.0 && v[b as usize] != 0.0),
+                Op::Or { to, a, b } => v[to as usize] = f64::from(v[a as usize] != 0.0 || v[b as usize] != 0.0),
                 Op::Not { to, a } => v[to as usize] = f64::from(v[a as usize] == 0.0),
-                Op::Select {
-                    to,
-                    condition,
-                    a,
-                    b,
-                } => {
-                    v[to as usize] = if v[condition as usize] == 0.0 {
-                        v[b as usize]
-                    } else {
-                        v[a as usize]
-                    };
+                Op::Select { to, condition, a, b } => {
+                    v[to as usize] = if v[condition as usize] == 0.0 { v[b as usize] } else { v[a as usize] };
                 }
             }
         }

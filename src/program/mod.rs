@@ -24,9 +24,9 @@ pub enum Stage {
     Prologue,
     /// Once per time: what depends on time alone.
     Time,
-    /// Once per iteration: `Φ`, `Φ_q`.
+    /// Once per iteration: `Φ`, `Φ_q`, the conditions.
     Position,
-    /// `ν` and the conditions.
+    /// `ν`.
     Velocity,
     /// `γ`; needs `q̇`.
     Acceleration,

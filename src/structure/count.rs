@@ -8,11 +8,8 @@ const LONGEST: usize = 40;
 /// Coordinates and equations by body, joint, constraint and driver, and their difference.
 #[must_use]
 pub fn table(system: &ConstraintSystem) -> String {
-    let bodies: Vec<[String; 3]> = system
-        .bodies
-        .iter()
-        .map(|body| ["body".to_owned(), body.name.clone(), "3".to_owned()])
-        .collect();
+    let bodies: Vec<[String; 3]> =
+        system.bodies.iter().map(|body| ["body".to_owned(), body.name.clone(), "3".to_owned()]).collect();
     let equations: Vec<[String; 3]> = system
         .declarations
         .iter()
@@ -29,26 +26,13 @@ pub fn table(system: &ConstraintSystem) -> String {
     rows.extend(cut(bodies));
     rows.push(["equations".to_owned(), String::new(), m.to_string()]);
     rows.extend(cut(equations));
-    rows.push([
-        "NDOF".to_owned(),
-        format!("{n} - {m}"),
-        system.ndof().to_string(),
-    ]);
-    let width = |k: usize| {
-        rows.iter()
-            .map(|row| row[k].chars().count())
-            .max()
-            .unwrap_or(0)
-    };
+    rows.push(["NDOF".to_owned(), format!("{n} - {m}"), system.ndof().to_string()]);
+    let width = |k: usize| rows.iter().map(|row| row[k].chars().count()).max().unwrap_or(0);
     let (first, second, third) = (width(0) + 2, width(1), width(2));
     rows.iter()
         .map(|[kind, name, count]| {
             let is_total = matches!(kind.as_str(), "coordinates" | "equations" | "NDOF");
-            let kind = if is_total {
-                kind.clone()
-            } else {
-                format!("  {kind}")
-            };
+            let kind = if is_total { kind.clone() } else { format!("  {kind}") };
             format!("{kind:<first$}  {name:<second$}  {count:>third$}")
         })
         .collect::<Vec<_>>()

@@ -17,10 +17,7 @@ pub(super) struct Matching {
 
 /// A matching with as many rows as possible.
 pub(super) fn maximum(pattern: &SparseRows, rows: usize, columns: usize) -> Matching {
-    let mut matching = Matching {
-        row_of_column: vec![NONE; columns],
-        column_of_row: vec![NONE; rows],
-    };
+    let mut matching = Matching { row_of_column: vec![NONE; columns], column_of_row: vec![NONE; rows] };
     // cheap assignments never need undoing: each row's look-ahead pointer only moves on
     let mut ahead = vec![0; rows];
     let mut visited = vec![NONE; rows];
@@ -32,9 +29,7 @@ pub(super) fn maximum(pattern: &SparseRows, rows: usize, columns: usize) -> Matc
         while let Some(&(row, next)) = path.last() {
             let entries = pattern.row(row as usize);
             let cheap = &mut ahead[row as usize];
-            while *cheap < entries.len()
-                && matching.row_of_column[entries[*cheap].0 as usize] != NONE
-            {
+            while *cheap < entries.len() && matching.row_of_column[entries[*cheap].0 as usize] != NONE {
                 *cheap += 1;
             }
             if let Some(&(free, _)) = entries.get(*cheap) {
@@ -72,8 +67,7 @@ impl Matching {
     }
 
     pub fn is_perfect(&self) -> bool {
-        self.column_of_row.iter().all(|&column| column != NONE)
-            && self.row_of_column.iter().all(|&row| row != NONE)
+        self.column_of_row.iter().all(|&column| column != NONE) && self.row_of_column.iter().all(|&row| row != NONE)
     }
 
     /// Rows among which there is one too many: all that alternating paths reach from the unmatched ones.
@@ -166,14 +160,8 @@ impl Matching {
                         on_stack[member as usize] = false;
                     }
                     members.sort_unstable();
-                    let columns = members
-                        .iter()
-                        .map(|&member| self.column_of_row[member as usize])
-                        .collect();
-                    blocks.push(Block {
-                        rows: members,
-                        columns,
-                    });
+                    let columns = members.iter().map(|&member| self.column_of_row[member as usize]).collect();
+                    blocks.push(Block { rows: members, columns });
                 }
             }
         }
@@ -182,13 +170,9 @@ impl Matching {
 }
 
 fn unmatched(partners: &[u32]) -> Vec<u32> {
-    (0..partners.len() as u32)
-        .filter(|&k| partners[k as usize] == NONE)
-        .collect()
+    (0..partners.len() as u32).filter(|&k| partners[k as usize] == NONE).collect()
 }
 
 fn marked(seen: &[bool]) -> Vec<u32> {
-    (0..seen.len() as u32)
-        .filter(|&k| seen[k as usize])
-        .collect()
+    (0..seen.len() as u32).filter(|&k| seen[k as usize]).collect()
 }

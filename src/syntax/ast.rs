@@ -316,19 +316,13 @@ impl Expr {
     pub fn children(&self) -> Vec<&Expr> {
         match &self.kind {
             ExprKind::Literal { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => Vec::new(),
-            ExprKind::Call {
-                arguments: list, ..
-            }
+            ExprKind::Call { arguments: list, .. }
             | ExprKind::Tuple(list)
             | ExprKind::And(list)
             | ExprKind::Or(list) => list.iter().collect(),
             ExprKind::Paren(e) | ExprKind::Negate(e) | ExprKind::Not(e) => vec![e],
-            ExprKind::Sum(first, rest) => std::iter::once(&**first)
-                .chain(rest.iter().map(|(_, e)| e))
-                .collect(),
-            ExprKind::Product(first, rest) => std::iter::once(&**first)
-                .chain(rest.iter().map(|(_, e)| e))
-                .collect(),
+            ExprKind::Sum(first, rest) => std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e)).collect(),
+            ExprKind::Product(first, rest) => std::iter::once(&**first).chain(rest.iter().map(|(_, e)| e)).collect(),
             ExprKind::Power(a, b) | ExprKind::Compare(a, _, b) => vec![a, b],
             ExprKind::If { arms, otherwise } => {
                 let mut list: Vec<&Expr> = arms.iter().flat_map(|(c, e)| [c, e]).collect();

@@ -67,11 +67,7 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Diagnostic> {
             _ => {}
         }
         if levels.len() - 1 + ifs > DEEPEST {
-            let span = Span {
-                file,
-                start: at,
-                end: at + token.len() as u32,
-            };
+            let span = Span { file, start: at, end: at + token.len() as u32 };
             return Err(errors::too_deep(span));
         }
     }
@@ -93,13 +89,8 @@ fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
                 None => text.len(),
             }
         } else if first.is_alphanumeric() || first == '_' {
-            text.find(|c: char| !(c.is_alphanumeric() || c == '_'))
-                .unwrap_or(text.len())
-        } else if text.starts_with("==")
-            || text.starts_with("<=")
-            || text.starts_with(">=")
-            || text.starts_with("!=")
-        {
+            text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
+        } else if text.starts_with("==") || text.starts_with("<=") || text.starts_with(">=") || text.starts_with("!=") {
             2
         } else {
             first.len_utf8()

@@ -8,12 +8,9 @@ use pest::error::{Error, ErrorVariant};
 
 /// Nesting beyond the cap.
 pub fn too_deep(span: Span) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0103,
-        format!("formulas are nested deeper than {DEEPEST}"),
-    )
-    .at(span, "one level too many")
-    .help("give a part of the formula a name, with `param` or `fn`")
+    Diagnostic::new(Code::E0103, format!("formulas are nested deeper than {DEEPEST}"))
+        .at(span, "one level too many")
+        .help("give a part of the formula a name, with `param` or `fn`")
 }
 
 /// A file without a single mechanism.
@@ -30,23 +27,13 @@ pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
 
 /// A quantity as an exponent: `2 ^ 3 s`.
 pub fn quantity_as_exponent(span: Span) -> Diagnostic {
-    misplaced(
-        span,
-        "a number with a unit cannot be an exponent",
-        "this has a unit",
-    )
+    misplaced(span, "a number with a unit cannot be an exponent", "this has a unit")
 }
 
 /// A unit's power that is not a whole number: `50 mm^x`.
 pub fn unit_power(span: Span, literal: &str) -> Diagnostic {
-    misplaced(
-        span,
-        "the power of a unit is a whole number",
-        "after a unit this is the unit's power",
-    )
-    .help(format!(
-        "to raise the whole quantity, write `({literal})^…`"
-    ))
+    misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power")
+        .help(format!("to raise the whole quantity, write `({literal})^…`"))
 }
 
 /// A chain of comparisons: `a < b < c`.
@@ -61,12 +48,11 @@ pub fn from_pest(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
     };
+    if let Some(double) = double_equals(error, text, offset, file) {
+        return double;
+    }
     let found = found_at(text, offset);
-    let span = Span {
-        file,
-        start: found.start as u32,
-        end: found.end as u32,
-    };
+    let span = Span { file, start: found.start as u32, end: found.end as u32 };
     let word = &text[found.clone()];
     let expected = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => expectation(positives, word),
@@ -80,6 +66,22 @@ pub fn from_pest(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}"))
         .at(span, format!("expected {expected}"))
         .help_if(mend(error, text, found.start, word))
+}
+
+/// An equation written with `==`, which the grammar took for a comparison.
+fn double_equals(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -> Option<Diagnostic> {
+    if !expects(error, Rule::equals) {
+        return None;
+    }
+    let before = &text[..offset];
+    let start = ["driver", "constraint"].iter().filter_map(|word| before.rfind(word)).max()?;
+    let at = start + before[start..].find("==")?;
+    let span = Span { file, start: at as u32, end: at as u32 + 2 };
+    Some(misplaced(span, "expected `=`, found `==`", "this compares").help("an equation is written with one `=`"))
+}
+
+fn expects(error: &Error<Rule>, rule: Rule) -> bool {
+    matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule))
 }
 
 /// The word or character at an offset: what the parser could not go on with.
@@ -100,13 +102,7 @@ fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
     let length = match rest.chars().next() {
         None => 0,
         Some(c) if is_word(c) => rest.find(|c| !is_word(c)).unwrap_or(rest.len()),
-        Some(_)
-            if ["==", "<=", ">=", "!="]
-                .iter()
-                .any(|op| rest.starts_with(op)) =>
-        {
-            2
-        }
+        Some(_) if ["==", "<=", ">=", "!="].iter().any(|op| rest.starts_with(op)) => 2,
         Some(c) => c.len_utf8(),
     };
     start..start + length
@@ -115,15 +111,10 @@ fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
 /// The rules the parser would have liked, as a person would say it.
 fn expectation(rules: &[Rule], found: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
-    let goes_on = rules
-        .iter()
-        .any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
+    let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
     for rule in rules {
         let word = human(*rule, goes_on);
-        if !word.is_empty()
-            && !words.contains(&word)
-            && !(word.starts_with('`') && word.trim_matches('`') == found)
-        {
+        if !word.is_empty() && !words.contains(&word) && !(word.starts_with('`') && word.trim_matches('`') == found) {
             words.push(word);
         }
     }
@@ -131,11 +122,7 @@ fn expectation(rules: &[Rule], found: &str) -> String {
         return "the next declaration".to_owned();
     }
     let last = words.pop().unwrap_or_default();
-    if words.is_empty() {
-        last.to_owned()
-    } else {
-        format!("{} or {last}", words.join(", "))
-    }
+    if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
 }
 
 /// A rule in the user's words; empty for what is said by another one.
@@ -222,13 +209,10 @@ fn mend(error: &Error<Rule>, text: &str, at: usize, found: &str) -> Option<Strin
         "measure",
         "analysis",
     ];
-    let expects = |rule| matches!(&error.variant, ErrorVariant::ParsingError { positives, .. } if positives.contains(&rule));
+    let expects = |rule| expects(error, rule);
     let before = text[..at].trim_end();
     let starts_operand = found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
     let new_line = text[before.len()..at].contains('\n');
-    if found == "==" && expects(Rule::equals) || found == "==" && expects(Rule::infix) {
-        return Some("an equation is written with one `=`".to_owned());
-    }
     if found == "=" && before.ends_with('=') {
         return Some("an equation is written with one `=`".to_owned());
     }

@@ -17,21 +17,12 @@ pub(super) fn build(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> 
     let mut inner = pair.into_inner().peekable();
     match inner.next_if(|first| first.as_rule() == Rule::conditional) {
         Some(first) => conditional(reader, first, depth),
-        None => Row {
-            reader,
-            tokens: inner,
-            end: span,
-        }
-        .either(depth),
+        None => Row { reader, tokens: inner, end: span }.either(depth),
     }
 }
 
 /// An operand alone: a literal, a call, a name, parentheses.
-pub(super) fn build_operand(
-    reader: &Reader<'_>,
-    pair: Pair<'_, Rule>,
-    depth: usize,
-) -> Built<Expr> {
+pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
     let span = reader.span(&pair);
     within(depth, span)?;
     let kind = match pair.as_rule() {
@@ -46,20 +37,12 @@ pub(super) fn build_operand(
         }
         Rule::call => {
             let mut parts = pair.into_inner();
-            let name = parts
-                .next()
-                .map(|part| reader.name(&part))
-                .ok_or_else(|| reader.truncated())?;
-            let arguments = parts
-                .map(|part| build(reader, part, depth + 1))
-                .collect::<Built<Vec<_>>>()?;
+            let name = parts.next().map(|part| reader.name(&part)).ok_or_else(|| reader.truncated())?;
+            let arguments = parts.map(|part| build(reader, part, depth + 1)).collect::<Built<Vec<_>>>()?;
             ExprKind::Call { name, arguments }
         }
         Rule::paren => {
-            let mut parts = pair
-                .into_inner()
-                .map(|part| build(reader, part, depth + 1))
-                .collect::<Built<Vec<_>>>()?;
+            let mut parts = pair.into_inner().map(|part| build(reader, part, depth + 1)).collect::<Built<Vec<_>>>()?;
             match parts.pop() {
                 Some(only) if parts.is_empty() => ExprKind::Paren(Box::new(only)),
                 Some(last) => {
@@ -75,11 +58,7 @@ pub(super) fn build_operand(
 }
 
 fn within(depth: usize, span: Span) -> Built<()> {
-    if depth > DEEPEST {
-        Err(Box::new(errors::too_deep(span)))
-    } else {
-        Ok(())
-    }
+    if depth > DEEPEST { Err(Box::new(errors::too_deep(span))) } else { Ok(()) }
 }
 
 fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
@@ -104,10 +83,7 @@ fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
             })?
         }
     };
-    Ok(ExprKind::Literal {
-        value,
-        unit: Some((name, power)),
-    })
+    Ok(ExprKind::Literal { value, unit: Some((name, power)) })
 }
 
 fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {
@@ -123,13 +99,7 @@ fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built
     while let (Some(condition), Some(value)) = (parts.next(), parts.next()) {
         arms.push((condition, value));
     }
-    Ok(Expr {
-        kind: ExprKind::If {
-            arms,
-            otherwise: Box::new(otherwise),
-        },
-        span,
-    })
+    Ok(Expr { kind: ExprKind::If { arms, otherwise: Box::new(otherwise) }, span })
 }
 
 /// Operands and operators in a row, read from the left; a method per precedence.
@@ -141,14 +111,12 @@ struct Row<'a, 'i, I: Iterator<Item = Pair<'i, Rule>>> {
 
 impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     fn infix(&mut self, operators: &[&str]) -> Option<Pair<'i, Rule>> {
-        self.tokens
-            .next_if(|pair| pair.as_rule() == Rule::infix && operators.contains(&pair.as_str()))
+        self.tokens.next_if(|pair| pair.as_rule() == Rule::infix && operators.contains(&pair.as_str()))
     }
 
     /// Whether a prefix operator comes next, taken off.
     fn prefix(&mut self, operator: &str) -> Option<Pair<'i, Rule>> {
-        self.tokens
-            .next_if(|pair| pair.as_rule() == Rule::prefix && pair.as_str() == operator)
+        self.tokens.next_if(|pair| pair.as_rule() == Rule::prefix && pair.as_str() == operator)
     }
 
     fn either(&mut self, depth: usize) -> Built<Expr> {
@@ -175,10 +143,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
                 within(depth + 1, span)?;
                 let inner = self.negation(depth + 1)?;
                 let span = span.to(inner.span);
-                Ok(Expr {
-                    kind: ExprKind::Not(Box::new(inner)),
-                    span,
-                })
+                Ok(Expr { kind: ExprKind::Not(Box::new(inner)), span })
             }
             None => self.comparison(depth),
         }
@@ -200,57 +165,38 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         };
         let right = self.sum(depth)?;
         if let Some(second) = self.infix(OPERATORS) {
-            return Err(Box::new(errors::chained_comparison(
-                self.reader.span(&second),
-            )));
+            return Err(Box::new(errors::chained_comparison(self.reader.span(&second))));
         }
         let span = left.span.to(right.span);
-        Ok(Expr {
-            kind: ExprKind::Compare(Box::new(left), comparison, Box::new(right)),
-            span,
-        })
+        Ok(Expr { kind: ExprKind::Compare(Box::new(left), comparison, Box::new(right)), span })
     }
 
     fn sum(&mut self, depth: usize) -> Built<Expr> {
         let first = self.product(depth)?;
         let mut rest = Vec::new();
         while let Some(operator) = self.infix(&["+", "-"]) {
-            let sign = if operator.as_str() == "+" {
-                Sign::Plus
-            } else {
-                Sign::Minus
-            };
+            let sign = if operator.as_str() == "+" { Sign::Plus } else { Sign::Minus };
             rest.push((sign, self.product(depth)?));
         }
         let Some((_, last)) = rest.last() else {
             return Ok(first);
         };
         let span = first.span.to(last.span);
-        Ok(Expr {
-            kind: ExprKind::Sum(Box::new(first), rest),
-            span,
-        })
+        Ok(Expr { kind: ExprKind::Sum(Box::new(first), rest), span })
     }
 
     fn product(&mut self, depth: usize) -> Built<Expr> {
         let first = self.signed(depth)?;
         let mut rest = Vec::new();
         while let Some(operator) = self.infix(&["*", "/"]) {
-            let factor = if operator.as_str() == "*" {
-                Factor::Times
-            } else {
-                Factor::Over
-            };
+            let factor = if operator.as_str() == "*" { Factor::Times } else { Factor::Over };
             rest.push((factor, self.signed(depth)?));
         }
         let Some((_, last)) = rest.last() else {
             return Ok(first);
         };
         let span = first.span.to(last.span);
-        Ok(Expr {
-            kind: ExprKind::Product(Box::new(first), rest),
-            span,
-        })
+        Ok(Expr { kind: ExprKind::Product(Box::new(first), rest), span })
     }
 
     fn signed(&mut self, depth: usize) -> Built<Expr> {
@@ -260,10 +206,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
                 within(depth + 1, span)?;
                 let inner = self.signed(depth + 1)?;
                 let span = span.to(inner.span);
-                Ok(Expr {
-                    kind: ExprKind::Negate(Box::new(inner)),
-                    span,
-                })
+                Ok(Expr { kind: ExprKind::Negate(Box::new(inner)), span })
             }
             None => self.power(depth),
         }
@@ -275,16 +218,10 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
             return Ok(base);
         };
         within(depth + 1, self.reader.span(&operator))?;
-        if let ExprKind::Literal {
-            unit: Some((_, 1)), ..
-        } = base.kind
-        {
+        if let ExprKind::Literal { unit: Some((_, 1)), .. } = base.kind {
             let literal = &self.reader.text(base.span);
             if !literal.contains('^') {
-                return Err(Box::new(errors::unit_power(
-                    self.reader.span(&operator),
-                    literal,
-                )));
+                return Err(Box::new(errors::unit_power(self.reader.span(&operator), literal)));
             }
         }
         let exponent = self.signed(depth + 1)?;
@@ -292,21 +229,12 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         while let ExprKind::Negate(inner) = &bare.kind {
             bare = inner;
         }
-        let base_of_exponent = if let ExprKind::Power(inner, _) = &bare.kind {
-            inner
-        } else {
-            bare
-        };
+        let base_of_exponent = if let ExprKind::Power(inner, _) = &bare.kind { inner } else { bare };
         if let ExprKind::Literal { unit: Some(_), .. } = base_of_exponent.kind {
-            return Err(Box::new(errors::quantity_as_exponent(
-                base_of_exponent.span,
-            )));
+            return Err(Box::new(errors::quantity_as_exponent(base_of_exponent.span)));
         }
         let span = base.span.to(exponent.span);
-        Ok(Expr {
-            kind: ExprKind::Power(Box::new(base), Box::new(exponent)),
-            span,
-        })
+        Ok(Expr { kind: ExprKind::Power(Box::new(base), Box::new(exponent)), span })
     }
 
     fn operand(&mut self, depth: usize) -> Built<Expr> {
@@ -321,11 +249,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
                 )))
             }
             Some(pair) => build_operand(self.reader, pair, depth),
-            None => Err(Box::new(errors::misplaced(
-                self.end,
-                "a formula is not complete",
-                "an operand is missing",
-            ))),
+            None => Err(Box::new(errors::misplaced(self.end, "a formula is not complete", "an operand is missing"))),
         }
     }
 }
@@ -334,14 +258,9 @@ fn flat(mut list: Vec<Expr>, form: fn(Vec<Expr>) -> ExprKind) -> Expr {
     match (list.len(), list.pop()) {
         (1, Some(only)) => only,
         (_, Some(last)) => {
-            let span = list
-                .first()
-                .map_or(last.span, |first| first.span.to(last.span));
+            let span = list.first().map_or(last.span, |first| first.span.to(last.span));
             list.push(last);
-            Expr {
-                kind: form(list),
-                span,
-            }
+            Expr { kind: form(list), span }
         }
         (_, None) => unreachable!("a row begins with an operand"),
     }

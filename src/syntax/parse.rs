@@ -72,9 +72,7 @@ fn on_a_deep_stack<T>(
 ) -> Result<T, Diagnostics> {
     let source = sources.get(file);
     depth::measure(&source.text, file)?;
-    stacker::maybe_grow(STACK, STACK, || {
-        work(&Reader { source, file }).map_err(|fault| (*fault).into())
-    })
+    stacker::maybe_grow(STACK, STACK, || work(&Reader { source, file }).map_err(|fault| (*fault).into()))
 }
 
 /// Builds the nodes of one text.
@@ -94,15 +92,17 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A pair's place, without the white space that the parser may have taken in behind it.
+    /// A pair's place, without the white space and comments that the parser may have taken in behind it.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        let span = pair.as_span();
-        let length = span.as_str().trim_end().len();
-        Span {
-            file: self.file,
-            start: span.start() as u32,
-            end: (span.start() + length) as u32,
+        let start = pair.as_span().start();
+        let mut last = pair.clone();
+        while !ends_with_a_token(last.as_rule()) {
+            match last.into_inner().next_back() {
+                Some(inner) => last = inner,
+                None => return Span { file: self.file, start: start as u32, end: pair.as_span().end() as u32 },
+            }
         }
+        Span { file: self.file, start: start as u32, end: last.as_span().end() as u32 }
     }
 
     /// The words that a span covers.
@@ -111,25 +111,14 @@ impl<'a> Reader<'a> {
     }
 
     pub(super) fn name(&self, pair: &Pair<'_, Rule>) -> Name {
-        Name {
-            text: normalized(pair.as_str()),
-            span: self.span(pair),
-        }
+        Name { text: normalized(pair.as_str()), span: self.span(pair) }
     }
 
     /// What cannot happen while the grammar is what this file believes it to be.
     pub(super) fn truncated(&self) -> Box<Diagnostic> {
         let end = self.source.text.len() as u32;
-        let span = Span {
-            file: self.file,
-            start: end,
-            end,
-        };
-        Box::new(errors::misplaced(
-            span,
-            "a declaration is not complete",
-            "more was expected before this",
-        ))
+        let span = Span { file: self.file, start: end, end };
+        Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
     }
 
     fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
@@ -137,15 +126,8 @@ impl<'a> Reader<'a> {
         let docs = self.docs_above(span.start);
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
-        let items = inner
-            .map(|item| self.item(item))
-            .collect::<Built<Vec<_>>>()?;
-        Ok(Mechanism {
-            docs,
-            name,
-            span,
-            items,
-        })
+        let items = inner.map(|item| self.item(item)).collect::<Built<Vec<_>>>()?;
+        Ok(Mechanism { docs, name, span, items })
     }
 
     fn item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
@@ -154,19 +136,14 @@ impl<'a> Reader<'a> {
         let rule = pair.as_rule();
         let mut inner = significant(pair);
         let kind = match rule {
-            Rule::param => ItemKind::Param {
-                name: self.next_name(&mut inner)?,
-                value: self.next_expr(&mut inner)?,
-            },
+            Rule::param => ItemKind::Param { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
             Rule::function => ItemKind::Function {
                 name: self.next_name(&mut inner)?,
                 argument: self.next_name(&mut inner)?,
                 value: self.next_expr(&mut inner)?,
             },
             Rule::table => self.table(&mut inner)?,
-            Rule::ground => ItemKind::Ground {
-                features: self.features(inner)?,
-            },
+            Rule::ground => ItemKind::Ground { features: self.features(inner)? },
             Rule::body => self.body(inner)?,
             Rule::joint => self.joint(&mut inner)?,
             Rule::driver | Rule::constraint => ItemKind::Equation {
@@ -175,10 +152,9 @@ impl<'a> Reader<'a> {
                 left: self.next_expr(&mut inner)?,
                 right: self.next_expr(&mut inner)?,
             },
-            Rule::measure => ItemKind::Measure {
-                name: self.next_name(&mut inner)?,
-                value: self.next_expr(&mut inner)?,
-            },
+            Rule::measure => {
+                ItemKind::Measure { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? }
+            }
             Rule::analysis => ItemKind::Analysis {
                 from: self.next_expr(&mut inner)?,
                 to: self.next_expr(&mut inner)?,
@@ -196,23 +172,12 @@ impl<'a> Reader<'a> {
             match pair.as_rule() {
                 Rule::periodic => periodic = true,
                 Rule::table_rows => {
-                    let rows = pair
-                        .into_inner()
-                        .map(|row| formula::build(self, row, 0))
-                        .collect::<Built<Vec<_>>>()?;
-                    return Ok(ItemKind::Table {
-                        name,
-                        periodic,
-                        rows: TableRows::Listed(rows),
-                    });
+                    let rows = pair.into_inner().map(|row| formula::build(self, row, 0)).collect::<Built<Vec<_>>>()?;
+                    return Ok(ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) });
                 }
                 Rule::table_file => {
                     let rows = self.table_file(pair)?;
-                    return Ok(ItemKind::Table {
-                        name,
-                        periodic,
-                        rows,
-                    });
+                    return Ok(ItemKind::Table { name, periodic, rows });
                 }
                 _ => {}
             }
@@ -223,10 +188,7 @@ impl<'a> Reader<'a> {
     fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
         let mut inner = pair.into_inner();
         let string = inner.next().ok_or_else(|| self.truncated())?;
-        let path = Name {
-            text: string.as_str().trim_matches('"').to_owned(),
-            span: self.span(&string),
-        };
+        let path = Name { text: string.as_str().trim_matches('"').to_owned(), span: self.span(&string) };
         let mut units = inner.map(|unit| self.name(&unit));
         let units = match (units.next(), units.next()) {
             (Some(first), Some(second)) => Some([first, second]),
@@ -242,11 +204,7 @@ impl<'a> Reader<'a> {
             Some(pair) => Some(formula::build_operand(self, pair, 0)?),
             None => None,
         };
-        Ok(ItemKind::Body {
-            name,
-            pose,
-            features: self.features(inner)?,
-        })
+        Ok(ItemKind::Body { name, pose, features: self.features(inner)? })
     }
 
     fn joint<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
@@ -255,15 +213,8 @@ impl<'a> Reader<'a> {
         let call_span = self.span(&call);
         let mut parts = call.into_inner();
         let kind = self.next_name(&mut parts)?;
-        let arguments = parts
-            .map(|part| formula::build(self, part, 1))
-            .collect::<Built<Vec<_>>>()?;
-        Ok(ItemKind::Joint {
-            name,
-            kind,
-            arguments,
-            call_span,
-        })
+        let arguments = parts.map(|part| formula::build(self, part, 1)).collect::<Built<Vec<_>>>()?;
+        Ok(ItemKind::Joint { name, kind, arguments, call_span })
     }
 
     fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
@@ -274,51 +225,33 @@ impl<'a> Reader<'a> {
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
         let rule = pair.as_rule();
-        let along = pair
-            .clone()
-            .into_inner()
-            .any(|p| p.as_rule() == Rule::along);
+        let along = pair.clone().into_inner().any(|p| p.as_rule() == Rule::along);
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
         let kind = match rule {
-            Rule::point => FeatureKind::Point {
-                at: self.next_operand(&mut inner)?,
-            },
+            Rule::point => FeatureKind::Point { at: self.next_operand(&mut inner)? },
             Rule::axis if along => FeatureKind::AxisAlong {
                 origin: self.next_operand(&mut inner)?,
                 direction: self.next_operand(&mut inner)?,
             },
-            Rule::axis => FeatureKind::AxisTo {
-                origin: self.next_operand(&mut inner)?,
-                target: self.next_operand(&mut inner)?,
-            },
-            Rule::circle => FeatureKind::Circle {
-                center: self.next_operand(&mut inner)?,
-                radius: self.next_expr(&mut inner)?,
-            },
+            Rule::axis => {
+                FeatureKind::AxisTo { origin: self.next_operand(&mut inner)?, target: self.next_operand(&mut inner)? }
+            }
+            Rule::circle => {
+                FeatureKind::Circle { center: self.next_operand(&mut inner)?, radius: self.next_expr(&mut inner)? }
+            }
             Rule::curve => FeatureKind::Curve {
                 argument: self.next_name(&mut inner)?,
                 at: self.next_operand(&mut inner)?,
-                estimate: inner
-                    .next()
-                    .map(|e| formula::build(self, e, 0))
-                    .transpose()?,
+                estimate: inner.next().map(|e| formula::build(self, e, 0)).transpose()?,
             },
             _ => return Err(self.truncated()),
         };
-        Ok(Feature {
-            docs,
-            span,
-            name,
-            kind,
-        })
+        Ok(Feature { docs, span, name, kind })
     }
 
     fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
-        pairs
-            .next()
-            .map(|pair| self.name(&pair))
-            .ok_or_else(|| self.truncated())
+        pairs.next().map(|pair| self.name(&pair)).ok_or_else(|| self.truncated())
     }
 
     fn next_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
@@ -347,6 +280,30 @@ impl<'a> Reader<'a> {
         docs.reverse();
         docs
     }
+}
+
+/// Whether a rule's last part is a word or a bracket, which it ends with and not behind.
+fn ends_with_a_token(rule: Rule) -> bool {
+    !matches!(
+        rule,
+        Rule::expr
+            | Rule::conditional
+            | Rule::literal
+            | Rule::unit_power
+            | Rule::param
+            | Rule::function
+            | Rule::table
+            | Rule::table_file
+            | Rule::point
+            | Rule::axis
+            | Rule::circle
+            | Rule::curve
+            | Rule::joint
+            | Rule::driver
+            | Rule::constraint
+            | Rule::measure
+            | Rule::analysis
+    )
 }
 
 /// The pairs that carry something: no keywords, no punctuation.

@@ -1,0 +1,133 @@
+//! The pipeline as tests use it: a text in, diagnostics and rows out.
+
+#![allow(dead_code)] // each test file uses its part
+
+use mechc::analysis::{self, Times};
+use mechc::diag::{Color, Diagnostic, Diagnostics, Format, Severity, render};
+use mechc::program::Program;
+use mechc::source::Sources;
+use mechc::structure::Determined;
+use mechc::{check, syntax};
+use std::path::{Path, PathBuf};
+
+/// What became of a text.
+pub struct Outcome {
+    pub sources: Sources,
+    pub diagnostics: Diagnostics,
+    pub columns: Vec<String>,
+    pub rows: Vec<Vec<f64>>,
+}
+
+/// Which times to compute; those of the file where nothing is said.
+#[derive(Clone, Copy, Default)]
+pub struct Span {
+    pub to: Option<f64>,
+    pub every: Option<f64>,
+}
+
+impl Outcome {
+    /// Whether nothing went wrong.
+    pub fn succeeded(&self) -> bool {
+        !self.diagnostics.has_errors()
+    }
+
+    /// The diagnostics as a user reads them.
+    pub fn text(&self) -> String {
+        self.diagnostics.iter().map(|d| render(d, &self.sources, Format::Human, Color::Never)).collect()
+    }
+
+    /// Fails with the diagnostics unless nothing went wrong.
+    pub fn expect_success(self) -> Outcome {
+        assert!(self.succeeded(), "{}", self.text());
+        self
+    }
+
+    /// The codes, in order.
+    pub fn codes(&self) -> Vec<&'static str> {
+        self.diagnostics.iter().map(|d| d.code.as_str()).collect()
+    }
+
+    /// A column by its name.
+    pub fn column(&self, name: &str) -> Vec<f64> {
+        let at = self.columns.iter().position(|column| column == name);
+        let at = at.unwrap_or_else(|| panic!("no column {name} in {:?}", self.columns));
+        self.rows.iter().map(|row| row[at]).collect()
+    }
+}
+
+/// Checks and proves the first mechanism of a text.
+pub fn compile(sources: &mut Sources, name: &str, text: &str) -> (Option<Determined>, Diagnostics) {
+    let file = sources.add(name, text);
+    let tree = match syntax::parse(sources, file) {
+        Ok(tree) => tree,
+        Err(diagnostics) => return (None, diagnostics),
+    };
+    let diagnostics = check::check_file(&tree);
+    if diagnostics.has_errors() {
+        return (None, diagnostics);
+    }
+    mechc::compile(&tree.mechanisms[0], &[], sources)
+}
+
+/// Runs the first mechanism of a text over its analysis.
+pub fn run(name: &str, text: &str, span: Span) -> Outcome {
+    let mut sources = Sources::default();
+    let (determined, mut diagnostics) = compile(&mut sources, name, text);
+    let (mut columns, mut rows) = (Vec::new(), Vec::new());
+    if let Some(determined) = determined
+        && let Some([from, to, every]) = determined.system().analysis
+    {
+        let times = Times::grid(from, span.to.unwrap_or(to), span.every.unwrap_or(every)).expect("a grid");
+        if let Err(diagnostic) = follow(&determined, &times, &mut diagnostics, &mut columns, &mut rows) {
+            diagnostics.push(*diagnostic);
+        }
+    }
+    Outcome { sources, diagnostics, columns, rows }
+}
+
+fn follow(
+    determined: &Determined,
+    times: &Times,
+    diagnostics: &mut Diagnostics,
+    columns: &mut Vec<String>,
+    rows: &mut Vec<Vec<f64>>,
+) -> Result<(), Box<Diagnostic>> {
+    let program = Program::new(determined.system());
+    let mut started = analysis::start(determined, &program, times.from(), analysis::TOLERANCE)?;
+    diagnostics.extend(started.remarks());
+    *columns = started.columns();
+    let mut motion = started.motion(times.span());
+    for t in times.iter() {
+        rows.push(motion.row_at(t)?.to_vec());
+    }
+    Ok(())
+}
+
+/// All files below a folder with an ending, in order.
+pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
+    let mut found = Vec::new();
+    let mut open = vec![Path::new(env!("CARGO_MANIFEST_DIR")).join(folder)];
+    while let Some(folder) = open.pop() {
+        for entry in std::fs::read_dir(&folder).expect("the folder is there") {
+            let path = entry.expect("it can be read").path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.extension().is_some_and(|e| e == ending) {
+                found.push(path);
+            }
+        }
+    }
+    found.sort();
+    assert!(!found.is_empty(), "no .{ending} below {folder}");
+    found
+}
+
+/// `name` of `folder/name.mech`.
+pub fn stem(path: &Path) -> String {
+    path.file_stem().expect("a file").to_string_lossy().into_owned()
+}
+
+/// Worse than a remark.
+pub fn is_error(diagnostic: &Diagnostic) -> bool {
+    diagnostic.severity() == Severity::Error
+}
