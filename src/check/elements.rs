@@ -79,7 +79,7 @@ impl Checker<'_> {
             _ => {
                 let known: Vec<&str> = JOINTS.iter().chain(LATER_JOINTS).copied().collect();
                 let listed = format!("the joints are {}", errors::list(&known));
-                let mut diagnostic = errors::unknown("joint", kind, &known);
+                let mut diagnostic = errors::unknown("kind of joint", kind, &known);
                 if diagnostic.help.is_empty() {
                     diagnostic = diagnostic.help(listed);
                 }

@@ -77,14 +77,14 @@ pub fn reserved(name: &Name) -> Diagnostic {
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .help(format!("choose a longer name, `{}_1` say", name.text))
+        .help(format!("choose another name, `{}_1` say", name.text))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
     Diagnostic::new(Code::E0205, format!("a mechanism has one `{word}`"))
         .at(span, "the second one")
         .also(first, "the first one")
-        .help("put both into one declaration")
+        .help(if word == "ground" { "put both into one declaration" } else { "leave one of the two out" })
 }
 
 pub fn second_mechanism(name: &Name, first: Span) -> Diagnostic {

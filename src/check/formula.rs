@@ -255,6 +255,11 @@ impl Checker<'_> {
                 );
                 None
             }
+            Some(Entity::Function(_)) => {
+                let help = format!("call it: `{}(…)`", name.text);
+                self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
+                None
+            }
             Some(entity) => {
                 self.report(errors::wrong_kind(name.span, "a number", entity.noun()));
                 None

@@ -128,7 +128,7 @@ fn expectation(rules: &[Rule], found: &str) -> String {
 /// A rule in the user's words; empty for what is said by another one.
 fn human(rule: Rule, after_operand: bool) -> &'static str {
     match rule {
-        Rule::mechanism | Rule::kw_mechanism => "`mechanism`",
+        Rule::file | Rule::mechanism | Rule::kw_mechanism => "`mechanism`",
         Rule::EOI if after_operand => "",
         Rule::EOI => "the end of the file",
         Rule::param
@@ -160,7 +160,8 @@ fn human(rule: Rule, after_operand: bool) -> &'static str {
         | Rule::kw_circle
         | Rule::kw_curve => "a point, axis, circle or curve",
         Rule::name | Rule::name_text | Rule::word | Rule::ground_word => "a name",
-        Rule::expr
+        Rule::expression_only
+        | Rule::expr
         | Rule::conditional
         | Rule::literal
         | Rule::number
@@ -172,6 +173,9 @@ fn human(rule: Rule, after_operand: bool) -> &'static str {
         Rule::infix | Rule::kw_and | Rule::kw_or => "an operator",
         Rule::paren => "`(`",
         Rule::equals => "`=`",
+        Rule::colon => "`:`",
+        Rule::comma => "`,`",
+        Rule::right => "`)`",
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::at => "`at`",
@@ -231,14 +235,22 @@ fn mend(error: &Error<Rule>, text: &str, at: usize, found: &str) -> Option<Strin
     if found == "if" && expects(Rule::number) {
         return Some("inside an operator an `if` needs parentheses".to_owned());
     }
-    if let Some(word) = nearest(found, DECLARATIONS.iter().copied()).filter(|_| !found.is_empty()) {
+    if DECLARATIONS.contains(&found) {
+        let inside_a_body = expects(Rule::kw_point) || expects(Rule::point);
+        return if expects(Rule::name) {
+            Some(format!("`{found}` is a keyword and cannot be a name"))
+        } else if inside_a_body {
+            Some("the `}` of the body or ground before it is missing".to_owned())
+        } else {
+            None
+        };
+    }
+    if let Some(word) = nearest(found, DECLARATIONS.iter().copied()) {
         return Some(format!("was `{word}` meant?"));
     }
-    if expects(Rule::infix) && starts_operand && !new_line {
+    let expects_a_word = [Rule::to, Rule::every, Rule::along, Rule::radius].into_iter().any(expects);
+    if expects(Rule::infix) && starts_operand && !new_line && !expects_a_word {
         return Some("a product is written with `*`".to_owned());
-    }
-    if DECLARATIONS.contains(&found) && expects(Rule::name) {
-        return Some(format!("`{found}` is a keyword and cannot be a name"));
     }
     None
 }

@@ -38,11 +38,11 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
         Rule::call => {
             let mut parts = pair.into_inner();
             let name = parts.next().map(|part| reader.name(&part)).ok_or_else(|| reader.truncated())?;
-            let arguments = parts.map(|part| build(reader, part, depth + 1)).collect::<Built<Vec<_>>>()?;
+            let arguments = reader.list(parts, depth + 1)?;
             ExprKind::Call { name, arguments }
         }
         Rule::paren => {
-            let mut parts = pair.into_inner().map(|part| build(reader, part, depth + 1)).collect::<Built<Vec<_>>>()?;
+            let mut parts = reader.list(pair.into_inner(), depth + 1)?;
             match parts.pop() {
                 Some(only) if parts.is_empty() => ExprKind::Paren(Box::new(only)),
                 Some(last) => {

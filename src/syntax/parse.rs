@@ -213,7 +213,7 @@ impl<'a> Reader<'a> {
         let call_span = self.span(&call);
         let mut parts = call.into_inner();
         let kind = self.next_name(&mut parts)?;
-        let arguments = parts.map(|part| formula::build(self, part, 1)).collect::<Built<Vec<_>>>()?;
+        let arguments = self.list(parts, 1)?;
         Ok(ItemKind::Joint { name, kind, arguments, call_span })
     }
 
@@ -248,6 +248,11 @@ impl<'a> Reader<'a> {
             _ => return Err(self.truncated()),
         };
         Ok(Feature { docs, span, name, kind })
+    }
+
+    /// The formulas of a list, without its commas and brackets.
+    pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
+        pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)).collect()
     }
 
     fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
