@@ -1,0 +1,111 @@
+//! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`.
+
+mod support;
+
+use std::fs;
+use std::path::Path;
+use support::{Outcome, Span, files, run, stem};
+
+/// Cases of elements that this version only reads.
+const LATER: &[&str] = &["cam_point_follower", "drawn_phase", "gear_pair", "rack_and_pinion"];
+
+/// What the size of its coordinates leaves of a case's digits: 1e6 m is known to 1e-10 m.
+const COARSER: &[(&str, f64)] = &[("far_away", 2e-8)];
+
+struct Table {
+    columns: Vec<String>,
+    rows: Vec<Vec<f64>>,
+}
+
+fn read(path: &Path) -> Table {
+    let text = fs::read_to_string(path).expect("a table");
+    let mut lines = text.lines();
+    let columns = lines.next().expect("a header").split(',').map(str::to_owned).collect();
+    let rows = lines.map(|line| line.split(',').map(|cell| cell.parse().expect("a number")).collect()).collect();
+    Table { columns, rows }
+}
+
+/// Every column and time of `want` is in `got`, to `tolerance` times one plus the largest value of the column.
+fn compare(name: &str, got: &Outcome, want: &Table, tolerance: f64) {
+    for (k, column) in want.columns.iter().enumerate() {
+        let values = got.column(column);
+        let size = want.rows.iter().map(|row| row[k].abs()).fold(0.0, f64::max);
+        for row in &want.rows {
+            let at = nearest(got, row[0]);
+            let error = (values[at] - row[k]).abs();
+            assert!(
+                error <= tolerance * (1.0 + size),
+                "{name}: {column} at t = {}: {} instead of {}, off by {error:e}",
+                row[0],
+                values[at],
+                row[k]
+            );
+        }
+    }
+    assert_eq!(got.columns, want.columns, "{name}: the columns");
+}
+
+fn nearest(got: &Outcome, t: f64) -> usize {
+    let off = |row: &Vec<f64>| (row[0] - t).abs();
+    let (at, row) = got.rows.iter().enumerate().min_by(|a, b| off(a.1).total_cmp(&off(b.1))).expect("rows");
+    assert!(off(row) < 1e-9 * (1.0 + t.abs()), "no row for t = {t}");
+    at
+}
+
+fn cases() -> impl Iterator<Item = (String, String, Table)> {
+    files("tests/cases", "mech").into_iter().filter(|path| !LATER.contains(&stem(path).as_str())).map(|path| {
+        let text = fs::read_to_string(&path).expect("a text");
+        (stem(&path), text, read(&path.with_extension("csv")))
+    })
+}
+
+#[test]
+fn all_match_their_reference() {
+    for (name, text, want) in cases() {
+        let tolerance = COARSER.iter().find(|(coarse, _)| *coarse == name).map_or(1e-9, |(_, tolerance)| *tolerance);
+        let got = run(&name, &text, Span::default()).expect_success();
+        assert_eq!(got.rows.len(), want.rows.len() + usize::from(name == "functions"), "{name}: the number of rows");
+        compare(&name, &got, &want, tolerance);
+    }
+}
+
+#[test]
+fn ten_times_larger_output_steps_give_the_same_numbers() {
+    for (name, text, _) in cases() {
+        let fine = run(&name, &text, Span::default()).expect_success();
+        let times = fine.column("t");
+        let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+        let coarse = run(&name, &text, Span { every: Some(10.0 * step), to: None }).expect_success();
+        assert!(coarse.rows.len() >= fine.rows.len() / 10, "{name}");
+        for row in &coarse.rows {
+            let same = &fine.rows[nearest(&fine, row[0])];
+            for ((a, b), column) in row.iter().zip(same).zip(&fine.columns) {
+                let size = fine.column(column).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+                let tolerance = if name == "far_away" { 2e-8 } else { 1e-9 };
+                assert!((a - b).abs() <= tolerance * (1.0 + size), "{name}: {column} at t = {}: {a} and {b}", row[0]);
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_not_available_yet_is_said() {
+    for name in LATER {
+        let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+        let got = run(name, &text, Span::default());
+        assert!(got.codes().iter().all(|code| *code == "E0208") && !got.codes().is_empty(), "{name}: {}", got.text());
+    }
+}
+
+#[test]
+fn examples_run_without_a_word() {
+    let examples = files("examples", "mech");
+    assert!(examples.len() >= 5);
+    for path in examples {
+        let text = fs::read_to_string(&path).expect("a text");
+        assert!(text.starts_with("///"), "{} says what it is", path.display());
+        let got = run(&stem(&path), &text, Span::default());
+        assert!(got.diagnostics.is_empty(), "{}: {}", path.display(), got.text());
+        assert!(got.rows.len() > 20, "{}", path.display());
+    }
+}

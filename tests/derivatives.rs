@@ -1,0 +1,314 @@
+//! Derivatives against differences: of every function, of every element's Φ, and of whole motions.
+
+mod support;
+
+use mechc::expr::{Binary, ExprId, Graph, Motion, Symbol, Unary};
+use mechc::ir::ConstraintSystem;
+use mechc::source::Sources;
+use std::fs;
+use support::{Span, compile, files, run, stem};
+
+/// Numbers in [0, 1) that are the same on every run.
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    fn between(&mut self, low: f64, high: f64) -> f64 {
+        low + (high - low) * self.next()
+    }
+}
+
+const X: Symbol = Symbol::Coordinate { index: 0, order: 0 };
+const Y: Symbol = Symbol::Coordinate { index: 1, order: 0 };
+
+fn value(graph: &Graph, id: ExprId, x: f64, y: f64) -> f64 {
+    graph.value(id, |symbol| if symbol == X { x } else { y })
+}
+
+/// Both partial derivatives, forward and backward, and the second ones, against central differences.
+fn check_function(name: &str, range: [f64; 2], build: impl Fn(&mut Graph, ExprId, ExprId) -> ExprId) {
+    let mut graph = Graph::new();
+    let (x, y) = (graph.symbol(X), graph.symbol(Y));
+    // inside other functions, so that the chain rule takes part
+    let (half, third) = (graph.constant(0.5), graph.constant(0.3));
+    let (a, b) = (graph.mul(half, y), graph.mul(third, x));
+    let (u, v) = (graph.add(x, a), graph.add(y, b));
+    let f = build(&mut graph, u, v);
+    let along = |graph: &mut Graph, id: ExprId, wanted: Symbol| {
+        graph.derivatives(&[id], |graph, symbol| (symbol == wanted).then(|| graph.constant(1.0)))[0]
+    };
+    let (fx, fy) = (along(&mut graph, f, X), along(&mut graph, f, Y));
+    let (fxx, fxy) = (along(&mut graph, fx, X), along(&mut graph, fx, Y));
+    let gradient = graph.gradient(f, mechc::expr::Dependence::coordinates(0));
+    let mut random = Random(7);
+    for _ in 0..200 {
+        let (x, y) = (random.between(range[0], range[1]), random.between(range[0], range[1]));
+        let h = 1e-5;
+        let near = |derivative: ExprId, of: ExprId, dx: f64, dy: f64, what: &str| {
+            let exact = value(&graph, derivative, x, y);
+            let difference =
+                (value(&graph, of, x + h * dx, y + h * dy) - value(&graph, of, x - h * dx, y - h * dy)) / (2.0 * h);
+            let error = (exact - difference).abs();
+            assert!(error < 2e-6 * (1.0 + exact.abs()), "{name} {what} at ({x}, {y}): {exact} and {difference}");
+        };
+        near(fx, f, 1.0, 0.0, "by x");
+        near(fy, f, 0.0, 1.0, "by y");
+        near(fxx, fx, 1.0, 0.0, "by x twice");
+        near(fxy, fx, 0.0, 1.0, "by x and y");
+        for (symbol, backward) in &gradient {
+            let forward = if *symbol == X { fx } else { fy };
+            let (a, b) = (value(&graph, *backward, x, y), value(&graph, forward, x, y));
+            assert!((a - b).abs() <= 1e-12 * (1.0 + a.abs()), "{name}: backward {a}, forward {b}");
+        }
+    }
+}
+
+#[test]
+fn functions_of_one_argument() {
+    let everywhere = [-1.9, 1.9];
+    let ranges = [
+        (Unary::Sin, everywhere),
+        (Unary::Cos, everywhere),
+        (Unary::Tan, [-0.6, 0.6]),
+        (Unary::Asin, [-0.6, 0.6]),
+        (Unary::Acos, [-0.6, 0.6]),
+        (Unary::Atan, everywhere),
+        (Unary::Sinh, everywhere),
+        (Unary::Cosh, everywhere),
+        (Unary::Tanh, everywhere),
+        (Unary::Exp, everywhere),
+        (Unary::Ln, [0.3, 3.0]),
+        (Unary::Log10, [0.3, 3.0]),
+        (Unary::Sqrt, [0.3, 3.0]),
+        (Unary::Abs, [0.3, 3.0]),
+        (Unary::Abs, [-3.0, -0.3]),
+        (Unary::Sign, [0.3, 3.0]),
+        (Unary::Floor, [0.05, 0.6]),
+    ];
+    for (function, range) in ranges {
+        check_function(&format!("{function:?}"), range, |graph, u, _| graph.unary(function, u));
+    }
+}
+
+#[test]
+fn functions_of_two_arguments_and_operators() {
+    let positive = [0.4, 2.5];
+    check_function("atan2", positive, |g, u, v| g.binary(Binary::Atan2, u, v));
+    check_function("hypot", positive, |g, u, v| g.binary(Binary::Hypot, u, v));
+    check_function("pow", positive, |g, u, v| g.pow(u, v));
+    check_function("min", [1.0, 1.2], |g, u, v| {
+        let double = g.add(v, v);
+        g.binary(Binary::Min, u, double)
+    });
+    check_function("max", [1.0, 1.2], |g, u, v| {
+        let double = g.add(v, v);
+        g.binary(Binary::Max, u, double)
+    });
+    check_function("mod", [0.1, 0.6], |g, u, v| {
+        let two = g.constant(2.0);
+        let far = g.add(v, two);
+        g.modulo(u, far)
+    });
+    for n in [-3, -2, -1, 2, 3, 5, 7] {
+        check_function(&format!("to the {n}"), positive, |g, u, _| g.power(u, n));
+    }
+    check_function("operators", positive, |g, u, v| {
+        let (sum, difference, product) = (g.add(u, v), g.sub(u, v), g.mul(u, v));
+        let quotient = g.div(sum, product);
+        let turned = g.neg(difference);
+        g.mul(quotient, turned)
+    });
+}
+
+#[test]
+fn motion_functions() {
+    let motions =
+        [Motion::Step, Motion::Step5, Motion::Step7, Motion::Harmonic, Motion::Cycloidal, Motion::ModifiedSine];
+    for motion in motions {
+        // the ranges keep clear of the edges of the pieces
+        for range in [[-2.0, -1.0], [0.01, 0.13], [0.3, 1.0], [1.86, 1.95], [3.0, 4.0]] {
+            check_function(&format!("{motion:?} on {range:?}"), range, |g, u, _| {
+                let [u0, v0, u1, v1] = [0.0, 0.3, 3.0, 1.1].map(|c| g.constant(c));
+                g.motion(motion, u, [u0, v0], [u1, v1])
+            });
+        }
+    }
+}
+
+#[test]
+fn motion_functions_reach_their_ends_smoothly() {
+    // how many derivatives vanish at both ends
+    let smooth = [
+        (Motion::Step, 1),
+        (Motion::Step5, 2),
+        (Motion::Step7, 3),
+        (Motion::Harmonic, 1),
+        (Motion::Cycloidal, 2),
+        (Motion::ModifiedSine, 2),
+    ];
+    for (motion, orders) in smooth {
+        let mut g = Graph::new();
+        let u = g.symbol(X);
+        let [u0, v0, u1, v1] = [1.0, -2.0, 3.0, 5.0].map(|c| g.constant(c));
+        let mut f = g.motion(motion, u, [u0, v0], [u1, v1]);
+        for (u, v) in [(0.0, -2.0), (1.0, -2.0), (3.0, 5.0), (9.0, 5.0)] {
+            assert!((value(&g, f, u, 0.0) - v).abs() < 1e-14, "{motion:?} at {u}");
+        }
+        for order in 1..=orders {
+            f = g.derivatives(&[f], |g, _| Some(g.constant(1.0)))[0];
+            for u in [1.0, 3.0 - 1e-12] {
+                assert!(value(&g, f, u, 0.0).abs() < 1e-9, "{motion:?}, derivative {order} at {u}");
+            }
+        }
+    }
+}
+
+/// Systems of all examples and cases.
+fn systems() -> Vec<(String, ConstraintSystem)> {
+    let paths = [files("examples", "mech"), files("tests/cases", "mech")].concat();
+    let systems: Vec<_> = paths
+        .iter()
+        .filter_map(|path| {
+            let mut sources = Sources::default();
+            let text = fs::read_to_string(path).expect("a text");
+            let (determined, _) = compile(&mut sources, &stem(path), &text);
+            determined.map(|determined| (stem(path), determined.system().clone()))
+        })
+        .collect();
+    assert!(systems.len() >= 30);
+    systems
+}
+
+/// A value of an expression at `q + a τ + b τ²/2 + c τ³/6` and `t + τ`.
+fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: f64) -> f64 {
+    let [q, a, b, c] = path;
+    system.graph.value(id, |symbol| match symbol {
+        Symbol::Param(k) => system.params[k as usize].value,
+        Symbol::Time => t + tau,
+        Symbol::Coordinate { index, order } => {
+            let k = index as usize;
+            match order {
+                0 => q[k] + tau * (a[k] + tau * (b[k] / 2.0 + tau * c[k] / 6.0)),
+                1 => a[k] + tau * (b[k] + tau * c[k] / 2.0),
+                2 => b[k] + tau * c[k],
+                _ => c[k],
+            }
+        }
+        Symbol::Named(_) => unreachable!("no named symbol is left"),
+    })
+}
+
+#[test]
+fn jacobians_and_right_sides_of_every_element() {
+    let mut random = Random(11);
+    // 1000 km from the origin a difference is nothing but rounding
+    for (name, system) in systems().into_iter().filter(|(name, _)| name != "far_away") {
+        let n = system.coordinates.len();
+        let zero = vec![0.0; n];
+        // in the mechanism's own time
+        let span = system.analysis.map_or(1.0, |[from, to, _]| f64::min(to - from, 1.0));
+        let h = 2e-4 * span;
+        for _ in 0..3 {
+            let scale = |k: usize| match system.coordinates[k].kind {
+                mechc::ir::CoordinateKind::Length => system.length.max(1e-3),
+                mechc::ir::CoordinateKind::Angle => 1.0,
+            };
+            let q: Vec<f64> = (0..n)
+                .map(|k| along(&system, system.coordinates[k].estimate, 0.0, [&zero; 4], 0.0))
+                .enumerate()
+                .map(|(k, q)| q + 0.05 * scale(k) * random.between(-1.0, 1.0))
+                .collect();
+            let mut random_vector = |order: i32| -> Vec<f64> {
+                (0..n).map(|k| scale(k) * random.between(-1.0, 1.0) / span.powi(order)).collect()
+            };
+            let (a, b, c) = (random_vector(1), random_vector(2), random_vector(3));
+            let t = 0.123 * span;
+            for row in 0..n {
+                let phi = system.rows[row].phi;
+                let size = 1.0 + along(&system, phi, t, [&q, &zero, &zero, &zero], 0.0).abs() + system.length;
+                let near = |exact: f64, difference: f64, tolerance: f64, order: i32, what: &str| {
+                    let bound = tolerance * (size / span.powi(order) + exact.abs() + difference.abs());
+                    assert!(
+                        (exact - difference).abs() <= bound || !exact.is_finite(),
+                        "{name}, row {row}, {what}: {exact} and {difference}"
+                    );
+                };
+                // Φ_q a + Φ_t = dΦ/dτ, with Φ_t = −ν
+                let at = |tau: f64| along(&system, phi, t, [&q, &a, &b, &c], tau);
+                let first = (at(-2.0 * h) - 8.0 * at(-h) + 8.0 * at(h) - at(2.0 * h)) / (12.0 * h);
+                let now = |id: ExprId| along(&system, id, t, [&q, &a, &b, &c], 0.0);
+                let times = |v: &[f64]| -> f64 {
+                    system.phi_q.row(row).iter().map(|&(column, slope)| now(slope) * v[column as usize]).sum()
+                };
+                near(times(&a) - now(system.nu[row]), first, 1e-8, 1, "ν");
+                // Φ_q b − γ = d²Φ/dτ²
+                let second =
+                    (-at(-2.0 * h) + 16.0 * at(-h) - 30.0 * at(0.0) + 16.0 * at(h) - at(2.0 * h)) / (12.0 * h * h);
+                near(times(&b) - now(system.gamma[row]), second, 1e-5, 2, "γ");
+                if let Some(jerk) = &system.jerk {
+                    let third = (at(2.0 * h) - 2.0 * at(h) + 2.0 * at(-h) - at(-2.0 * h)) / (2.0 * h * h * h);
+                    near(times(&c) - now(jerk[row]), third, 1e-2, 3, "jerk");
+                }
+            }
+        }
+    }
+}
+
+/// Cases without any edge, so that differences may reach across every time.
+const SMOOTH: &[&str] = &[
+    "pendulum",
+    "slider_crank",
+    "four_bar",
+    "free_body",
+    "three_rpr",
+    "relative_xy",
+    "translational_driver",
+    "quick_return",
+    "andrews",
+    "coupler_constraint",
+    "jansen",
+    "revolute_offsets",
+    "stephenson",
+    "derivatives",
+    "rough",
+];
+
+#[test]
+fn velocities_and_accelerations_are_those_of_the_motion() {
+    for name in SMOOTH {
+        let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+        let times = run(name, &text, Span::default()).expect_success().column("t");
+        let (first, last) = (times[0], times[times.len() - 1]);
+        let h = (last - first) * 1e-4;
+        let outcome =
+            run(name, &text, Span { every: Some(h), to: Some(first + 0.1 * (last - first)) }).expect_success();
+        for column in outcome
+            .columns
+            .iter()
+            .filter(|column| *column != "t" && !column.ends_with(".d") && !column.ends_with(".dd"))
+        {
+            for (of, derivative) in
+                [(column.clone(), format!("{column}.d")), (format!("{column}.d"), format!("{column}.dd"))]
+            {
+                if !outcome.columns.contains(&derivative) {
+                    continue;
+                }
+                let (f, d) = (outcome.column(&of), outcome.column(&derivative));
+                let size = d.iter().chain(&f).fold(0.0, |m: f64, v| m.max(v.abs()));
+                for k in (2..f.len() - 2).step_by(7) {
+                    let difference = (f[k - 2] - 8.0 * f[k - 1] + 8.0 * f[k + 1] - f[k + 2]) / (12.0 * h);
+                    let error = (difference - d[k]).abs();
+                    assert!(
+                        error <= 1e-7 * size + 1e-11 * size / h,
+                        "{name}: {derivative} at row {k}: {} and {difference}",
+                        d[k]
+                    );
+                }
+            }
+        }
+    }
+}
