@@ -258,7 +258,9 @@ fn linearize(
         }
         let norm = square(line).sqrt();
         used[k] = weights.map_or(if norm > 0.0 { norm } else { 1.0 }, |weights| weights[k]);
-        line.iter_mut().for_each(|x| *x /= used[k]);
+        for x in line {
+            *x /= used[k];
+        }
         residual[k] = kinematics.phi(row) / used[k];
     }
     jacobian.iter().all(|x| x.is_finite()).then_some((residual, jacobian, used))

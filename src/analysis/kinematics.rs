@@ -244,8 +244,12 @@ impl<'d> Kinematics<'d> {
         };
         put(state.t);
         for (coordinates, measures) in lists {
-            coordinates.iter().for_each(|&value| put(value));
-            measures.iter().for_each(|&register| put(registers.get(register)));
+            for &value in coordinates {
+                put(value);
+            }
+            for &register in measures {
+                put(registers.get(register));
+            }
         }
     }
 
@@ -260,7 +264,7 @@ impl<'d> Kinematics<'d> {
             .chain(having(|measure| measure.first.is_some()))
             .chain(std::iter::repeat_n(0, n))
             .chain(having(|measure| measure.second.is_some()));
-        columns.skip(column).next().unwrap_or(0)
+        columns.clone().nth(column).unwrap_or(0)
     }
 
     /// Length of a result row.

@@ -320,8 +320,8 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
 
 fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {
     let n = b.len();
-    for k in 0..n {
-        b.swap(k, pivots[k] as usize);
+    for (k, &pivot) in pivots.iter().enumerate() {
+        b.swap(k, pivot as usize);
     }
     for i in 0..n {
         let mut sum = b[i];

@@ -90,10 +90,7 @@ impl<'m, 'd> Motion<'m, 'd> {
                 Err(fault) => self.shorten(h, fault, t)?,
             }
         }
-        match self.row.iter().all(|value| value.is_finite()) {
-            true => Ok(&self.row),
-            false => Err(Box::new(self.explain_row(t))),
-        }
+        if self.row.iter().all(|value| value.is_finite()) { Ok(&self.row) } else { Err(Box::new(self.explain_row(t))) }
     }
 
     /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
@@ -167,8 +164,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.kinematics.factor()?;
             let size = self.kinematics.correction(&mut self.delta);
             let bound = if first.is_none() { LARGEST_CORRECTION } else { 0.25 * LARGEST_CORRECTION };
-            // also refuses what is not a number
-            if !(size <= bound) {
+            if size.is_nan() || size > bound {
                 return Err(Fault::TooFar);
             }
             first.get_or_insert(size);

@@ -22,10 +22,12 @@ impl Times {
         let nearest = steps.round();
         let last = if (steps - nearest).abs() <= 1e-9 { nearest } else { crate::math::floor(steps) };
         // also false for what is not a number
-        if !(0.0..9e15).contains(&last) || (last > 0.0 && from + every == from) {
+        if !(0.0..9e15).contains(&last) || (last > 0.0 && from + every <= from) {
             return None;
         }
-        Some(Times { from, kind: Kind::Grid { every, to, last: last as u64 } })
+        #[allow(clippy::cast_sign_loss)] // not below zero, as just seen
+        let last = last as u64;
+        Some(Times { from, kind: Kind::Grid { every, to, last } })
     }
 
     /// Only these times, sorted and each once; followed from `from`.

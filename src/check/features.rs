@@ -181,13 +181,14 @@ impl Checker<'_> {
     /// `(x, y)`
     fn pair(&mut self, e: &Expr, what: &str, place: &'static str) -> Option<[ExprId; 2]> {
         match &e.kind {
-            ExprKind::Tuple(parts) => match parts.as_slice() {
-                [x, y] => self.lengths([x, y], place),
-                _ => {
+            ExprKind::Tuple(parts) => {
+                if let [x, y] = parts.as_slice() {
+                    self.lengths([x, y], place)
+                } else {
                     self.report(errors::argument_count(what, e.span, "two lengths", parts.len()));
                     None
                 }
-            },
+            }
             ExprKind::Paren(_) => {
                 self.report(errors::argument_count(what, e.span, "two lengths", 1));
                 None
@@ -234,12 +235,11 @@ impl Checker<'_> {
 
     /// A point where an axis begins or ends: one of the frame by name, or a literal one.
     fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
-        match &e.kind {
-            ExprKind::Name(name) => self.point_named(frame, name),
-            _ => {
-                let at = self.pair(e, "point", "a point")?;
-                Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
-            }
+        if let ExprKind::Name(name) = &e.kind {
+            self.point_named(frame, name)
+        } else {
+            let at = self.pair(e, "point", "a point")?;
+            Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
         }
     }
 

@@ -53,6 +53,7 @@ pub(super) struct Value {
 
 /// What may stand in a formula, and how it is read.
 #[derive(Clone, Copy)]
+#[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
 pub(super) struct Context<'c> {
     /// For messages: `a constraint`.
     pub place: &'c str,
@@ -93,8 +94,9 @@ impl Checker<'_> {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             let holds = match &e.kind {
-                ExprKind::Literal { unit: Some((name, _)), .. } => self.is_dimensional_name(name),
-                ExprKind::Name(name) => self.is_dimensional_name(name),
+                ExprKind::Literal { unit: Some((name, _)), .. } | ExprKind::Name(name) => {
+                    self.is_dimensional_name(name)
+                }
                 ExprKind::Call { name, .. } if !names::is_builtin(&name.text) => self.is_dimensional_name(name),
                 // a literal point says nothing about the formula around it
                 ExprKind::Tuple(_) => continue,

@@ -33,6 +33,7 @@ pub struct Setting {
 }
 
 /// Checks that the mechanisms of a file have different names.
+#[must_use]
 pub fn check_file(file: &ast::File) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     let mut space: Space<()> = Space::new();
@@ -337,14 +338,13 @@ impl<'a> Checker<'a> {
 
     /// A named symbol of the graph; the same meaning is the same symbol.
     fn name_symbol(&mut self, meaning: Named, derivative_order: u8) -> ExprId {
-        let id = match self.named.get(&meaning) {
-            Some(&id) => id,
-            None => {
-                let id = self.model.add_named(meaning);
-                self.named.insert(meaning, id);
-                self.derivative_orders.push(derivative_order);
-                id
-            }
+        let id = if let Some(&id) = self.named.get(&meaning) {
+            id
+        } else {
+            let id = self.model.add_named(meaning);
+            self.named.insert(meaning, id);
+            self.derivative_orders.push(derivative_order);
+            id
         };
         self.model.graph.symbol(Symbol::Named(id.index() as u32))
     }

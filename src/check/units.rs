@@ -3,17 +3,23 @@
 use crate::model::Dimension;
 use std::f64::consts::{PI, TAU};
 
-/// A unit: `numerator / denominator` in SI, so that `50 mm` is 50/1000 m rounded once.
+/// A unit: `numerator / denominator · factor` in SI, so that `50 mm` is 50/1000 m rounded once, and `90 deg` half of π.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Unit {
     pub name: &'static str,
     numerator: f64,
     denominator: f64,
+    factor: f64,
     pub dimension: Dimension,
 }
 
 const fn unit(name: &'static str, numerator: f64, denominator: f64, dimension: Dimension) -> Unit {
-    Unit { name, numerator, denominator, dimension }
+    Unit { name, numerator, denominator, factor: 1.0, dimension }
+}
+
+/// A unit of angle or rate: so many of `factor` in each `denominator`.
+const fn turning(name: &'static str, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
+    Unit { name, numerator: 1.0, denominator, factor, dimension }
 }
 
 const UNITS: &[Unit] = &[
@@ -26,13 +32,13 @@ const UNITS: &[Unit] = &[
     unit("in", 254.0, 1e4, Dimension::LENGTH),
     unit("ft", 3048.0, 1e4, Dimension::LENGTH),
     unit("rad", 1.0, 1.0, Dimension::PURE),
-    unit("deg", PI, 180.0, Dimension::PURE),
-    unit("rev", TAU, 1.0, Dimension::PURE),
+    turning("deg", PI, 180.0, Dimension::PURE),
+    turning("rev", TAU, 1.0, Dimension::PURE),
     unit("s", 1.0, 1.0, Dimension::TIME),
     unit("ms", 1.0, 1e3, Dimension::TIME),
     unit("us", 1.0, 1e6, Dimension::TIME),
     unit("µs", 1.0, 1e6, Dimension::TIME),
-    unit("rpm", TAU, 60.0, Dimension::RATE),
+    turning("rpm", TAU, 60.0, Dimension::RATE),
 ];
 
 impl Unit {
@@ -48,9 +54,13 @@ impl Unit {
     }
 
     /// `value` in this unit to a power, in SI.
-    pub fn to_si(&self, value: f64, power: i32) -> f64 {
+    pub fn to_si(self, value: f64, power: i32) -> f64 {
         (0..power.abs()).fold(value, |v, _| {
-            if power > 0 { v * self.numerator / self.denominator } else { v * self.denominator / self.numerator }
+            if power > 0 {
+                v * self.numerator / self.denominator * self.factor
+            } else {
+                v * self.denominator / self.numerator / self.factor
+            }
         })
     }
 }
@@ -60,6 +70,7 @@ mod tests {
     use super::Unit;
 
     #[test]
+    #[allow(clippy::float_cmp)] // to the bit
     fn conversions_round_once() {
         let si = |value, unit: &str, power| Unit::named(unit).unwrap().to_si(value, power);
         assert_eq!(si(50.0, "mm", 1), 0.05);

@@ -81,7 +81,7 @@ pub(super) enum MessageFormat {
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
 pub(super) enum When {
-    /// On a terminal, unless NO_COLOR is set
+    /// On a terminal, unless `NO_COLOR` is set
     #[default]
     Auto,
     Always,
@@ -124,7 +124,7 @@ pub(super) struct RunArguments {
     pub at: Vec<String>,
 
     /// Bounds the residual of every equation, relative to the mechanism's size
-    #[arg(long, value_name = "X", default_value_t = crate::analysis::TOLERANCE, value_parser = positive)]
+    #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
     pub tolerance: f64,
 }
 

@@ -6,6 +6,7 @@ use super::files::Output;
 use super::input;
 use super::report::Reporter;
 use crate::analysis::{self, Started};
+use crate::ir::CoordinateKind;
 use crate::program::Program;
 use crate::structure::{self, Determined};
 use std::io::Write;
@@ -34,7 +35,11 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     text += &format!("\n\nat t = {t} s\n  {moved}\n");
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
-        text += &format!("  {} = {}\n", coordinate.name, zmij::Buffer::new().format(q + 0.0));
+        let unit = match coordinate.kind {
+            CoordinateKind::Length => "m",
+            CoordinateKind::Angle => "rad",
+        };
+        text += &format!("  {} = {} {unit}\n", coordinate.name, q + 0.0);
     }
     text
 }

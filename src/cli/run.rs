@@ -62,10 +62,9 @@ fn write_table(
 fn format(arguments: &RunArguments) -> TableFormat {
     let ending = Path::new(&arguments.output).extension();
     match arguments.format {
-        Some(Format::Csv) => TableFormat::Csv,
         Some(Format::Json) => TableFormat::Json,
         None if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => TableFormat::Json,
-        None => TableFormat::Csv,
+        Some(Format::Csv) | None => TableFormat::Csv,
     }
 }
 

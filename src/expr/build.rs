@@ -194,7 +194,7 @@ impl Graph {
     /// `a` to any power; a whole number that is small becomes products.
     pub fn pow(&mut self, a: ExprId, b: ExprId) -> ExprId {
         match self.as_const(b) {
-            Some(n) if math::floor(n) == n && n.abs() <= f64::from(LARGEST_WHOLE_POWER) => self.power(a, n as i32),
+            Some(n) if n.fract() == 0.0 && n.abs() <= f64::from(LARGEST_WHOLE_POWER) => self.power(a, n as i32),
             Some(n) if n.to_bits() == 0.5_f64.to_bits() => self.unary(Unary::Sqrt, a),
             _ => self.binary(Binary::Pow, a, b),
         }

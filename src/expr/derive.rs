@@ -110,7 +110,7 @@ impl Graph {
         let node = self.node(id);
         Some(match (node, place) {
             (Node::Add(..), _) | (Node::Sub(..), 0) => factor,
-            (Node::Sub(..), _) | (Node::Neg(_), _) => self.neg(factor),
+            (Node::Sub(..) | Node::Neg(_), _) => self.neg(factor),
             (Node::Mul(a, b), _) => {
                 let other = if place == 0 { b } else { a };
                 self.mul(factor, other)
@@ -138,8 +138,16 @@ impl Graph {
                 self.select(condition, zero, factor)
             }
             // conditions are constant between their switches
-            (Node::Select(..) | Node::Compare(..) | Node::And(..) | Node::Or(..) | Node::Not(_), _)
-            | (Node::Const(_) | Node::Symbol(_), _) => return None,
+            (
+                Node::Select(..)
+                | Node::Compare(..)
+                | Node::And(..)
+                | Node::Or(..)
+                | Node::Not(_)
+                | Node::Const(_)
+                | Node::Symbol(_),
+                _,
+            ) => return None,
         })
     }
 

@@ -31,7 +31,7 @@ const DECLARATIONS: &[&str] = &[
 ];
 
 /// Refuses a text that nests deeper than [`DEEPEST`].
-pub fn measure(text: &str, file: FileId) -> Result<(), Diagnostic> {
+pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
     // for each open parenthesis, the `if`s that stand open inside it
     let mut levels: Vec<usize> = vec![0];
     let mut ifs = 0;
@@ -43,10 +43,8 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Diagnostic> {
         after_else = token == "else";
         match token {
             "(" => levels.push(0),
-            ")" => {
-                if levels.len() > 1 {
-                    ifs -= levels.pop().unwrap_or(0);
-                }
+            ")" if levels.len() > 1 => {
+                ifs -= levels.pop().unwrap_or(0);
             }
             "if" if !is_else_if => {
                 ifs += 1;
@@ -68,7 +66,7 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Diagnostic> {
         }
         if levels.len() - 1 + ifs > DEEPEST {
             let span = Span { file, start: at, end: at + token.len() as u32 };
-            return Err(errors::too_deep(span));
+            return Err(Box::new(errors::too_deep(span)));
         }
     }
     Ok(())

@@ -114,7 +114,8 @@ fn expectation(rules: &[Rule], found: &str) -> String {
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
     for rule in rules {
         let word = human(*rule, goes_on);
-        if !word.is_empty() && !words.contains(&word) && !(word.starts_with('`') && word.trim_matches('`') == found) {
+        let is_found = word.trim_matches('`') == found;
+        if !word.is_empty() && !is_found && !words.contains(&word) {
             words.push(word);
         }
     }

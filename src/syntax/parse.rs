@@ -71,7 +71,7 @@ fn on_a_deep_stack<T>(
     work: impl FnOnce(&Reader<'_>) -> Built<T>,
 ) -> Result<T, Diagnostics> {
     let source = sources.get(file);
-    depth::measure(&source.text, file)?;
+    depth::measure(&source.text, file).map_err(|fault| *fault)?;
     stacker::maybe_grow(STACK, STACK, || work(&Reader { source, file }).map_err(|fault| (*fault).into()))
 }
 
@@ -312,7 +312,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
 }
 
 /// The pairs that carry something: no keywords, no punctuation.
-fn significant<'i>(pair: Pair<'i, Rule>) -> impl Iterator<Item = Pair<'i, Rule>> {
+fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
     pair.into_inner().filter(|pair| {
         matches!(
             pair.as_rule(),

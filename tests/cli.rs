@@ -1,0 +1,147 @@
+//! The command line as a user types it: sessions in `tests/cli`, and what a session cannot show.
+
+#![allow(clippy::expect_used, clippy::unwrap_used)] // a test fails by panicking
+
+use assert_cmd::Command;
+use std::fs;
+use std::io::Write;
+use std::path::Path;
+
+fn mechc() -> Command {
+    Command::new(env!("CARGO_BIN_EXE_mechc"))
+}
+
+const SLIDER_CRANK: &str = "examples/slider_crank.mech";
+
+#[test]
+fn sessions() {
+    trycmd::TestCases::new().case("tests/cli/*.trycmd");
+}
+
+/// What it printed to standard error, after it ended with an exit code.
+fn failure(arguments: &[&str], code: i32) -> String {
+    let output = mechc().args(arguments).output().expect("it runs");
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
+    assert!(!text.contains("panicked"), "{text}");
+    text
+}
+
+#[test]
+fn files_that_cannot_be_read_or_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    assert!(failure(&["run", &inside("missing.mech")], 4).contains("E0701"));
+    assert!(failure(&["check", &inside("")], 4).contains("E0701"));
+    assert!(failure(&["run", SLIDER_CRANK, "-o", &inside("no/such/folder.csv")], 4).contains("there is no folder"));
+    assert!(failure(&["run", SLIDER_CRANK, "-o", &inside("")], 4).contains("it is a folder"));
+    fs::write(inside("latin1.mech"), b"mechanism caf\xe9 {}").unwrap();
+    assert!(failure(&["check", &inside("latin1.mech")], 1).contains("E0102"));
+    fs::write(inside("empty.mech"), b"").unwrap();
+    assert!(failure(&["check", &inside("empty.mech")], 1).contains("E0104"));
+    let noise: Vec<u8> = (0..1_000_000_u64).map(|k| (k.wrapping_mul(6_364_136_223_846_793_005) >> 40) as u8).collect();
+    fs::write(inside("noise.mech"), noise).unwrap();
+    assert!(failure(&["check", &inside("noise.mech")], 1).contains("E0102"));
+}
+
+#[test]
+fn a_result_is_replaced_whole_or_not_at_all() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.csv");
+    fs::write(&out, "precious").unwrap();
+    let out_name = out.to_string_lossy().into_owned();
+    failure(&["run", SLIDER_CRANK, "--set", "rod_length=1 s", "-o", &out_name], 2);
+    assert_eq!(fs::read_to_string(&out).unwrap(), "precious");
+    mechc().args(["run", SLIDER_CRANK, "-o", &out_name]).assert().success().stdout("");
+    let table = fs::read_to_string(&out).unwrap();
+    assert!(table.starts_with("t,crank.x,"));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left behind");
+}
+
+#[test]
+fn rows_before_a_lock_up_are_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let out = folder.path().join("out.csv").to_string_lossy().into_owned();
+    let text = failure(&["run", "tests/ui/run/four_bar_into_lock_up.mech", "-o", &out], 3);
+    assert!(text.contains("E0602") && text.contains("motor"), "{text}");
+    let rows = fs::read_to_string(Path::new(&out)).unwrap().lines().count();
+    assert!(rows > 10, "{rows} rows");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let mut child = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"))
+        .args(["run", "tests/cases/four_bar.mech", "--every", "1e-5"])
+        .stdout(std::process::Stdio::piped())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .expect("it runs");
+    // closes the pipe without reading
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("it ends");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+}
+
+#[test]
+fn standard_input_and_json() {
+    let text = fs::read_to_string(SLIDER_CRANK).unwrap();
+    let output =
+        mechc().args(["run", "-", "--format", "json", "--at", "0"]).write_stdin(text.as_str()).output().unwrap();
+    let table: serde_json::Value = serde_json::from_slice(&output.stdout).expect("JSON");
+    let rows = table["rows"].as_array().expect("rows");
+    assert_eq!(rows.len(), 1);
+    assert_eq!(rows[0].as_array().expect("a row").len(), table["columns"].as_array().expect("columns").len());
+}
+
+#[test]
+fn diagnostics_as_json_have_places_in_characters() {
+    let text = "/// é\nmechanism ü { body µ at (0, 0, 9) {} driver d: angle(µ) = lenght }";
+    let output = mechc().args(["check", "-", "--message-format", "json"]).write_stdin(text).output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    let diagnostics: Vec<serde_json::Value> =
+        text.lines().map(|line| serde_json::from_str(line).expect("an object a line")).collect();
+    assert_eq!(diagnostics.len(), 2, "{text}");
+    assert_eq!(diagnostics[0]["code"], "W0401");
+    assert_eq!(diagnostics[0]["severity"], "warning");
+    let label = &diagnostics[0]["labels"][0];
+    assert_eq!(label["primary"], true);
+    assert_eq!((&label["start"]["line"], &label["start"]["column"]), (&2.into(), &32.into()));
+    assert_eq!(label["end"]["column"], 33);
+    assert_eq!(diagnostics[1]["code"], "E0201");
+    assert!(diagnostics[1]["data"].is_object());
+    assert_eq!(output.status.code(), Some(1));
+}
+
+#[test]
+fn settings_are_checked() {
+    assert!(failure(&["run", SLIDER_CRANK, "--set", "rod_lenght=1 m"], 2).contains("was `rod_length` meant?"));
+    assert!(failure(&["run", SLIDER_CRANK, "--set", "rod_length"], 2).contains("E0706"));
+    assert!(failure(&["run", SLIDER_CRANK, "--set", "rod_length=60"], 2).contains("E0402"));
+    assert!(failure(&["run", SLIDER_CRANK, "--mechanism", "slyder"], 2).contains("E0704"));
+    assert!(failure(&["run", SLIDER_CRANK, "--every", "0"], 2).contains("E0706"));
+    assert!(failure(&["run", SLIDER_CRANK, "--every", "1 mm"], 2).contains("E0402"));
+    assert!(failure(&["run", SLIDER_CRANK, "--from", "1", "--to", "0.5"], 2).contains("before its start"));
+    assert!(failure(&["run", SLIDER_CRANK, "--at=-1"], 2).contains("before the start"));
+    let run = |arguments: &[&str]| -> String {
+        let output = mechc().args(["run", SLIDER_CRANK, "--at", "0"]).args(arguments).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    assert_eq!(run(&["--set", "rod_length=20 cm"]), run(&["--set", "rod_length=1 m", "--set", "rod_length=0.2 m"]));
+    assert_ne!(run(&[]), run(&["--set", "rod_length=20 cm"]));
+}
+
+#[test]
+fn colour_only_where_asked_for() {
+    let colored = |arguments: &[&str]| -> bool {
+        let mut command = mechc();
+        command.args(["check", "-"]).args(arguments);
+        let output = command.write_stdin("mechanism").output().unwrap();
+        output.stderr.contains(&0x1b)
+    };
+    assert!(!colored(&[]), "standard error is no terminal here");
+    assert!(colored(&["--color", "always"]));
+    assert!(!colored(&["--color", "never"]));
+    std::io::stderr().flush().unwrap();
+}

@@ -1,0 +1,52 @@
+//! Who may know whom: each room knows only the rooms before it (`ARCHITECTURE.md`).
+
+#![allow(clippy::expect_used)] // a test fails by panicking
+
+mod support;
+
+use std::fs;
+use support::files;
+
+/// Each room with the rooms that it may name.
+const ROOMS: &[(&str, &[&str])] = &[
+    ("source", &[]),
+    ("math", &[]),
+    ("diag", &["source"]),
+    ("expr", &["math"]),
+    ("syntax", &["source", "diag"]),
+    ("model", &["source", "expr"]),
+    ("check", &["source", "diag", "expr", "syntax", "model"]),
+    ("ir", &["source", "expr"]),
+    ("lower", &["expr", "model", "ir", "math"]),
+    ("structure", &["ir", "expr", "diag"]),
+    ("program", &["ir", "expr", "math"]),
+    ("analysis", &["program", "structure", "ir", "diag", "math"]),
+    ("output", &[]),
+];
+
+#[test]
+fn rooms_know_only_those_before_them() {
+    let all: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).chain(["cli", "emit"]).collect();
+    let mut seen = 0;
+    for path in files("src", "rs") {
+        let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").to_owned();
+        let first = inside.iter().next().expect("a name").to_string_lossy().into_owned();
+        let room = first.trim_end_matches(".rs");
+        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
+            assert!(matches!(room, "lib" | "main" | "cli"), "the room `{room}` is not in the list");
+            continue;
+        };
+        seen += 1;
+        let text = fs::read_to_string(&path).expect("a text");
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for used in line.split("crate::").skip(1) {
+                let used: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+                if used == room || !all.contains(&used.as_str()) {
+                    continue;
+                }
+                assert!(allowed.contains(&used.as_str()), "{}: `{room}` must not know `{used}`", inside.display());
+            }
+        }
+    }
+    assert!(seen > 30, "only {seen} files were looked at");
+}

@@ -1,0 +1,186 @@
+//! No input makes it panic, overflow the stack or hang: it answers with a result or a diagnostic.
+
+#![allow(clippy::expect_used)] // a test fails by panicking
+
+mod support;
+
+use mechc::source::Sources;
+use std::fmt::Write;
+use support::{Outcome, Span, compile, run};
+
+/// A pendulum whose driver is a formula, with more declarations before it.
+fn pendulum(declarations: &str, formula: &str) -> String {
+    format!(
+        "mechanism pendulum {{
+            {declarations}
+            ground {{ point O = (0, 0) }}
+            body bar {{ point O = (0, 0) point tip = (1, 0) }}
+            joint main: revolute(ground.O, bar.O)
+            driver motor: rotation(main) = {formula}
+            analysis from 0 to 0.2 every 0.1
+        }}"
+    )
+}
+
+fn check(declarations: &str, formula: &str) -> Outcome {
+    run("pendulum", &pendulum(declarations, formula), Span::default())
+}
+
+#[test]
+fn nesting_is_capped_before_anything_recurses() {
+    let n = 100_000;
+    for formula in [
+        format!("{}t{}", "(".repeat(n), ")".repeat(n)),
+        "(".repeat(n),
+        format!("{}t", "-".repeat(n)),
+        format!("t{}", "^t".repeat(n)),
+        format!("{}t", "if t < 1 then ".repeat(n)),
+        format!("if {} t < 1 then t else t", "not ".repeat(n)),
+        format!("{}t{}", "sin(".repeat(n), ")".repeat(n)),
+    ] {
+        assert_eq!(check("", &formula).codes(), ["E0103"], "{}", &formula[..40]);
+    }
+    let deep = 190;
+    check("", &format!("{}t{}", "(".repeat(deep), ")".repeat(deep))).expect_success();
+    check("", &format!("{}t", "-".repeat(deep))).expect_success();
+    check("", &format!("0.1{}", "^t".repeat(0) + &"^1".repeat(deep))).expect_success();
+}
+
+#[test]
+fn what_is_long_but_not_deep_costs_linear_time() {
+    let n = 50_000;
+    check("", &format!("t{}", " + 1e-6".repeat(n))).expect_success();
+    check("", &format!("t{}", " * 1".repeat(n))).expect_success();
+    let chain: String = (0..n).fold(String::new(), |mut chain, k| {
+        write!(chain, "if t > {} then t else ", n - k).expect("a string takes everything");
+        chain
+    });
+    check("", &(chain + "t")).expect_success();
+    let params: String = (1..n).fold("param p0 = 1e-9\n".to_owned(), |mut params, k| {
+        writeln!(params, "param p{k} = p{} + 1e-9", k - 1).expect("a string takes everything");
+        params
+    });
+    check(&params, &format!("p{} * t", n - 1)).expect_success();
+}
+
+#[test]
+fn functions_that_share_stay_linear() {
+    let n = 5_000;
+    let chain = |body: &str| -> String {
+        (1..n).fold("fn f0(u) = u / 2\n".to_owned(), |mut functions, k| {
+            let body = body.replace("BEFORE", &format!("f{}", k - 1));
+            writeln!(functions, "fn f{k}(u) = {body}").expect("a string takes everything");
+            functions
+        })
+    };
+    // written out, the last one would have 2^5000 parts
+    check(&chain("(BEFORE(u) + BEFORE(u)) / 2"), &format!("f{}(t)", n - 1)).expect_success();
+    let unshared = check(&chain("BEFORE(u + 1) + BEFORE(2 * u)"), &format!("f{}(t)", n - 1));
+    assert_eq!(unshared.codes().last(), Some(&"E0410"), "{}", unshared.text());
+}
+
+#[test]
+fn random_text_is_answered() {
+    let mut state = 12345_u64;
+    let mut random = || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize
+    };
+    let words = [
+        "mechanism",
+        "m",
+        "{",
+        "}",
+        "(",
+        ")",
+        ",",
+        "=",
+        "param",
+        "body",
+        "b",
+        "at",
+        "point",
+        "P",
+        "joint",
+        "j",
+        ":",
+        "revolute",
+        "ground",
+        ".",
+        "driver",
+        "rotation",
+        "t",
+        "1",
+        "2.5",
+        "mm",
+        "s",
+        "+",
+        "-",
+        "*",
+        "/",
+        "^",
+        "if",
+        "then",
+        "else",
+        "and",
+        "not",
+        "<",
+        "//",
+        "\n",
+        "measure",
+        "der",
+        "x",
+        "analysis",
+        "from",
+        "to",
+        "every",
+        "\"",
+        "µm",
+        "é",
+        "axis",
+        "along",
+        "curve",
+        "table",
+        "[",
+        "]",
+        "spline",
+        "fn",
+        "f",
+        "sin",
+        "distance",
+        "constraint",
+        "0",
+    ];
+    for _ in 0..300 {
+        let length = 1 + random() % 60;
+        let text: String = (0..length).map(|_| words[random() % words.len()].to_owned() + " ").collect();
+        for text in [text.clone(), format!("mechanism m {{ {text} }}"), check_body(&text)] {
+            let _ = run("random", &text, Span::default()).text();
+        }
+    }
+    let ascii: String = (0..1_000_000).map(|_| char::from(32 + (random() % 95) as u8)).collect();
+    assert!(!run("ascii", &ascii, Span::default()).text().is_empty());
+}
+
+fn check_body(formula: &str) -> String {
+    pendulum("", formula)
+}
+
+#[test]
+fn ten_thousand_bodies_are_proven_in_no_time() {
+    let n = 10_000;
+    let mut text = "mechanism many { ground { point O = (0, 0) }\n".to_owned();
+    for k in 0..n {
+        writeln!(
+            text,
+            "body b{k} {{ point O = (0, 0) point P = (0.1, 0) }} joint j{k}: revolute({}, b{k}.O) driver d{k}: angle(b{k}) = t + {k}",
+            if k == 0 { "ground.O".to_owned() } else { format!("b{}.P", k - 1) }
+        )
+        .expect("a string takes everything");
+    }
+    text += "}";
+    let mut sources = Sources::default();
+    let (determined, _) = compile(&mut sources, "many", &text);
+    let determined = determined.expect("determined");
+    assert_eq!(determined.blocks().len(), 3 * n, "every coordinate can be solved for on its own");
+}
