@@ -9,6 +9,8 @@ use super::singular;
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 
+/// Passes over the explicit coordinates at most; each settles what depends on the one before.
+const EXPLICIT_STEPS: usize = 50;
 /// Newton steps at most.
 const NEWTON_STEPS: usize = 200;
 /// Largest Newton step, scaled: small enough to stay with the branch of the estimates.
@@ -25,8 +27,6 @@ const LARGEST_DENSE: usize = 300;
 const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.
 const SINGULAR_START: f64 = 1e-5;
-/// A smallest pivot above this needs no closer look.
-const SAFE_PIVOT: f64 = 1e-3;
 
 /// How far assembly moved the bodies from their estimates.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -49,9 +49,10 @@ pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
-    let q = match newton(kinematics, &estimates) {
+    let start = explicit_first(kinematics, &estimates);
+    let q = match newton(kinematics, &start) {
         Some(q) => q,
-        None => by_least_squares(kinematics, &estimates, t)?,
+        None => by_least_squares(kinematics, &start, t)?,
     };
     let moved = moved(system, &estimates, &q);
     refuse_singular(kinematics, &q, t)?;
@@ -73,6 +74,31 @@ fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
     moved
 }
 
+/// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
+/// places of the bodies on it. So they may be as far off as they like.
+fn explicit_first(kinematics: &mut Kinematics<'_>, estimates: &[f64]) -> Vec<f64> {
+    let mut q = estimates.to_vec();
+    let mut delta = vec![0.0; q.len()];
+    for _ in 0..EXPLICIT_STEPS {
+        if kinematics.set_position(&q).is_err() {
+            return estimates.to_vec();
+        }
+        // other blocks may well be singular still
+        let _ = kinematics.factor();
+        let size = kinematics.explicit_correction(&mut delta);
+        if !size.is_finite() {
+            return estimates.to_vec();
+        }
+        for (q, delta) in q.iter_mut().zip(&delta) {
+            *q += delta;
+        }
+        if size <= SETTLED {
+            return q;
+        }
+    }
+    estimates.to_vec()
+}
+
 /// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
 /// Nonlinear Problems*, 2004, section 3.3): the judgement does not depend on how rows are scaled.
 fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
@@ -86,7 +112,7 @@ fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
         if !size.is_finite() {
             return None;
         }
-        let mut damping = f64::min(1.0, LARGEST_STEP / size);
+        let mut damping = f64::min(1.0, LARGEST_STEP / kinematics.linear().largest_implicit(&delta));
         loop {
             for k in 0..n {
                 trial[k] = q[k] + damping * delta[k];
@@ -159,13 +185,10 @@ fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
 fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
     let system = kinematics.system();
     let regular = kinematics.set_position(q).and_then(|()| kinematics.factor()).is_ok();
-    if regular && kinematics.linear().smallest_pivot() > SAFE_PIVOT {
+    if regular && kinematics.linear().nearness(SINGULAR_START) > SINGULAR_START {
         return Ok(());
     }
-    let vectors = kinematics.smallest_singular();
-    if regular && vectors.sigma > SINGULAR_START {
-        return Ok(());
-    }
+    let vectors = kinematics.worst();
     Err(Box::new(singular::name_start(system, &vectors.left, &vectors.right, t)))
 }
 
@@ -178,7 +201,18 @@ fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
         levenberg_marquardt(kinematics, &mut q, &all, &all);
     } else {
         for block in determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST_DENSE) {
+            if kinematics.set_position(&q).is_err() {
+                break;
+            }
+            let _ = kinematics.factor();
+            if kinematics.hold(&block.rows) {
+                continue;
+            }
             levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
+            // the blocks behind it depend on it
+            if kinematics.set_position(&q).is_err() || !kinematics.hold(&block.rows) {
+                break;
+            }
         }
     }
     q

@@ -151,6 +151,17 @@ impl<'d> Kinematics<'d> {
         self.linear.solve(|row| -registers.get(outputs.phi[row]), delta)
     }
 
+    /// The correction of those coordinates that follow without iteration from the others, and its largest scaled entry.
+    pub fn explicit_correction(&mut self, delta: &mut [f64]) -> f64 {
+        let (registers, outputs) = (&self.registers, &self.program.outputs);
+        self.linear.solve_explicit(|row| -registers.get(outputs.phi[row]), delta)
+    }
+
+    /// Whether some rows hold, to the tolerance.
+    pub fn hold(&self, rows: &[u32]) -> bool {
+        rows.iter().all(|&row| self.phi(row as usize).abs() <= self.tolerance * self.linear.row_norm(row as usize))
+    }
+
     /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
     ///
     /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
@@ -282,7 +293,8 @@ impl<'d> Kinematics<'d> {
         let _ = self.factor();
     }
 
-    pub fn smallest_singular(&mut self) -> Singular {
-        self.linear.smallest_singular()
+    /// The most nearly singular block where Φ_q was factored.
+    pub fn worst(&mut self) -> Singular {
+        self.linear.worst()
     }
 }

@@ -1,9 +1,9 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
-//! Everything is scaled: lengths by L, rows to unit norm. Within a block the factors are dense, with partial pivoting;
+//! Everything is scaled: lengths by the size of their body, rows to unit norm. Within a block the factors are dense, with partial pivoting;
 //! between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::ConstraintSystem;
 use crate::structure::Block;
 
 /// One irreducible block with its place in the common storage.
@@ -11,6 +11,7 @@ struct Part {
     /// Offset of its rows and columns in the lists below.
     at: usize,
     size: usize,
+    explicit: bool,
     /// Offset of its dense matrix.
     matrix: usize,
     /// Smallest pivot, relative to rows of unit norm.
@@ -40,7 +41,7 @@ pub(super) struct BlockLu {
     /// Entries by row in block order: `starts[k]..starts[k + 1]`.
     starts: Vec<usize>,
     entries: Vec<Entry>,
-    /// Scale of each coordinate: L or 1.
+    /// Scale of each coordinate: the size of its body, or 1 rad.
     column_scale: Vec<f64>,
     /// Norm of each scaled row.
     row_norm: Vec<f64>,
@@ -68,7 +69,14 @@ impl BlockLu {
         let mut matrix = 0;
         for (k, block) in blocks.iter().enumerate() {
             let size = block.rows.len();
-            parts.push(Part { at: rows.len(), size, matrix, smallest_pivot: 0.0, positive: true });
+            parts.push(Part {
+                at: rows.len(),
+                size,
+                explicit: block.explicit,
+                matrix,
+                smallest_pivot: 0.0,
+                positive: true,
+            });
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
                 part_of_column[column as usize] = k as u32;
@@ -90,14 +98,7 @@ impl BlockLu {
                 starts.push(entries.len());
             }
         }
-        let column_scale = system
-            .coordinates
-            .iter()
-            .map(|coordinate| match coordinate.kind {
-                CoordinateKind::Length => system.length,
-                CoordinateKind::Angle => 1.0,
-            })
-            .collect();
+        let column_scale = system.coordinates.iter().map(|coordinate| coordinate.scale).collect();
         BlockLu {
             parts,
             rows,
@@ -120,11 +121,6 @@ impl BlockLu {
     /// Norm of a row of the scaled `Φ_q`.
     pub fn row_norm(&self, row: usize) -> f64 {
         self.row_norm[row]
-    }
-
-    /// Smallest pivot of all blocks, against rows of unit norm.
-    pub fn smallest_pivot(&self) -> f64 {
-        self.parts.iter().map(|part| part.smallest_pivot).fold(f64::INFINITY, f64::min)
     }
 
     /// Writes the sign of each block's determinant.
@@ -184,10 +180,33 @@ impl BlockLu {
 
     /// Solves `Φ_q x = b`, `b` by rows of Φ and `x` by coordinates, both unscaled; returns the largest scaled `|x|`.
     pub fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) -> f64 {
+        self.solve_parts(right, x, |_| true)
+    }
+
+    /// As [`BlockLu::solve`] for the explicit blocks, all other coordinates being kept.
+    pub fn solve_explicit(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) -> f64 {
+        self.solve_parts(right, x, |part| part.explicit)
+    }
+
+    /// The largest scaled `|x|` of the coordinates that need iteration.
+    pub fn largest_implicit(&self, x: &[f64]) -> f64 {
+        let implicit = self.parts.iter().filter(|part| !part.explicit);
+        let columns = implicit.flat_map(|part| &self.columns[part.at..part.at + part.size]);
+        columns.map(|&column| x[column as usize].abs() / self.column_scale[column as usize]).fold(0.0, f64::max)
+    }
+
+    fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], wanted: impl Fn(&Part) -> bool) -> f64 {
         let mut largest: f64 = 0.0;
         let n = self.rows.len();
         let (scaled, block) = self.work.split_at_mut(n);
         for part in &self.parts {
+            if !wanted(part) {
+                for &column in &self.columns[part.at..part.at + part.size] {
+                    scaled[column as usize] = 0.0;
+                    x[column as usize] = 0.0;
+                }
+                continue;
+            }
             let b = &mut block[..part.size];
             for (place, b) in b.iter_mut().enumerate() {
                 let k = part.at + place;
@@ -237,29 +256,75 @@ impl BlockLu {
         debug_assert_eq!(w.len(), n);
     }
 
-    /// The smallest singular value of the scaled `Φ_q` with its left and right vectors (by rows and by coordinates, of
-    /// unit norm), by inverse iteration. Not for the time loop: it allocates.
-    pub fn smallest_singular(&mut self) -> Singular {
+    /// The nearness to a singular position: the smallest singular value of any block, as far as it is below `limit`.
+    ///
+    /// Taken by blocks, because a long chain of blocks is badly conditioned without being near to anything. A block
+    /// whose pivots are all well above the limit is not looked at. Allocates where one is.
+    pub fn nearness(&self, limit: f64) -> f64 {
+        let suspects = self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit);
+        suspects.map(|part| self.block_singular(part).sigma).fold(f64::INFINITY, f64::min)
+    }
+
+    /// The smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which
+    /// that block's rows depend, and the coordinates that move with its own. Allocates.
+    pub fn worst(&mut self) -> Singular {
         let n = self.rows.len();
-        let mut right: Vec<f64> = (0..n).map(|k| 1.0 + 0.1 * (k % 7) as f64).collect();
-        let mut left = vec![0.0; n];
-        let mut sigma = 0.0;
-        for _ in 0..4 {
-            normalize(&mut right);
-            self.solve_transposed(&right, &mut left);
-            sigma = 1.0 / normalize(&mut left);
-            let norms = self.row_norm.clone();
-            let scaled_left = left.clone();
-            let mut x = vec![0.0; n];
-            self.solve(|row| scaled_left[row] * norms[row], &mut x);
-            for (column, value) in x.iter().enumerate() {
-                right[column] = value / self.column_scale[column];
+        let mut worst: Option<(usize, Singular)> = None;
+        for (k, part) in self.parts.iter().enumerate() {
+            let found = self.block_singular(part);
+            if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
+                worst = Some((k, found));
             }
         }
+        let Some((k, block)) = worst else {
+            return Singular { sigma: 1.0, left: Vec::new(), right: Vec::new() };
+        };
+        let (at, size) = (self.parts[k].at, self.parts[k].size);
+        let (mut left, mut right) = (vec![0.0; n], vec![0.0; n]);
+        for place in 0..size {
+            left[self.rows[at + place] as usize] = block.left[place];
+            right[self.columns[at + place] as usize] = block.right[place];
+        }
+        // A v = σ u and Aᵀ u = σ v within the block; the solves carry both over to the other blocks
+        let (u, v) = (left.clone(), right.clone());
+        self.solve_transposed(&v, &mut left);
+        let norms = self.row_norm.clone();
+        let mut x = vec![0.0; n];
+        self.solve(|row| u[row] * norms[row], &mut x);
+        for (column, value) in x.iter().enumerate() {
+            right[column] = value / self.column_scale[column];
+        }
+        normalize(&mut left);
         normalize(&mut right);
+        Singular { sigma: block.sigma, left, right }
+    }
+
+    /// By inverse iteration within a block, its vectors in the block's order.
+    fn block_singular(&self, part: &Part) -> Singular {
+        let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
+        let pivots = &self.pivots[part.at..part.at + part.size];
+        let mut right: Vec<f64> = (0..part.size).map(|k| 1.0 + 0.1 * (k % 7) as f64).collect();
+        let mut left = right.clone();
+        let mut sigma = 1.0;
+        for _ in 0..4 {
+            normalize(&mut right);
+            left.copy_from_slice(&right);
+            solve_dense_transposed(dense, pivots, &mut left);
+            normalize(&mut left);
+            right.copy_from_slice(&left);
+            solve_dense(dense, pivots, &mut right);
+            sigma = 1.0 / normalize(&mut right);
+        }
         Singular { sigma, left, right }
     }
 }
+
+/// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
+/// overestimate it by little.
+const PIVOT_MARGIN: f64 = 100.0;
+
+/// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
+const LEAST_PIVOT: f64 = 1e-18;
 
 /// A smallest singular value with its vectors.
 pub(super) struct Singular {
@@ -297,14 +362,15 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
             upper[k * n..k * n + n].swap_with_slice(&mut lower[..n]);
         }
         let (upper, lower) = a.split_at_mut((k + 1) * n);
-        let pivot_row = &upper[k * n..];
+        let pivot_row = &mut upper[k * n..];
         let pivot = pivot_row[k];
         positive ^= pivot < 0.0;
         // a pivot that is not a number must win
         smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
-        if pivot == 0.0 {
-            continue;
+        if pivot.abs() < LEAST_PIVOT {
+            pivot_row[k] = LEAST_PIVOT;
         }
+        let pivot = pivot_row[k];
         for row in lower.chunks_exact_mut(n) {
             let factor = row[k] / pivot;
             row[k] = factor;

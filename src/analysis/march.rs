@@ -13,7 +13,7 @@ use crate::diag::Diagnostic;
 const LARGEST_CORRECTION: f64 = 0.05;
 /// Largest correction at the Hermite midpoint, scaled.
 const LARGEST_AT_MIDPOINT: f64 = 1e-3;
-/// Largest predicted motion of a step, scaled: a coordinate's way in lengths L, or its turn in radians.
+/// Largest predicted motion of a step, scaled: a coordinate's way in sizes of its body, or its turn in radians.
 const LARGEST_MOTION: f64 = 0.5;
 /// Corrections of a step at most.
 const ITERATIONS: usize = 4;
@@ -21,8 +21,6 @@ const ITERATIONS: usize = 4;
 const SETTLED: f64 = 1e-7;
 /// Smallest step, as a part of the whole span.
 const SMALLEST_STEP: f64 = 1e-12;
-/// A smallest pivot above this needs no closer look for a singular position.
-const SAFE_PIVOT: f64 = 1e-2;
 /// A position nearer to a singular one than this is not stepped to.
 const NEAREST: f64 = 1e-6;
 /// Where a row is printed, rounding (eps/σ in `q`, eps/σ² in `q̇`) must stay below the accuracy promised, 1e-9.
@@ -182,22 +180,12 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// No step ends too near to a singular position.
     fn keep_away(&mut self) -> Result<(), Fault> {
-        if self.kinematics.linear().smallest_pivot() < NEAREST * 100.0
-            && self.kinematics.smallest_singular().sigma < NEAREST
-        {
-            return Err(Fault::Singular);
-        }
-        Ok(())
+        if self.kinematics.linear().nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
     }
 
     /// What is printed must not be rounding.
     fn trustworthy(&mut self) -> Result<(), Fault> {
-        if self.kinematics.linear().smallest_pivot() < SAFE_PIVOT
-            && self.kinematics.smallest_singular().sigma < NEAREST_PRINTED
-        {
-            return Err(Fault::Singular);
-        }
-        Ok(())
+        if self.kinematics.linear().nearness(NEAREST_PRINTED) < NEAREST_PRINTED { Err(Fault::Singular) } else { Ok(()) }
     }
 
     /// Newton's correction in the middle of the quintic that both ends give, with the factors of the end.

@@ -71,11 +71,11 @@ impl<'d> Started<'d> {
         &self.state.q
     }
 
-    /// The smallest singular value of the scaled `Φ_q` at the start: 1 is best, 0 is a singular position.
+    /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
     #[must_use]
     pub fn conditioning(&mut self) -> f64 {
         self.kinematics.restore(&self.state);
-        self.kinematics.smallest_singular().sigma
+        self.kinematics.worst().sigma
     }
 
     /// Names of the result's columns, in order.

@@ -22,7 +22,7 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         return errors::no_value(system, fault, state.t);
     }
     kinematics.restore(state);
-    let singular = kinematics.smallest_singular();
+    let singular = kinematics.worst();
     if singular.sigma < NEAR {
         return name_singular(system, &singular.left, &singular.right, state.t);
     }

@@ -52,7 +52,7 @@ pub struct ConstraintSystem {
     pub measures: Vec<Measure>,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
-    /// Characteristic length L [m]: the largest distance between two features of one body or of the ground.
+    /// Characteristic length L [m]: the size of the largest body.
     pub length: f64,
     /// The file's analysis: first time, last time, step [s].
     pub analysis: Option<[f64; 3]>,
@@ -96,6 +96,8 @@ pub struct Coordinate {
     pub kind: CoordinateKind,
     /// Where assembly starts; holds parameters only.
     pub estimate: ExprId,
+    /// What a change of it is judged against: the size of its body [m], or 1 rad.
+    pub scale: f64,
 }
 
 /// What kind of declaration wrote a row.

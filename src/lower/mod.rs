@@ -27,7 +27,8 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         declarations: Vec::new(),
     };
     lowering.named();
-    let coordinates = lowering.coordinates();
+    let sizes = size::of_bodies(model);
+    let coordinates = lowering.coordinates(&sizes);
     lowering.joint_rows();
     lowering.equation_rows();
     let conditions = lowering.conditions();
@@ -57,7 +58,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         jerk: None,
         measures,
         conditions,
-        length: size::characteristic_length(model),
+        length: sizes.iter().copied().fold(0.0, f64::max),
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
@@ -102,7 +103,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn coordinates(&mut self) -> Vec<Coordinate> {
+    fn coordinates(&mut self, sizes: &[f64]) -> Vec<Coordinate> {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
@@ -114,6 +115,7 @@ impl Lowering<'_> {
                     body: k,
                     kind,
                     estimate: self.formula(estimate),
+                    scale: if kind == CoordinateKind::Length { sizes[k] } else { 1.0 },
                 });
             }
         }

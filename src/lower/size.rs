@@ -1,44 +1,71 @@
-//! The size of a mechanism, against which residuals and steps are judged.
+//! The sizes of bodies, against which residuals and steps are judged.
+//!
+//! A length for the whole mechanism would not do: where many small loops stand far apart, or a small linkage sits on a
+//! large machine, it would make good positions look singular.
 
-use crate::expr::Symbol;
+use crate::expr::{ExprId, Symbol};
 use crate::model::{Frame, JointKind, Mechanism};
 use rustc_hash::FxHashMap;
 
 /// Frames with more points than this are measured by their bounding box, to stay linear.
 const MANY_POINTS: usize = 500;
 
-/// The largest distance between two features of one body or of the ground [m].
+/// The size of each body [m]: the largest distance between two of its features.
 ///
-/// Where no frame has two features apart, what else the file says of sizes serves: offsets from a body's origin, links'
-/// lengths, the bodies' places; 1 m if there is nothing.
-pub(super) fn characteristic_length(model: &Mechanism) -> f64 {
+/// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
+/// largest one at all. Where no body has a size, what else the file says of sizes serves for all: offsets from a body's
+/// origin, lengths of links, the extent of the ground, the bodies' places; 1 m if there is nothing.
+pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params[k as usize].value,
         _ => f64::NAN,
     });
-    let value = |id: crate::expr::ExprId| values[id.index()];
-    let mut frames: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
+    let value = |id: ExprId| values[id.index()];
+    let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for point in &model.points {
-        frames.entry(point.frame).or_default().push(point.at.map(value));
+        points.entry(point.frame).or_default().push(point.at.map(value));
     }
-    // a maximum does not depend on the order of the map
-    let within_frames = frames.values().map(|points| extent(points)).fold(0.0, f64::max);
-    if is_size(within_frames) {
-        return within_frames;
+    let mut sizes = vec![0.0; model.bodies.len()];
+    for (frame, points) in &points {
+        if let Frame::Body(body) = frame {
+            sizes[body.index()] = extent(points);
+        }
     }
-    let offsets = frames
-        .iter()
-        .filter(|(frame, _)| **frame != Frame::Ground)
-        .flat_map(|(_, points)| points)
-        .map(|&[x, y]| crate::math::hypot(x, y));
+    let largest = sizes.iter().copied().fold(0.0, f64::max);
+    if !is_size(largest) {
+        let ground = points.get(&Frame::Ground).map_or(0.0, |points| extent(points));
+        return vec![other_size(model, value, ground); sizes.len()];
+    }
+    let own = sizes.clone();
+    let size_of = |frame: Frame| match frame {
+        Frame::Ground => 0.0,
+        Frame::Body(body) => own[body.index()],
+    };
+    for joint in &model.joints {
+        let frames = joint.kind.frames(model);
+        for (frame, other) in [(frames[0], frames[1]), (frames[1], frames[0])] {
+            if let Frame::Body(body) = frame
+                && !is_size(own[body.index()])
+            {
+                sizes[body.index()] = f64::max(sizes[body.index()], size_of(other));
+            }
+        }
+    }
+    sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect()
+}
+
+/// A size for all bodies where none has one of its own.
+fn other_size(model: &Mechanism, value: impl Fn(ExprId) -> f64, ground: f64) -> f64 {
+    let of_a_body = model.points.iter().filter(|point| point.frame != Frame::Ground);
+    let offsets = of_a_body.map(|point| crate::math::hypot(value(point.at[0]), value(point.at[1])));
     let links = model.joints.iter().filter_map(|joint| match joint.kind {
         JointKind::RevoluteRevolute(_, _, length) => Some(value(length)),
         JointKind::RevoluteTranslational(_, _, offset) => Some(value(offset).abs()),
         _ => None,
     });
     let places: Vec<[f64; 2]> = model.bodies.iter().map(|body| [value(body.pose[0]), value(body.pose[1])]).collect();
-    let size = offsets.chain(links).chain([extent(&places)]).fold(0.0, f64::max);
+    let size = offsets.chain(links).chain([ground, extent(&places)]).fold(0.0, f64::max);
     if is_size(size) { size } else { 1.0 }
 }
 

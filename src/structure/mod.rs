@@ -10,6 +10,7 @@ mod matching;
 pub use count::table;
 
 use crate::diag::Diagnostic;
+use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
 
 /// Equations and coordinates that are solved together, each row beside the coordinate it is matched to.
@@ -19,6 +20,8 @@ pub struct Block {
     pub rows: Vec<u32>,
     /// Coordinates, as many.
     pub columns: Vec<u32>,
+    /// Whether it is one equation that is linear in its coordinate, so that this follows without iteration.
+    pub explicit: bool,
 }
 
 /// A constraint system of which count and structure have been shown.
@@ -42,6 +45,15 @@ impl Determined {
     }
 }
 
+fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
+    let ([row], &[column]) = (block.rows.as_slice(), block.columns.as_slice()) else {
+        return false;
+    };
+    let own = Symbol::Coordinate { index: column, order: 0 };
+    let slope = system.phi_q.row(*row as usize).iter().find(|&&(used, _)| used == column);
+    slope.is_some_and(|&(_, slope)| !system.graph.symbols(slope).contains(&own))
+}
+
 /// Shows that a system is determined.
 ///
 /// # Errors
@@ -54,6 +66,9 @@ pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Diagnostic>> {
     if !matching.is_perfect() {
         return Err(Box::new(errors::structure(&system, &matching)));
     }
-    let blocks = matching.blocks(&system.phi_q);
+    let mut blocks = matching.blocks(&system.phi_q);
+    for block in &mut blocks {
+        block.explicit = is_explicit(&system, block);
+    }
     Ok(Determined { system, blocks })
 }
