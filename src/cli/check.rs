@@ -26,6 +26,11 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     output.close()
 }
 
+/// As many as a reader compares with a drawing.
+fn nine_digits(value: f64) -> f64 {
+    format!("{value:.8e}").parse().unwrap_or(value) + 0.0
+}
+
 fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     let system = determined.system();
     let moved = started.moved().in_words(system);
@@ -39,7 +44,7 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
             CoordinateKind::Length => "m",
             CoordinateKind::Angle => "rad",
         };
-        text += &format!("  {} = {} {unit}\n", coordinate.name, q + 0.0);
+        text += &format!("  {} = {} {unit}\n", coordinate.name, nine_digits(*q));
     }
     text
 }
