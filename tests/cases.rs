@@ -1,6 +1,6 @@
 //! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`.
 
-#![allow(clippy::expect_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking, and compares exactly
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 

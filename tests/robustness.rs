@@ -1,6 +1,6 @@
 //! No input makes it panic, overflow the stack or hang: it answers with a result or a diagnostic.
 
-#![allow(clippy::expect_used)] // a test fails by panicking
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
@@ -183,4 +183,53 @@ fn ten_thousand_bodies_are_proven_in_no_time() {
     let (determined, _) = compile(&mut sources, "many", &text);
     let determined = determined.expect("determined");
     assert_eq!(determined.blocks().len(), 3 * n, "every coordinate can be solved for on its own");
+}
+
+#[test]
+fn a_thousand_four_bars_far_apart_are_as_good_as_one() {
+    let text = |n: usize| -> String {
+        let mut text = "mechanism fleet {\n".to_owned();
+        for k in 0..n {
+            let y = 10 * k;
+            writeln!(
+                text,
+                "body crank{k} at (0, {y}, 0.5) {{ point A = (0, 0) point C = (1, 0) }}
+                body coupler{k} at (0.88, {y}.48, 0.78) {{ point C = (0, 0) point D = (3.5, 0) }}
+                body rocker{k} at (3.7, {}.5, 1.8) {{ point B = (-1.5, 0) point D = (1.5, 0) }}
+                joint main{k}: revolute((0, {y}), crank{k}.A)
+                joint pin{k}: revolute(crank{k}.C, coupler{k}.C)
+                joint knee{k}: revolute(coupler{k}.D, rocker{k}.D)
+                joint pivot{k}: revolute((4, {y}), rocker{k}.B)
+                driver motor{k}: rotation(main{k}) = 0.5 + 2 * t",
+                y + 1
+            )
+            .expect("a string takes everything");
+        }
+        text + "analysis from 0 s to 0.2 s every 0.1 s }"
+    };
+    let one = run("one", &text(1), Span::default()).expect_success();
+    let many = run("many", &text(300), Span::default()).expect_success();
+    for (a, b) in one.column("rocker0.phi").iter().zip(many.column("rocker299.phi")) {
+        assert!((a - b).abs() < 1e-9, "{a} and {b}");
+    }
+}
+
+#[test]
+fn many_mistakes_are_told_quickly() {
+    let params: String = (0..3_000).fold(String::new(), |mut params, k| {
+        writeln!(params, "param p{k} = q{k}").expect("a string takes everything");
+        params
+    });
+    let outcome = check(&params, "t");
+    assert_eq!(outcome.codes().len(), 3_000);
+    assert!(outcome.text().contains("was `p0` meant?"));
+}
+
+#[test]
+fn a_chain_of_functions_with_other_arguments_stays_linear() {
+    let chain: String = (1..3_000).fold("fn f0(u) = u\n".to_owned(), |mut functions, k| {
+        writeln!(functions, "fn f{k}(u) = f{}(u + 1e-9)", k - 1).expect("a string takes everything");
+        functions
+    });
+    check(&chain, "f2999(t)").expect_success();
 }

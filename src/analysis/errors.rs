@@ -57,10 +57,9 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
     match fault {
         Fault::NotFinite { row } => {
             let declaration = system.declaration_of(row);
-            let message = format!("the formula of {} has no finite value at {}", named(system, row), at(t));
-            Diagnostic::new(Code::E0605, message)
-                .at(declaration.span, "infinite or not a number, it or a derivative of it")
-                .datum("t", t)
+            let message =
+                format!("the formula of {} or a derivative of it is not finite at {}", named(system, row), at(t));
+            Diagnostic::new(Code::E0605, message).at(declaration.span, "infinite or not a number").datum("t", t)
         }
         Fault::Condition { index } => condition(system, index, t),
         Fault::Singular | Fault::TooFar => cannot_follow(system, t, None),
@@ -69,8 +68,8 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
 
 pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let measure = &system.measures[index];
-    Diagnostic::new(Code::E0605, format!("measure `{}` has no finite value at {}", measure.name, at(t)))
-        .at(measure.span, "infinite or not a number, it or a derivative of it")
+    Diagnostic::new(Code::E0605, format!("measure `{}` or a derivative of it is not finite at {}", measure.name, at(t)))
+        .at(measure.span, "infinite or not a number")
         .datum("t", t)
 }
 
@@ -89,6 +88,19 @@ pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -
     let message = format!("the motion cannot be followed beyond {}", at(t));
     let diagnostic = Diagnostic::new(Code::E0604, message)
         .help("look for a driver that jumps there, or becomes too fast")
+        .datum("t", t);
+    match driver {
+        Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
+        None => diagnostic.at(system.span, "in this mechanism"),
+    }
+}
+
+/// A motion that would take too many steps to the next output time.
+pub fn too_fast(system: &ConstraintSystem, t: f64, target: f64, steps: u64, driver: Option<usize>) -> Diagnostic {
+    let message = format!("{steps} steps from one output time do not reach the next one, {}", at(target));
+    let diagnostic = Diagnostic::new(Code::E0604, message)
+        .note(format!("the steps ended at {}", at(t)))
+        .help("a driver is that fast, or was meant in another unit; else take smaller steps with `--every`")
         .datum("t", t);
     match driver {
         Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
@@ -144,6 +156,15 @@ pub fn singular_start(system: &ConstraintSystem, joints: &[usize], bodies: &[usi
         .note(format!("the bodies that are left free to move: {}", bodies_of(system, bodies)))
         .help("a dead point or change point: start at another time; else one of these joints is redundant")
         .datum("t", t)
+        .datum("coordinates", system.coordinates.len())
+        .datum("equations", system.rows.len())
+        .datum("ndof", system.ndof())
+        .datum("redundant", names(joints.iter().map(|&k| &system.declarations[k].name)))
+        .datum("free", names(bodies.iter().map(|&k| &system.bodies[k].name)))
+}
+
+fn names<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
+    names.cloned().collect()
 }
 
 /// Residuals of the worst rows of an assembly that failed.

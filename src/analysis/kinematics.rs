@@ -225,6 +225,24 @@ impl<'d> Kinematics<'d> {
         self.all_finite(state)
     }
 
+    /// How much larger the velocities and accelerations of a state are than the right sides they answer to, scaled; at
+    /// least 1. Its derivatives must just have been computed.
+    pub fn amplification(&self, state: &State) -> f64 {
+        let outputs = &self.program.outputs;
+        let largest_right = |right: &[u32]| {
+            let scaled =
+                |(row, &register): (usize, &u32)| self.registers.get(register).abs() / self.linear.row_norm(row);
+            right.iter().enumerate().map(scaled).fold(0.0, f64::max)
+        };
+        let largest = |left: &[f64]| {
+            left.iter().enumerate().map(|(k, x)| x.abs() / self.linear.column_scale(k)).fold(0.0, f64::max)
+        };
+        let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+        let velocity = ratio(largest(&state.qd), largest_right(&outputs.nu));
+        let acceleration = ratio(largest(&state.qdd), largest_right(&outputs.gamma));
+        velocity.max(acceleration).max(1.0)
+    }
+
     fn all_finite(&self, state: &State) -> Result<(), Fault> {
         let finite = |values: &[f64]| values.iter().all(|value| value.is_finite());
         if finite(&state.qd) && finite(&state.qdd) && finite(&state.qddd) {

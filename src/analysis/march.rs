@@ -23,8 +23,10 @@ const SETTLED: f64 = 1e-7;
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
 const NEAREST: f64 = 1e-6;
-/// Where a row is printed, rounding (eps/σ in `q`, eps/σ² in `q̇`) must stay below the accuracy promised, 1e-9.
-const NEAREST_PRINTED: f64 = 5e-4;
+/// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
+const ACCURACY: f64 = 1e-9;
+/// Steps from one output time to the next at most: what takes more is not meant.
+const MOST_STEPS: u64 = 1_000_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 pub struct Motion<'m, 'd> {
@@ -79,7 +81,12 @@ impl<'m, 'd> Motion<'m, 'd> {
         if t <= self.state.t {
             self.row_at_rest()?;
         }
+        let mut steps = 0;
         while self.state.t < t {
+            steps += 1;
+            if steps > MOST_STEPS {
+                return Err(Box::new(singular::explain_haste(self.kinematics, self.state, MOST_STEPS, t)));
+            }
             let left = t - self.state.t;
             // no crumb at the end
             let (h, next) = if self.h >= 0.999 * left { (left, t) } else { (self.h, self.state.t + self.h) };
@@ -116,7 +123,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     /// The row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
         self.kinematics.restore(self.state);
-        match self.kinematics.derivatives(self.state).and_then(|()| self.trustworthy()) {
+        match self.kinematics.derivatives(self.state).and_then(|()| Self::trustworthy(self.kinematics, self.state)) {
             Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
             Err(fault) => return Err(Box::new(self.explain_start(fault))),
         }
@@ -134,7 +141,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.keep_away()?;
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
-            self.trustworthy()?;
+            Self::trustworthy(self.kinematics, &self.trial)?;
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         let at_midpoint = self.correction_at_midpoint(h)?;
@@ -183,9 +190,12 @@ impl<'m, 'd> Motion<'m, 'd> {
         if self.kinematics.linear().nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
     }
 
-    /// What is printed must not be rounding.
-    fn trustworthy(&mut self) -> Result<(), Fault> {
-        if self.kinematics.linear().nearness(NEAREST_PRINTED) < NEAREST_PRINTED { Err(Fault::Singular) } else { Ok(()) }
+    /// What is printed must not be rounding: `q` is known to eps/σ, and a position that is wrong by so much has
+    /// derivatives that are wrong by as much again as the equations amplify, which near a dead point is 1/σ too.
+    fn trustworthy(kinematics: &Kinematics<'_>, state: &State) -> Result<(), Fault> {
+        let sigma = kinematics.linear().nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
+        let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
+        if uncertain > ACCURACY { Err(Fault::Singular) } else { Ok(()) }
     }
 
     /// Newton's correction in the middle of the quintic that both ends give, with the factors of the end.

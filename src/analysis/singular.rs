@@ -32,6 +32,15 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
 }
 
+/// The diagnosis where so many steps did not get to `target`.
+pub(super) fn explain_haste(kinematics: &mut Kinematics<'_>, state: &State, steps: u64, target: f64) -> Diagnostic {
+    let system = kinematics.system();
+    match without_value(kinematics, state, target) {
+        Some(fault) => errors::no_value(system, fault, target),
+        None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state)),
+    }
+}
+
 /// Why a formula has no value at a time, the position being as it is.
 fn without_value(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Option<Fault> {
     kinematics.set_time(t);

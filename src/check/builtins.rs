@@ -89,7 +89,7 @@ impl Checker<'_> {
         let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
         let graph = &mut self.model.graph;
         let (id, dim) = match function {
-            "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), half(dim)),
+            "sqrt" => (graph.unary(Unary::Sqrt, ids[0]), Dim::Of(dim.settled().to_the(0.5))),
             "abs" => (graph.unary(Unary::Abs, ids[0]), dim),
             "sign" => (graph.unary(Unary::Sign, ids[0]), Dim::PURE),
             "atan2" => (graph.binary(Binary::Atan2, ids[0], ids[1]), Dim::PURE),
@@ -101,7 +101,7 @@ impl Checker<'_> {
                 (id, dim)
             }
         };
-        Some(Value { id, dim })
+        Some(Value { id, dim: Dim::Of(dim.settled()) })
     }
 
     fn all_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Dim> {
@@ -142,7 +142,7 @@ impl Checker<'_> {
             }
         }
         let id = self.model.graph.motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);
-        Some(Value { id, dim })
+        Some(Value { id, dim: Dim::Of(dim.settled()) })
     }
 
     /// `poly(u, u0, c0, c1, …)`: cₖ has the dimension of the result over that of uᵏ.
@@ -152,7 +152,10 @@ impl Checker<'_> {
         let mut dim = Dim::Any;
         let mut first = coefficients[0].0;
         for (power, &(span, c)) in coefficients.iter().enumerate() {
-            let term = c.dim.with(step, |c, step| c.times(step.to_the(power as f64)));
+            let term = match c.dim {
+                Dim::Any => Dim::Any,
+                Dim::Of(c) => Dim::Of(c.times(step.settled().to_the(power as f64))),
+            };
             let joint = self.alike("the terms of `poly` are", (first, dim), (span, term), context)?;
             if dim == Dim::Any {
                 first = span;
@@ -161,13 +164,6 @@ impl Checker<'_> {
         }
         let way = self.model.graph.sub(u.1.id, u0.1.id);
         let ids: Vec<ExprId> = coefficients.iter().map(|(_, c)| c.id).collect();
-        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim })
-    }
-}
-
-fn half(dim: Dim) -> Dim {
-    match dim {
-        Dim::Any => Dim::Any,
-        Dim::Of(dimension) => Dim::Of(dimension.to_the(0.5)),
+        Some(Value { id: self.model.graph.polynomial_of(way, &ids), dim: Dim::Of(dim.settled()) })
     }
 }

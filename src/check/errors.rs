@@ -19,6 +19,13 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
         .help_if(meant(&name.text, known))
 }
 
+/// A name in the value of an option.
+pub fn names_in_option(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0706, format!("a value of the command line cannot name `{}`", name.text))
+        .at(name.span, "a name of the file")
+        .help("write it out in numbers and units")
+}
+
 pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let listed = match known {
         [] => format!("`{owner}` has none"),

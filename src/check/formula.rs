@@ -28,19 +28,17 @@ impl Dim {
     pub const PURE: Dim = Dim::Of(Dimension::PURE);
     pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
 
-    fn map(self, f: impl Fn(Dimension) -> Dimension) -> Dim {
+    /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
+    pub fn settled(self) -> Dimension {
         match self {
-            Dim::Any => Dim::Any,
-            Dim::Of(dimension) => Dim::Of(f(dimension)),
+            Dim::Any => Dimension::PURE,
+            Dim::Of(dimension) => dimension,
         }
     }
 
-    /// Of a product or quotient: zero times anything is a zero that fits.
+    /// Of a product or quotient.
     pub fn with(self, other: Dim, f: impl Fn(Dimension, Dimension) -> Dimension) -> Dim {
-        match (self, other) {
-            (Dim::Of(a), Dim::Of(b)) => Dim::Of(f(a, b)),
-            _ => Dim::Any,
-        }
+        Dim::Of(f(self.settled(), other.settled()))
     }
 }
 
@@ -67,6 +65,8 @@ pub(super) struct Context<'c> {
     pub measures: bool,
     /// Whether names of the file may stand.
     pub names: bool,
+    /// Whether functions are written out; where one is only looked over, those it calls have been looked over too.
+    pub expands: bool,
     /// The argument of the function that is being expanded.
     pub argument: Option<(&'c str, Value)>,
 }
@@ -74,7 +74,16 @@ pub(super) struct Context<'c> {
 impl<'c> Context<'c> {
     /// A constant over params and functions.
     pub fn constant(place: &'c str) -> Context<'c> {
-        Context { place, judged: false, time: false, quantities: false, measures: false, names: true, argument: None }
+        Context {
+            place,
+            judged: false,
+            time: false,
+            quantities: false,
+            measures: false,
+            names: true,
+            expands: true,
+            argument: None,
+        }
     }
 }
 
@@ -274,6 +283,10 @@ impl Checker<'_> {
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
+        if !context.names {
+            self.report(errors::names_in_option(name));
+            return;
+        }
         if name.text == "min" {
             self.report(errors::not_a_unit(name, "", false));
             return;
@@ -283,14 +296,11 @@ impl Checker<'_> {
             self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
         }
-        let mut known: Vec<&str> = Vec::new();
-        if context.names {
-            known.extend(self.space.names(|entity| match entity {
-                Entity::Param(_) => true,
-                Entity::Measure(_) => context.measures,
-                _ => false,
-            }));
-        }
+        let mut known = self.suggestions(|entity| match entity {
+            Entity::Param(_) => true,
+            Entity::Measure(_) => context.measures,
+            _ => false,
+        });
         known.extend(context.argument.map(|(argument, _)| argument));
         known.extend(["t", "pi", "tau"]);
         let what = if context.measures { "parameter or measure" } else { "parameter" };
@@ -346,7 +356,7 @@ impl Checker<'_> {
                     Sign::Plus => self.model.graph.add(left.id, right.id),
                     Sign::Minus => self.model.graph.sub(left.id, right.id),
                 };
-                Value { id, dim }
+                Value { id, dim: Dim::Of(dim.settled()) }
             });
             span = span.to(term.span);
             sum = sum.and_then(|value| self.finite(span, value));
@@ -390,7 +400,7 @@ impl Checker<'_> {
                 };
                 Dim::Of(dimension.to_the(power))
             }
-            other => other.map(|_| Dimension::PURE),
+            _ => Dim::PURE,
         };
         Some(Value { id, dim })
     }
@@ -417,7 +427,7 @@ impl Checker<'_> {
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }
-        Some(choice)
+        Some(Value { dim: Dim::Of(choice.dim.settled()), ..choice })
     }
 
     fn condition(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
@@ -487,7 +497,7 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let own: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Function(_))).collect();
+                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_)));
                 let diagnostic = errors::unknown_function(name, &own);
                 self.report(diagnostic);
                 None
@@ -500,6 +510,9 @@ impl Checker<'_> {
         let function = &self.functions[at];
         if !function.sound {
             return None;
+        }
+        if !context.expands {
+            return Some(argument);
         }
         let (formula, name) = (function.value, function.argument);
         let bits = match argument.dim {
@@ -574,7 +587,7 @@ impl Checker<'_> {
             self.report(errors::derivative_too_high(e.span));
             return None;
         }
-        let dim = inner.dim.map(|d| d.over(Dimension::TIME));
+        let dim = Dim::Of(inner.dim.settled().over(Dimension::TIME));
         if self.model.graph.dependence(inner.id).is_constant() {
             return Some(Value { id: self.model.graph.constant(0.0), dim });
         }

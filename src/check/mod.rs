@@ -23,6 +23,9 @@ use formula::{Call, Context, Dim, Value};
 use names::{Entity, Space, mentioned};
 use rustc_hash::FxHashMap;
 
+/// How many mistakes of one file are worth a suggestion.
+const MOST_SUGGESTIONS: usize = 100;
+
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
 #[derive(Clone, Debug)]
 pub struct Setting {
@@ -165,6 +168,11 @@ impl<'a> Checker<'a> {
             Some(&caller) => diagnostic.raised_by(caller, "brought in here"),
             None => diagnostic,
         });
+    }
+
+    /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
+    fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
+        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { self.space.names(wanted).collect() }
     }
 
     fn items(&self) -> &'a [Item] {
@@ -314,6 +322,7 @@ impl<'a> Checker<'a> {
         let named = self.name_symbol(Named::Argument, 0);
         let context = Context {
             time: true,
+            expands: false,
             argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
             ..Context::constant("a function")
         };

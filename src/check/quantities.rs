@@ -111,7 +111,7 @@ impl Checker<'_> {
                 return None;
             }
             None => {
-                let known: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Joint(_))).collect();
+                let known = self.suggestions(|entity| matches!(entity, Entity::Joint(_)));
                 let diagnostic = errors::unknown("joint", name, &known);
                 self.report(diagnostic);
                 return None;
@@ -140,7 +140,7 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let mut known: Vec<&str> = self.space.names(|entity| matches!(entity, Entity::Body(_))).collect();
+                let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
                 known.push("ground");
                 let diagnostic = errors::unknown("body", name, &known);
                 self.report(diagnostic);

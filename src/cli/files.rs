@@ -136,8 +136,7 @@ impl Output {
 
 impl Destination {
     fn beside(path: &Path) -> io::Result<Destination> {
-        // a link stays a link: what it points to is replaced
-        let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
+        let path = behind_links(path)?;
         if let Ok(found) = fs::metadata(&path) {
             if found.is_dir() {
                 return Err(io::Error::other("it is a folder"));
@@ -156,15 +155,33 @@ impl Destination {
         if !folder.is_dir() {
             return Err(io::Error::other(format!("there is no folder `{}`", folder.display())));
         }
+        #[cfg(unix)]
+        let mode = {
+            use std::os::unix::fs::PermissionsExt;
+            // as the file has it; a new one as files are made, less what the user's mask takes away
+            fs::metadata(&path).map_or(0o666, |found| found.permissions().mode() & 0o777)
+        };
         let mut builder = tempfile::Builder::new();
         builder.prefix(".mechc-");
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // as a file that is made anew, less what the user's mask takes away
-            builder.permissions(fs::Permissions::from_mode(0o666));
+            builder.permissions(fs::Permissions::from_mode(mode));
         }
         let temporary = builder.tempfile_in(folder)?;
         Ok(Destination::File { temporary, path })
     }
+}
+
+/// The file that a chain of links ends at: a link stays a link, what it points to is replaced.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_owned();
+    for _ in 0..40 {
+        match fs::read_link(&path) {
+            Ok(target) => path = path.parent().unwrap_or(Path::new("")).join(target),
+            // no link
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links go in a circle"))
 }

@@ -13,6 +13,7 @@ pub use nearest::nearest;
 pub use render::{Color, Format, render};
 
 use crate::source::Span;
+use rustc_hash::FxHashSet;
 use serde_json::{Map, Value};
 
 /// How grave a diagnostic is.
@@ -133,16 +134,14 @@ impl Diagnostic {
 #[derive(Clone, PartialEq, Debug, Default)]
 pub struct Diagnostics {
     list: Vec<Diagnostic>,
+    said: FxHashSet<(Code, Option<Span>, String)>,
 }
 
 impl Diagnostics {
     /// Adds one; the same code at the same place is said once.
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        let seen = self
-            .list
-            .iter()
-            .any(|d| d.code == diagnostic.code && d.labels == diagnostic.labels && d.message == diagnostic.message);
-        if !seen {
+        let place = diagnostic.labels.first().map(|label| label.span);
+        if self.said.insert((diagnostic.code, place, diagnostic.message.clone())) {
             self.list.push(diagnostic);
         }
     }
@@ -178,7 +177,9 @@ impl Diagnostics {
 
 impl From<Diagnostic> for Diagnostics {
     fn from(diagnostic: Diagnostic) -> Diagnostics {
-        Diagnostics { list: vec![diagnostic] }
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.push(diagnostic);
+        diagnostics
     }
 }
 

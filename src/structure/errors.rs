@@ -8,7 +8,7 @@ use crate::ir::{ConstraintSystem, Declaration, DeclarationKind};
 /// Names that one message lists before it stops.
 const LISTED: usize = 8;
 
-pub fn count(system: &ConstraintSystem) -> Diagnostic {
+pub fn count(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     let ndof = system.ndof();
     let message = match ndof {
         1 => "1 degree of freedom is left".to_owned(),
@@ -19,10 +19,8 @@ pub fn count(system: &ConstraintSystem) -> Diagnostic {
     let label = format!("{} coordinates, {} equations", system.coordinates.len(), system.rows.len());
     let diagnostic = Diagnostic::new(Code::E0502, format!("{message} in mechanism `{}`", system.name))
         .at(system.span, label)
-        .note(table(system))
-        .datum("coordinates", system.coordinates.len())
-        .datum("equations", system.rows.len())
-        .datum("ndof", ndof);
+        .note(table(system));
+    let diagnostic = with_data(diagnostic, system, &competing(system, matching), &matching.free_columns(&system.phi_q));
     if ndof > 0 { diagnostic.help(drivers_to_add(system, ndof)) } else { diagnostic.help(what_to_take_away(system)) }
 }
 
@@ -54,15 +52,8 @@ fn what_to_take_away(system: &ConstraintSystem) -> String {
 }
 
 pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
-    let rows = matching.overdetermined_rows(&system.phi_q);
     let columns = matching.free_columns(&system.phi_q);
-    let mut competing: Vec<&Declaration> = Vec::new();
-    for &row in &rows {
-        let declaration = system.declaration_of(row as usize);
-        if !competing.iter().any(|known| known.span == declaration.span) {
-            competing.push(declaration);
-        }
-    }
+    let competing = competing(system, matching);
     let mut free: Vec<usize> = columns.iter().map(|&column| system.coordinates[column as usize].body).collect();
     free.dedup();
     let mut diagnostic =
@@ -74,16 +65,37 @@ pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     for &body in free.iter().take(LISTED) {
         diagnostic = diagnostic.also(system.bodies[body].span, "not fixed by enough equations");
     }
-    let names: Vec<String> = competing.iter().map(|declaration| declaration.name.clone()).collect();
-    let coordinates: Vec<String> =
-        columns.iter().map(|&column| system.coordinates[column as usize].name.clone()).collect();
-    let shown: Vec<String> = coordinates.iter().take(LISTED).map(|name| format!("`{name}`")).collect();
-    diagnostic
+    let shown: Vec<String> =
+        columns.iter().take(LISTED).map(|&column| format!("`{}`", system.coordinates[column as usize].name)).collect();
+    let diagnostic = diagnostic
         .note(format!("nothing fixes {}", shown.join(", ")))
-        .help("move one of the equations to the part that lacks one")
+        .help("move one of the equations to the part that lacks one");
+    with_data(diagnostic, system, &competing, &columns)
+}
+
+/// The declarations among whose equations there is one too many.
+fn competing<'s>(system: &'s ConstraintSystem, matching: &Matching) -> Vec<&'s Declaration> {
+    let mut declarations: Vec<usize> = matching
+        .overdetermined_rows(&system.phi_q)
+        .into_iter()
+        .map(|row| system.rows[row as usize].declaration)
+        .collect();
+    declarations.dedup();
+    declarations.into_iter().map(|k| &system.declarations[k]).collect()
+}
+
+fn with_data(
+    diagnostic: Diagnostic,
+    system: &ConstraintSystem,
+    competing: &[&Declaration],
+    free: &[u32],
+) -> Diagnostic {
+    let redundant: Vec<String> = competing.iter().map(|declaration| declaration.name.clone()).collect();
+    let free: Vec<String> = free.iter().map(|&column| system.coordinates[column as usize].name.clone()).collect();
+    diagnostic
         .datum("coordinates", system.coordinates.len())
         .datum("equations", system.rows.len())
-        .datum("ndof", 0)
-        .datum("redundant", names)
-        .datum("free", coordinates)
+        .datum("ndof", system.ndof())
+        .datum("redundant", redundant)
+        .datum("free", free)
 }

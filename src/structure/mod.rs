@@ -59,10 +59,10 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
 /// # Errors
 /// The count's or the structure's diagnostic.
 pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Diagnostic>> {
-    if system.ndof() != 0 {
-        return Err(Box::new(errors::count(&system)));
-    }
     let matching = matching::maximum(&system.phi_q, system.rows.len(), system.coordinates.len());
+    if system.ndof() != 0 {
+        return Err(Box::new(errors::count(&system, &matching)));
+    }
     if !matching.is_perfect() {
         return Err(Box::new(errors::structure(&system, &matching)));
     }
