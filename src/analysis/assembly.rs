@@ -31,11 +31,11 @@ const SINGULAR_START: f64 = 1e-5;
 /// How far assembly moved the bodies from their estimates.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
 pub struct Moved {
-    /// Largest move of a body's origin in x or y [m].
+    /// Largest move of a body's origin in x or y (m).
     pub length: f64,
     /// Index of that body.
     pub length_body: usize,
-    /// Largest turn [rad].
+    /// Largest turn (rad).
     pub angle: f64,
     /// Index of that body.
     pub angle_body: usize,

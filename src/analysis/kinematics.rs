@@ -13,7 +13,7 @@ const LARGEST_BLOCK: usize = 4000;
 /// A time with the coordinates and their derivatives.
 #[derive(Clone, Debug)]
 pub(super) struct State {
-    /// [s]
+    /// (s)
     pub t: f64,
     /// [m, rad]
     pub q: Vec<f64>,

@@ -37,7 +37,7 @@ pub struct Motion<'m, 'd> {
     middle: Vec<f64>,
     signs: Vec<bool>,
     trial_signs: Vec<bool>,
-    /// The step that the error allows [s].
+    /// The step that the error allows (s).
     h: f64,
     smallest: f64,
     begun: bool,
@@ -70,7 +70,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
     }
 
-    /// Goes on to time `t` [s], not before the last one, and gives its row, in the order of `Started::columns`.
+    /// Goes on to time `t` (s), not before the last one, and gives its row, in the order of `Started::columns`.
     ///
     /// # Errors
     /// Why and where the motion cannot go on.

@@ -35,7 +35,7 @@ pub struct Started<'d> {
     moved: Moved,
 }
 
-/// Assembles a mechanism at time `t` [s].
+/// Assembles a mechanism at time `t` (s).
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
@@ -93,7 +93,7 @@ impl<'d> Started<'d> {
         columns
     }
 
-    /// The motion from the start on, over a span of time [s] that the steps are measured against.
+    /// The motion from the start on, over a span of time (s) that the steps are measured against.
     #[must_use]
     pub fn motion(&mut self, span: f64) -> Motion<'_, 'd> {
         Motion::new(&mut self.kinematics, &mut self.state, span)

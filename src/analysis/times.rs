@@ -38,7 +38,7 @@ impl Times {
         Times { from, kind: Kind::Listed(times) }
     }
 
-    /// Where the motion begins [s].
+    /// Where the motion begins (s).
     #[must_use]
     pub fn from(&self) -> f64 {
         self.from
@@ -59,7 +59,7 @@ impl Times {
         self.len() == 0
     }
 
-    /// From the first to the last [s].
+    /// From the first to the last (s).
     #[must_use]
     pub fn span(&self) -> f64 {
         match &self.kind {

@@ -92,7 +92,7 @@ fn settings(given: &[String], mechanism: &ast::Mechanism, sources: &mut Sources)
     if diagnostics.is_empty() { Ok(settings) } else { Err(diagnostics.into()) }
 }
 
-/// A time of the command line [s]: a number of seconds, or a formula with units.
+/// A time of the command line (s): a number of seconds, or a formula with units.
 pub(super) fn time(option: &str, text: &str, sources: &mut Sources) -> Result<f64, Failure> {
     let file = sources.add_option(option, text);
     let formula = syntax::parse_expression(sources, file)?;

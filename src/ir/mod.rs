@@ -2,7 +2,7 @@
 //!
 //! # What it means
 //!
-//! With `n` generalized coordinates `q` (lengths in metres, angles in radians), time `t` [s] and parameters `p`:
+//! With `n` generalized coordinates `q` (lengths in metres, angles in radians), time `t` (s) and parameters `p`:
 //!
 //! - position:     `Φ(q, t; p) = 0`, one entry per row;
 //! - velocity:     `Φ_q q̇ = ν`, `ν = −Φ_t`;
@@ -52,9 +52,9 @@ pub struct ConstraintSystem {
     pub measures: Vec<Measure>,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
-    /// Characteristic length L [m]: the size of the largest body.
+    /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
-    /// The file's analysis: first time, last time, step [s].
+    /// The file's analysis: first time, last time, step (s).
     pub analysis: Option<[f64; 3]>,
 }
 
@@ -96,7 +96,7 @@ pub struct Coordinate {
     pub kind: CoordinateKind,
     /// Where assembly starts; holds parameters only.
     pub estimate: ExprId,
-    /// What a change of it is judged against: the size of its body [m], or 1 rad.
+    /// What a change of it is judged against: the size of its body (m), or 1 rad.
     pub scale: f64,
 }
 

@@ -8,7 +8,7 @@ use crate::model::{AxisId, Frame, PointId};
 pub(super) type Vector = [ExprId; 2];
 
 impl Lowering<'_> {
-    /// A frame's coordinate: 0 for x [m], 1 for y [m], 2 for φ [rad]; zero for the ground.
+    /// A frame's coordinate: 0 for x (m), 1 for y (m), 2 for φ (rad); zero for the ground.
     pub(super) fn frame_coordinate(&mut self, frame: Frame, part: u32) -> ExprId {
         match frame {
             Frame::Ground => self.graph.constant(0.0),
@@ -32,7 +32,7 @@ impl Lowering<'_> {
         [graph.sub(xc, ys), graph.add(xs, yc)]
     }
 
-    /// A point in the global frame [m].
+    /// A point in the global frame (m).
     pub(super) fn global(&mut self, point: PointId) -> Vector {
         let point = &self.model[point];
         let frame = point.frame;
@@ -55,7 +55,7 @@ impl Lowering<'_> {
         self.turned(self.model[axis].frame, local)
     }
 
-    /// The angle θ of an axis in its frame [rad].
+    /// The angle θ of an axis in its frame (rad).
     pub(super) fn local_angle(&mut self, axis: AxisId) -> ExprId {
         let [x, y] = self.model[axis].direction.map(|id| self.formula(id));
         self.graph.binary(Binary::Atan2, y, x)

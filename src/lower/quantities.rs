@@ -5,7 +5,7 @@ use crate::expr::{ExprId, Unary};
 use crate::model::{AxisId, Direction, JointId, JointKind, PointId};
 
 impl Lowering<'_> {
-    /// x (part 0) or y (part 1) of a point, or from one point to another [m].
+    /// x (part 0) or y (part 1) of a point, or from one point to another (m).
     pub(super) fn coordinate_between(&mut self, from: Option<PointId>, to: PointId, part: usize) -> ExprId {
         let end = self.global(to)[part];
         match from {
@@ -17,7 +17,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// Direction of a body or axis, or the angle from one to another [rad].
+    /// Direction of a body or axis, or the angle from one to another (rad).
     pub(super) fn angle_between(&mut self, from: Option<Direction>, to: Direction) -> ExprId {
         let end = self.angle(to);
         match from {
@@ -40,7 +40,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// `√(dᵀd)` [m]
+    /// `√(dᵀd)` (m)
     pub(super) fn distance(&mut self, p: PointId, q: PointId) -> ExprId {
         let (p, q) = (self.global(p), self.global(q));
         let d = self.minus(q, p);
@@ -48,7 +48,7 @@ impl Lowering<'_> {
         self.graph.unary(Unary::Sqrt, square)
     }
 
-    /// `(φ_j + θ_j) − (φ_i + θ_i)` [rad]
+    /// `(φ_j + θ_j) − (φ_i + θ_i)` (rad)
     pub(super) fn rotation(&mut self, joint: JointId, axes: Option<(AxisId, AxisId)>) -> ExprId {
         let frames = self.model[joint].kind.frames(self.model);
         let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
@@ -63,7 +63,7 @@ impl Lowering<'_> {
         }
     }
 
-    /// `v_iᵀ d` [m]
+    /// `v_iᵀ d` (m)
     pub(super) fn displacement(&mut self, joint: JointId) -> ExprId {
         let JointKind::Translational(a, b) = self.model[joint].kind else {
             unreachable!("check gives displacement to translational joints only")

@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 /// Frames with more points than this are measured by their bounding box, to stay linear.
 const MANY_POINTS: usize = 500;
 
-/// The size of each body [m]: the largest distance between two of its features.
+/// The size of each body (m): the largest distance between two of its features.
 ///
 /// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
 /// largest one at all. Where no body has a size, what else the file says of sizes serves for all: offsets from a body's

@@ -154,7 +154,7 @@ pub struct Body {
     pub declared: Declared,
     /// The text of its `///` lines.
     pub docs: Vec<String>,
-    /// The pose as written: x [m], y [m], phi [rad].
+    /// The pose as written: x (m), y (m), phi (rad).
     pub pose: [ExprId; 3],
 }
 
@@ -167,7 +167,7 @@ pub struct Point {
     pub name: Option<String>,
     /// Where it is written.
     pub span: Span,
-    /// In the frame [m].
+    /// In the frame (m).
     pub at: [ExprId; 2],
 }
 
@@ -202,11 +202,11 @@ pub enum JointKind {
     Revolute(PointId, PointId),
     /// Two axes lie on one line.
     Translational(AxisId, AxisId),
-    /// Two points coincide, and the second body keeps an angle [rad] to the first.
+    /// Two points coincide, and the second body keeps an angle (rad) to the first.
     Weld(PointId, PointId, ExprId),
-    /// Two points keep a distance [m].
+    /// Two points keep a distance (m).
     RevoluteRevolute(PointId, PointId, ExprId),
-    /// A point stays on an axis, or at an offset [m] to its left.
+    /// A point stays on an axis, or at an offset (m) to its left.
     RevoluteTranslational(PointId, AxisId, ExprId),
 }
 
@@ -250,17 +250,17 @@ pub enum Named {
 /// A scalar function of the coordinates (`elements.md`, "Kinematic quantities").
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Quantity {
-    /// Global x of a point, or from one point to another [m].
+    /// Global x of a point, or from one point to another (m).
     X(Option<PointId>, PointId),
-    /// Global y of a point, or from one point to another [m].
+    /// Global y of a point, or from one point to another (m).
     Y(Option<PointId>, PointId),
-    /// Direction of a body or axis, or the angle from one to another [rad].
+    /// Direction of a body or axis, or the angle from one to another (rad).
     Angle(Option<Direction>, Direction),
-    /// Distance of two points [m].
+    /// Distance of two points (m).
     Distance(PointId, PointId),
-    /// Angle of a revolute joint [rad], between axes if given.
+    /// Angle of a revolute joint (rad), between axes if given.
     Rotation(JointId, Option<(AxisId, AxisId)>),
-    /// Way of a translational joint [m].
+    /// Way of a translational joint (m).
     Displacement(JointId),
 }
 
@@ -289,7 +289,7 @@ pub struct Equation {
 pub enum EquationForm {
     /// Left minus right.
     Difference(ExprId, ExprId),
-    /// The squared distance of two points, minus the square of a formula without kinematic quantities [m].
+    /// The squared distance of two points, minus the square of a formula without kinematic quantities (m).
     SquaredDistance(PointId, PointId, ExprId),
 }
 
@@ -327,11 +327,11 @@ pub enum ConditionKind {
 /// Which times to compute.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Analysis {
-    /// First time [s].
+    /// First time (s).
     pub from: f64,
-    /// Last time [s].
+    /// Last time (s).
     pub to: f64,
-    /// Step [s].
+    /// Step (s).
     pub every: f64,
     /// The declaration.
     pub span: Span,

@@ -132,7 +132,7 @@ pub enum Op {
 pub struct Inputs {
     /// First parameter.
     pub params: Register,
-    /// Time [s].
+    /// Time (s).
     pub time: Register,
     /// First of `q`, `q̇`, `q̈`, `q⃛`.
     pub coordinates: [Register; 4],
