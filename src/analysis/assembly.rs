@@ -39,6 +39,8 @@ pub struct Moved {
     pub angle: f64,
     /// Index of that body.
     pub angle_body: usize,
+    /// Whether the estimates led nowhere, and others near them had to be tried.
+    pub perturbed: bool,
 }
 
 /// Assembles at time `t`.
@@ -50,11 +52,11 @@ pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
     let start = explicit_first(kinematics, &estimates);
-    let q = match newton(kinematics, &start) {
-        Some(q) => q,
+    let (q, perturbed) = match newton(kinematics, &start) {
+        Some(q) => (q, false),
         None => by_least_squares(kinematics, &start, t)?,
     };
-    let moved = moved(system, &estimates, &q);
+    let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
     refuse_singular(kinematics, &q, t)?;
     Ok((State::new(t, q), moved))
 }
@@ -137,7 +139,12 @@ fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
     None
 }
 
-fn by_least_squares(kinematics: &mut Kinematics<'_>, estimates: &[f64], t: f64) -> Result<Vec<f64>, Box<Diagnostic>> {
+/// The assembled position, and whether the estimates had to be perturbed to find it.
+fn by_least_squares(
+    kinematics: &mut Kinematics<'_>,
+    estimates: &[f64],
+    t: f64,
+) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
     let mut nearest = None;
     let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
     for size in std::iter::once(0.0).chain(PERTURBATIONS) {
@@ -146,13 +153,13 @@ fn by_least_squares(kinematics: &mut Kinematics<'_>, estimates: &[f64], t: f64) 
             .collect();
         let q = least_squares(kinematics, start);
         if let Some(polished) = newton(kinematics, &q) {
-            return Ok(polished);
+            return Ok((polished, size > 0.0));
         }
         let _ = kinematics.set_position(&q);
         let _ = kinematics.factor();
         if kinematics.violated().is_none() {
             // assembled, but Newton does not settle: a singular position
-            return Ok(q);
+            return Ok((q, size > 0.0));
         }
         nearest.get_or_insert(q);
     }
@@ -184,8 +191,14 @@ fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
 /// The equations must be independent where the motion starts.
 fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
     let system = kinematics.system();
-    let regular = kinematics.set_position(q).and_then(|()| kinematics.factor()).is_ok();
-    if regular && kinematics.linear().nearness(SINGULAR_START) > SINGULAR_START {
+    let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
+        return Err(Box::new(errors::no_value(system, fault, t)));
+    }
+    if let Some(row) = (0..q.len()).find(|&row| kinematics.linear().row_norm(row) == 0.0) {
+        return Err(Box::new(errors::without_effect(system, row, t)));
+    }
+    if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
         return Ok(());
     }
     let vectors = kinematics.worst();

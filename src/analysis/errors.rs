@@ -13,7 +13,7 @@ fn at(t: f64) -> String {
     format!("t = {} s", short(t))
 }
 
-/// Nine digits at most.
+/// Ten digits at most.
 fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
     format!("{rounded}")
@@ -97,10 +97,11 @@ pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -
 
 /// A motion that would take too many steps to the next output time.
 pub fn too_fast(system: &ConstraintSystem, t: f64, target: f64, steps: u64, driver: Option<usize>) -> Diagnostic {
-    let message = format!("{steps} steps from one output time do not reach the next one, {}", at(target));
-    let diagnostic = Diagnostic::new(Code::E0604, message)
-        .note(format!("the steps ended at {}", at(t)))
-        .help("a driver is that fast, or was meant in another unit; else take smaller steps with `--every`")
+    let diagnostic = Diagnostic::new(Code::E0604, format!("the motion is too fast to follow near {}", at(t)))
+        .note(format!("{steps} steps did not reach the next output time, {}", at(target)))
+        .help(
+            "a driver grows without bound there, or was meant in another unit; else take smaller steps with `--every`",
+        )
         .datum("t", t);
     match driver {
         Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
@@ -130,7 +131,7 @@ pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], bodie
         format!("the mechanism locks up at {}: driver `{}` cannot move on", at(t), declaration.name),
     )
     .at(declaration.span, "drives into a dead point");
-    with_places(diagnostic, system, joints, "these joints hold it there")
+    with_places(diagnostic, system, joints, "these hold it there")
         .note(format!("the bodies that would have to jump: {}", bodies_of(system, bodies)))
         .help("let the driver turn back before that time, drive another joint, or change a length")
         .datum("t", t)
@@ -141,26 +142,37 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], bodies: &[usize]
         Code::E0603,
         format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
     );
-    with_places(diagnostic, system, joints, "these joints leave it open")
+    with_places(diagnostic, system, joints, "these leave it open")
         .note(format!("the bodies that could go either way: {}", bodies_of(system, bodies)))
         .help("change a length a little, or stop before that time")
         .datum("t", t)
 }
 
-pub fn singular_start(system: &ConstraintSystem, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
+/// An equation whose derivatives by all coordinates vanish where it should fix something.
+pub fn without_effect(system: &ConstraintSystem, row: usize, t: f64) -> Diagnostic {
+    let message =
+        format!("the equation of {} fixes nothing in the assembled position at {}", named(system, row), at(t));
+    Diagnostic::new(Code::E0504, message)
+        .at(system.declaration_of(row).span, "no small motion of any body changes it there")
+        .datum("t", t)
+}
+
+pub fn singular_start(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
+    let mut bodies: Vec<usize> = columns.iter().map(|&column| system.coordinates[column].body).collect();
+    bodies.dedup();
     let diagnostic = Diagnostic::new(
         Code::E0504,
         format!("the equations are not independent in the assembled position at {}", at(t)),
     );
     with_places(diagnostic, system, joints, "these depend on each other there")
-        .note(format!("the bodies that are left free to move: {}", bodies_of(system, bodies)))
+        .note(format!("the bodies that are left free to move: {}", bodies_of(system, &bodies)))
         .help("a dead point or change point: start at another time; else one of these joints is redundant")
         .datum("t", t)
         .datum("coordinates", system.coordinates.len())
         .datum("equations", system.rows.len())
         .datum("ndof", system.ndof())
         .datum("redundant", names(joints.iter().map(|&k| &system.declarations[k].name)))
-        .datum("free", names(bodies.iter().map(|&k| &system.bodies[k].name)))
+        .datum("free", names(columns.iter().map(|&k| &system.coordinates[k].name)))
 }
 
 fn names<'a>(names: impl Iterator<Item = &'a String>) -> Vec<String> {
@@ -198,6 +210,14 @@ pub fn cannot_assemble(system: &ConstraintSystem, worst: &[(usize, f64, f64)], t
 
 /// A remark where assembly moved a body so far that its branch may not be the one meant.
 pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option<Diagnostic> {
+    if moved.perturbed {
+        let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
+        return Some(
+            Diagnostic::new(Code::N0601, message)
+                .at(system.span, "one of several positions was taken")
+                .help("give estimates in `at` that are nearer to the position meant"),
+        );
+    }
     let (far, turned) = (moved.length > system.length, moved.angle > std::f64::consts::FRAC_PI_2);
     if !far && !turned {
         return None;
@@ -207,7 +227,7 @@ pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option
     let how =
         if far { format!("moved by {}", length(moved.length)) } else { format!("turned by {}", degrees(moved.angle)) };
     Some(
-        Diagnostic::new(Code::N0601, format!("assembling the mechanism at {} {how} the body `{}`", at(t), body.name))
+        Diagnostic::new(Code::N0601, format!("the assembly at {} {how} the body `{}`", at(t), body.name))
             .at(body.span, "far from its estimate")
             .help("if this is not the branch meant, give better estimates in `at`"),
     )

@@ -4,7 +4,7 @@ use super::errors;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, Measure};
-use crate::program::{Program, Registers, Stage};
+use crate::program::{Program, Register, Registers, Stage};
 use crate::structure::Determined;
 
 /// Largest irreducible block that the dense factors can hold.
@@ -159,30 +159,39 @@ impl<'d> Kinematics<'d> {
 
     /// Whether some rows hold, to the tolerance.
     pub fn hold(&self, rows: &[u32]) -> bool {
-        rows.iter().all(|&row| self.phi(row as usize).abs() <= self.tolerance * self.linear.row_norm(row as usize))
+        rows.iter().all(|&row| self.is_met(row as usize))
     }
 
     /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
     ///
     /// A row's tolerance is `--tolerance` times its norm, plus what rounding alone makes of its terms and of the
     /// coordinates that it depends on.
-    pub fn violated(&mut self) -> Option<(usize, f64)> {
+    pub fn violated(&self) -> Option<(usize, f64)> {
         let n = self.system().rows.len();
-        let beyond = |this: &Self, row: usize| this.phi(row).abs() > this.tolerance * this.linear.row_norm(row);
-        if !(0..n).any(|row| beyond(self, row)) {
-            return None;
-        }
-        self.program.run(Stage::Terms, &mut self.registers);
         let mut worst: Option<(usize, f64)> = None;
-        for row in 0..n {
-            let norm = self.linear.row_norm(row);
-            let excess = self.phi(row).abs() - self.tolerance * norm - self.rounding(row);
-            let residual = self.phi(row).abs() / norm;
-            if excess > 0.0 && worst.is_none_or(|(_, known)| residual > known) {
+        for row in (0..n).filter(|&row| !self.is_met(row)) {
+            let residual = self.residual(row);
+            if worst.is_none_or(|(_, known)| residual > known) {
                 worst = Some((row, residual));
             }
         }
         worst
+    }
+
+    /// Whether a row holds, to the tolerance and rounding; one that is not a number does not.
+    fn is_met(&self, row: usize) -> bool {
+        let (off, bound) = (self.phi(row).abs(), self.tolerance * self.linear.row_norm(row));
+        off <= bound || off <= bound + self.rounding(row)
+    }
+
+    /// What is left of a row of Φ, scaled.
+    pub fn residual(&self, row: usize) -> f64 {
+        self.phi(row).abs() / self.linear.row_norm(row)
+    }
+
+    /// What is left of Φ, scaled: the largest of all rows.
+    pub fn largest_residual(&self) -> f64 {
+        (0..self.system().rows.len()).map(|row| self.residual(row)).fold(0.0, f64::max)
     }
 
     /// 8 eps times the largest term of a row, the steps of its coordinates included.
@@ -229,9 +238,9 @@ impl<'d> Kinematics<'d> {
     /// least 1. Its derivatives must just have been computed.
     pub fn amplification(&self, state: &State) -> f64 {
         let outputs = &self.program.outputs;
-        let largest_right = |right: &[u32]| {
+        let largest_right = |right: &[Register]| {
             let scaled =
-                |(row, &register): (usize, &u32)| self.registers.get(register).abs() / self.linear.row_norm(row);
+                |(row, &register): (usize, &Register)| self.registers.get(register).abs() / self.linear.row_norm(row);
             right.iter().enumerate().map(scaled).fold(0.0, f64::max)
         };
         let largest = |left: &[f64]| {
@@ -309,6 +318,11 @@ impl<'d> Kinematics<'d> {
         // the state was computed once, so that neither can fail now
         let _ = self.set_position(&state.q);
         let _ = self.factor();
+    }
+
+    /// How near to a singular position, where that is below `limit`.
+    pub fn nearness(&mut self, limit: f64) -> f64 {
+        self.linear.nearness(limit)
     }
 
     /// The most nearly singular block where Φ_q was factored.

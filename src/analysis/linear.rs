@@ -6,6 +6,13 @@
 use crate::ir::ConstraintSystem;
 use crate::structure::Block;
 
+/// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
+/// overestimate it by little.
+const PIVOT_MARGIN: f64 = 100.0;
+
+/// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
+const LEAST_PIVOT: f64 = 1e-18;
+
 /// One irreducible block with its place in the common storage.
 struct Part {
     /// Offset of its rows and columns in the lists below.
@@ -259,10 +266,15 @@ impl BlockLu {
     /// The nearness to a singular position: the smallest singular value of any block, as far as it is below `limit`.
     ///
     /// Taken by blocks, because a long chain of blocks is badly conditioned without being near to anything. A block
-    /// whose pivots are all well above the limit is not looked at. Allocates where one is.
-    pub fn nearness(&self, limit: f64) -> f64 {
-        let suspects = self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit);
-        suspects.map(|part| self.block_singular(part).sigma).fold(f64::INFINITY, f64::min)
+    /// whose pivots are all well above the limit is not looked at.
+    pub fn nearness(&mut self, limit: f64) -> f64 {
+        let mut nearest = f64::INFINITY;
+        let (left, right) = self.work.split_at_mut(self.rows.len());
+        for part in self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit) {
+            let vectors = (&mut left[..part.size], &mut right[..part.size]);
+            nearest = nearest.min(block_singular(&self.dense, &self.pivots, part, vectors));
+        }
+        nearest
     }
 
     /// The smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which
@@ -271,7 +283,9 @@ impl BlockLu {
         let n = self.rows.len();
         let mut worst: Option<(usize, Singular)> = None;
         for (k, part) in self.parts.iter().enumerate() {
-            let found = self.block_singular(part);
+            let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
+            let sigma = block_singular(&self.dense, &self.pivots, part, (&mut left, &mut right));
+            let found = Singular { sigma, left, right };
             if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
                 worst = Some((k, found));
             }
@@ -298,33 +312,27 @@ impl BlockLu {
         normalize(&mut right);
         Singular { sigma: block.sigma, left, right }
     }
-
-    /// By inverse iteration within a block, its vectors in the block's order.
-    fn block_singular(&self, part: &Part) -> Singular {
-        let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
-        let pivots = &self.pivots[part.at..part.at + part.size];
-        let mut right: Vec<f64> = (0..part.size).map(|k| 1.0 + 0.1 * (k % 7) as f64).collect();
-        let mut left = right.clone();
-        let mut sigma = 1.0;
-        for _ in 0..4 {
-            normalize(&mut right);
-            left.copy_from_slice(&right);
-            solve_dense_transposed(dense, pivots, &mut left);
-            normalize(&mut left);
-            right.copy_from_slice(&left);
-            solve_dense(dense, pivots, &mut right);
-            sigma = 1.0 / normalize(&mut right);
-        }
-        Singular { sigma, left, right }
-    }
 }
 
-/// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
-/// overestimate it by little.
-const PIVOT_MARGIN: f64 = 100.0;
-
-/// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
-const LEAST_PIVOT: f64 = 1e-18;
+/// The smallest singular value of a block, with its left and right vectors, by inverse iteration.
+fn block_singular(dense: &[f64], pivots: &[u32], part: &Part, (left, right): (&mut [f64], &mut [f64])) -> f64 {
+    let dense = &dense[part.matrix..part.matrix + part.size * part.size];
+    let pivots = &pivots[part.at..part.at + part.size];
+    for (k, x) in right.iter_mut().enumerate() {
+        *x = 1.0 + 0.1 * (k % 7) as f64;
+    }
+    let mut sigma = 1.0;
+    for _ in 0..4 {
+        normalize(right);
+        left.copy_from_slice(right);
+        solve_dense_transposed(dense, pivots, left);
+        normalize(left);
+        right.copy_from_slice(left);
+        solve_dense(dense, pivots, right);
+        sigma = 1.0 / normalize(right);
+    }
+    sigma
+}
 
 /// A smallest singular value with its vectors.
 pub(super) struct Singular {

@@ -1,8 +1,7 @@
 //! From one output time to the next, in steps that the solver chooses by its own error.
 //!
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
-//! first correction is small, so is that of the Hermite midpoint, and no block's determinant changes its sign. Else it is
-//! halved. So the branch followed does not depend on the output times.
+//! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So the branch followed does not depend on the output times.
 
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
@@ -11,14 +10,18 @@ use crate::diag::Diagnostic;
 
 /// Largest first correction of a step, scaled.
 const LARGEST_CORRECTION: f64 = 0.05;
-/// Largest correction at the Hermite midpoint, scaled.
-const LARGEST_AT_MIDPOINT: f64 = 1e-3;
+/// Largest correction between the ends of a step, on the curve through both, scaled.
+const LARGEST_BETWEEN: f64 = 1e-3;
 /// Largest predicted motion of a step, scaled: a coordinate's way in sizes of its body, or its turn in radians.
 const LARGEST_MOTION: f64 = 0.5;
 /// Corrections of a step at most.
 const ITERATIONS: usize = 4;
 /// A correction below this leaves nothing to the next one, convergence being quadratic.
 const SETTLED: f64 = 1e-7;
+/// Steps over the whole span at least, so that what happens in it is met.
+const FEWEST_STEPS: f64 = 64.0;
+/// The golden ratio's fraction: its multiples never come close to a period.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Smallest step, as a part of the whole span.
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
@@ -40,6 +43,9 @@ pub struct Motion<'m, 'd> {
     /// The step that the error allows (s).
     h: f64,
     smallest: f64,
+    largest: f64,
+    /// Where the last step was looked into, from 0 to 1.
+    probe: f64,
     begun: bool,
     row: Vec<f64>,
 }
@@ -47,7 +53,7 @@ pub struct Motion<'m, 'd> {
 /// How well a step went.
 struct Accepted {
     first_correction: f64,
-    at_midpoint: f64,
+    between: f64,
 }
 
 impl<'m, 'd> Motion<'m, 'd> {
@@ -61,8 +67,10 @@ impl<'m, 'd> Motion<'m, 'd> {
             middle: vec![0.0; n],
             signs: vec![true; blocks],
             trial_signs: vec![true; blocks],
-            h: span,
+            h: span / FEWEST_STEPS,
             smallest,
+            largest: span / FEWEST_STEPS,
+            probe: 0.0,
             begun: false,
             row: vec![0.0; kinematics.row_length()],
             kinematics,
@@ -144,8 +152,8 @@ impl<'m, 'd> Motion<'m, 'd> {
             Self::trustworthy(self.kinematics, &self.trial)?;
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
-        let at_midpoint = self.correction_at_midpoint(h)?;
-        Ok(Accepted { first_correction, at_midpoint })
+        let between = self.correction_between(h)?;
+        Ok(Accepted { first_correction, between })
     }
 
     /// Taylor's predictor, which costs nothing: both derivatives are known.
@@ -187,41 +195,53 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// No step ends too near to a singular position.
     fn keep_away(&mut self) -> Result<(), Fault> {
-        if self.kinematics.linear().nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
+        if self.kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
     }
 
     /// What is printed must not be rounding: `q` is known to eps/σ, and a position that is wrong by so much has
     /// derivatives that are wrong by as much again as the equations amplify, which near a dead point is 1/σ too.
-    fn trustworthy(kinematics: &Kinematics<'_>, state: &State) -> Result<(), Fault> {
-        let sigma = kinematics.linear().nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
+    fn trustworthy(kinematics: &mut Kinematics<'_>, state: &State) -> Result<(), Fault> {
+        let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
         if uncertain > ACCURACY { Err(Fault::Singular) } else { Ok(()) }
     }
 
-    /// Newton's correction in the middle of the quintic that both ends give, with the factors of the end.
-    fn correction_at_midpoint(&mut self, h: f64) -> Result<f64, Fault> {
+    /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
+    ///
+    /// The place wanders from step to step, so that no period of a driver can hide from it.
+    fn correction_between(&mut self, h: f64) -> Result<f64, Fault> {
+        self.probe = (self.probe + GOLDEN).fract();
+        let x = 0.3 + 0.4 * self.probe;
+        let (x2, x3, rest) = (x * x, x * x * x, 1.0 - x);
+        // the quintic Hermite basis: value, slope and curvature at the end, then at the start
+        let end = x3 * (10.0 + x * (6.0 * x - 15.0));
+        let end_slope = h * x3 * (x * (7.0 - 3.0 * x) - 4.0);
+        let end_curvature = h * h * 0.5 * x3 * rest * rest;
+        let start_slope = h * (x + x3 * (x * (8.0 - 3.0 * x) - 6.0));
+        let start_curvature = h * h * 0.5 * x2 * rest * rest * rest;
         let (a, b) = (&*self.state, &self.trial);
         for k in 0..self.middle.len() {
-            // the quintic Hermite interpolant at its middle
-            self.middle[k] = 0.5 * (a.q[k] + b.q[k])
-                + h * (5.0 / 32.0) * (a.qd[k] - b.qd[k])
-                + h * h * (1.0 / 64.0) * (a.qdd[k] + b.qdd[k]);
+            self.middle[k] = a.q[k]
+                + end * (b.q[k] - a.q[k])
+                + start_slope * a.qd[k]
+                + start_curvature * a.qdd[k]
+                + end_slope * b.qd[k]
+                + end_curvature * b.qdd[k];
         }
-        self.kinematics.set_time(a.t + 0.5 * h);
+        self.kinematics.set_time(a.t + x * h);
         self.kinematics.set_position(&self.middle)?;
         let size = self.kinematics.correction(&mut self.delta);
-        if size <= LARGEST_AT_MIDPOINT { Ok(size) } else { Err(Fault::TooFar) }
+        if size <= LARGEST_BETWEEN { Ok(size) } else { Err(Fault::TooFar) }
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
         self.state.copy_from(&self.trial);
         self.signs.copy_from_slice(&self.trial_signs);
-        // the predictor's error grows with h³, the midpoint's with h⁶
-        let calm =
-            accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.at_midpoint < LARGEST_AT_MIDPOINT / 100.0;
+        // the predictor's error grows with h³, the curve's between with h⁶
+        let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
         if calm {
             // a step cut short by an output time says little of a longer one
-            self.h = self.h.max(2.0 * h);
+            self.h = self.h.max(2.0 * h).min(self.largest);
         } else {
             self.h = self.h.min(h);
         }

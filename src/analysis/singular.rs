@@ -3,14 +3,14 @@
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, DeclarationKind};
 
 /// Below this the position is called singular, or as near to one as the steps could come.
 const NEAR: f64 = 1e-2;
 /// A driver takes part in a dependency if its share is above this part of the largest.
 const TAKES_PART: f64 = 1e-3;
 
-/// The diagnosis at the last good state, after steps of the span's smallest part `h` failed on the way to `target`.
+/// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
 pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
     let system = kinematics.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
@@ -22,14 +22,16 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         return errors::no_value(system, fault, state.t);
     }
     kinematics.restore(state);
+    let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
-    if singular.sigma < NEAR {
-        return name_singular(system, &singular.left, &singular.right, state.t);
-    }
-    if let Some(fault) = without_value(kinematics, state, target) {
-        return errors::no_value(system, fault, target);
-    }
-    errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
+    let diagnostic = if singular.sigma < NEAR {
+        name_singular(system, &singular.left, &singular.right, state.t)
+    } else if let Some(fault) = without_value(kinematics, state, target) {
+        errors::no_value(system, fault, target)
+    } else {
+        errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
+    };
+    diagnostic.datum("residual", residual)
 }
 
 /// The diagnosis where so many steps did not get to `target`.
@@ -58,7 +60,7 @@ fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64)
 
 /// A start that is in such a position already.
 pub(super) fn name_start(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
-    errors::singular_start(system, &joints_in(system, left), &bodies_in(system, right), t)
+    errors::singular_start(system, &declarations_in(system, left), &columns_in(right), t)
 }
 
 fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
@@ -70,9 +72,14 @@ fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
 
 /// The joints and constraints that the dependency is made of, those that weigh most first.
 fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
+    let all = declarations_in(system, left);
+    all.into_iter().filter(|&k| system.declarations[k].kind != DeclarationKind::Driver).collect()
+}
+
+/// All declarations that the dependency is made of, those that weigh most first.
+fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    let mut rows: Vec<usize> =
-        (0..left.len()).filter(|&row| !system.is_driver(row) && left[row].abs() > 0.1 * largest).collect();
+    let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > 0.1 * largest).collect();
     rows.sort_by(|&a, &b| left[b].abs().total_cmp(&left[a].abs()));
     let mut joints: Vec<usize> = Vec::new();
     for row in rows {
@@ -84,13 +91,15 @@ fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
     joints
 }
 
+/// The coordinates that the free motion moves.
+fn columns_in(right: &[f64]) -> Vec<usize> {
+    let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    (0..right.len()).filter(|&column| right[column].abs() > 0.1 * fastest).collect()
+}
+
 /// The bodies that the free motion moves.
 fn bodies_in(system: &ConstraintSystem, right: &[f64]) -> Vec<usize> {
-    let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-    let mut bodies: Vec<usize> = (0..right.len())
-        .filter(|&column| right[column].abs() > 0.1 * fastest)
-        .map(|column| system.coordinates[column].body)
-        .collect();
+    let mut bodies: Vec<usize> = columns_in(right).into_iter().map(|column| system.coordinates[column].body).collect();
     bodies.dedup();
     bodies
 }

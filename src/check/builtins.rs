@@ -133,7 +133,9 @@ impl Checker<'_> {
             (Some(_), Some(_)) => {}
             // it can only be known on the way
             _ => {
-                let positive = self.model.graph.sub(u1.1.id, u0.1.id);
+                let length = self.model.graph.sub(u1.1.id, u0.1.id);
+                let one = self.model.graph.constant(1.0);
+                let positive = self.guard.map_or(length, |guard| self.model.graph.select(guard, length, one));
                 let owner = context.place.to_owned();
                 let condition = Condition { positive, kind: ConditionKind::Interval, span: u1.0, owner };
                 if self.model.conditions.iter().all(|known| known.positive != positive) {

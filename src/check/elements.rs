@@ -112,7 +112,12 @@ impl Checker<'_> {
             let judged = self.measures[k].dimensional;
             let context =
                 Context { judged, time: true, quantities: true, measures: true, ..Context::constant("a measure") };
+            let conditions = self.model.conditions.len();
             values[k] = self.formula(self.measures[k].value, &context);
+            let name = &self.measures[k].name.text;
+            for condition in &mut self.model.conditions[conditions..] {
+                condition.owner.clone_from(name);
+            }
             self.measures[k].sound = values[k].is_some();
         }
         for (state, value) in self.measures.iter().zip(values) {

@@ -224,7 +224,7 @@ pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
 
 pub fn nobody_moves(name: &Name, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0311, format!("no body takes part in the equation `{}`", name.text))
-        .at(span, "all of this is fixed to the ground")
+        .at(span, "nothing in it moves, or all that moves cancels")
         .help("an equation needs a point, axis or angle of a body")
 }
 

@@ -321,7 +321,7 @@ impl Checker<'_> {
         if let Some(feature) = space.get(&name.text) {
             return Some(feature);
         }
-        let known: Vec<&str> = space.names(wanted).collect();
+        let known = self.suggestions_in(space, wanted);
         let diagnostic = errors::unknown_feature(what, self.model.frame_name(frame), name, &known);
         self.report(diagnostic);
         None

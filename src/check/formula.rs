@@ -95,6 +95,8 @@ pub(super) struct Call {
     judged: bool,
     /// Less is said in a branch that is never taken.
     untaken: bool,
+    /// What must be positive must be so only where its branch counts.
+    guard: Option<ExprId>,
 }
 
 impl Checker<'_> {
@@ -406,19 +408,23 @@ impl Checker<'_> {
     }
 
     fn choice(&mut self, arms: &[(Expr, Expr)], otherwise: &Expr, context: &Context<'_>) -> Option<Value> {
-        let outer = self.untaken;
+        let (outer, outer_guard) = (self.untaken, self.guard);
         let mut decided = false;
         let mut parts = Vec::new();
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
             let truth = condition.and_then(|id| self.constant_value(id));
             self.untaken = outer || decided || truth == Some(0.0);
+            let before = self.guard;
+            self.guard_with(before, condition);
             parts.push((condition, value.span, self.number(value, context)));
+            let opposite = condition.map(|id| self.model.graph.not(id));
+            self.guard_with(before, opposite);
             decided |= truth == Some(1.0);
         }
         self.untaken = outer || decided;
         let last = self.number(otherwise, context);
-        self.untaken = outer;
+        (self.untaken, self.guard) = (outer, outer_guard);
         let mut choice = last?;
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
@@ -428,6 +434,14 @@ impl Checker<'_> {
             span = value_span;
         }
         Some(Value { dim: Dim::Of(choice.dim.settled()), ..choice })
+    }
+
+    /// What is read next counts only where a condition holds too.
+    fn guard_with(&mut self, outer: Option<ExprId>, condition: Option<ExprId>) {
+        self.guard = match (outer, condition) {
+            (Some(outer), Some(condition)) => Some(self.model.graph.and(outer, condition)),
+            (one, other) => one.or(other),
+        };
     }
 
     fn condition(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
@@ -524,6 +538,7 @@ impl Checker<'_> {
             argument: Some((argument.id, bits)),
             judged: context.judged,
             untaken: self.untaken,
+            guard: self.guard,
         };
         let inner = Context {
             time: true,
@@ -542,7 +557,13 @@ impl Checker<'_> {
             return None;
         }
         let formula = self.measures[at].value;
-        let key = Call { entity: Entity::Measure(at), argument: None, judged: context.judged, untaken: self.untaken };
+        let key = Call {
+            entity: Entity::Measure(at),
+            argument: None,
+            judged: context.judged,
+            untaken: self.untaken,
+            guard: self.guard,
+        };
         self.expand(key, formula, span, &Context { argument: None, ..*context })
     }
 

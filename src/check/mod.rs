@@ -120,6 +120,8 @@ struct Checker<'a> {
     visited: usize,
     /// In a branch that is never taken nothing is said of values.
     untaken: bool,
+    /// The condition under which the branch that is being read counts.
+    guard: Option<ExprId>,
 }
 
 impl<'a> Checker<'a> {
@@ -144,6 +146,7 @@ impl<'a> Checker<'a> {
             callers: Vec::new(),
             visited: 0,
             untaken: false,
+            guard: None,
         }
     }
 
@@ -172,7 +175,11 @@ impl<'a> Checker<'a> {
 
     /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
     fn suggestions(&self, wanted: impl Fn(Entity) -> bool) -> Vec<&str> {
-        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { self.space.names(wanted).collect() }
+        self.suggestions_in(&self.space, wanted)
+    }
+
+    fn suggestions_in<'s, T: Copy>(&self, space: &'s Space<T>, wanted: impl Fn(T) -> bool) -> Vec<&'s str> {
+        if self.diagnostics.len() > MOST_SUGGESTIONS { Vec::new() } else { space.names(wanted).collect() }
     }
 
     fn items(&self) -> &'a [Item] {

@@ -37,7 +37,7 @@ pub(super) const FUNCTIONS: &[(&str, usize, usize)] = &[
     ("poly", 3, usize::MAX),
 ];
 
-/// The kinematic quantities, and `der`.
+/// The kinematic quantities.
 pub(super) const QUANTITIES: &[&str] = &["x", "y", "angle", "distance", "rotation", "displacement"];
 
 /// What a name of the mechanism's space stands for, with its position among its kind in the text.

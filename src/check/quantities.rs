@@ -42,7 +42,13 @@ impl Checker<'_> {
             }
             ("rotation", [joint]) => Quantity::Rotation(self.joint_with("rotation", joint)?, None),
             ("rotation", [joint, u, v]) => self.rotation_between(joint, u, v)?,
-            ("displacement", [joint]) => Quantity::Displacement(self.joint_with("displacement", joint)?),
+            ("displacement", [joint]) => {
+                let joint = self.joint_with("displacement", joint)?;
+                match self.model[joint].kind {
+                    JointKind::Translational(a, b) => Quantity::Displacement(joint, a, b),
+                    _ => return None,
+                }
+            }
             (what, _) => {
                 let wanted = match what {
                     "displacement" => "one argument, a joint",
@@ -178,7 +184,7 @@ impl Checker<'_> {
             Quantity::X(p, q) | Quantity::Y(p, q) => p.into_iter().chain([q]).map(point).collect(),
             Quantity::Distance(p, q) => vec![point(p), point(q)],
             Quantity::Angle(a, b) => a.into_iter().chain([b]).map(direction).collect(),
-            Quantity::Rotation(joint, _) | Quantity::Displacement(joint) => {
+            Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) => {
                 self.model[joint].kind.frames(&self.model).to_vec()
             }
         }

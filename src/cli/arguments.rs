@@ -42,6 +42,11 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
+    /// What the compiler sees, readable: the model or the equations
+    #[command(long_about = "What the compiler sees, readable.\n\n\
+        The model has its names resolved and its values in SI; the IR has \
+        every coordinate, every row of Φ with the declaration that wrote it, the entries of Φ_q, ν and γ.")]
+    Dump(DumpArguments),
 }
 
 /// What all commands that read a file share.
@@ -92,6 +97,28 @@ pub(super) enum When {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub input: Input,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct DumpArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// What to show
+    #[arg(long, value_enum, value_name = "STAGE")]
+    pub stage: Stage,
+
+    /// Where the text goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Stage {
+    /// The checked mechanism
+    Model,
+    /// The constraint system
+    Ir,
 }
 
 #[derive(Args, Debug)]

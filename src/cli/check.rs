@@ -9,7 +9,6 @@ use crate::analysis::{self, Started};
 use crate::ir::CoordinateKind;
 use crate::program::Program;
 use crate::structure::{self, Determined};
-use std::io::Write;
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let determined = input::determined(&arguments.input, reporter)?;
@@ -19,11 +18,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
     reporter.print(&started.remarks());
     let report = report(&determined, started, t);
-    let mut output = Output::open("-")?;
-    if let Err(error) = output.writer().write_all(report.as_bytes()) {
-        return Err(output.failure(&error));
-    }
-    output.close()
+    Output::write("-", &report)
 }
 
 /// As many as a reader compares with a drawing.

@@ -101,6 +101,15 @@ impl Output {
         Ok(Output { name: name.to_owned(), writer: BufWriter::with_capacity(1 << 16, destination) })
     }
 
+    /// Writes a whole text.
+    pub fn write(name: &str, text: &str) -> Result<(), Failure> {
+        let mut output = Output::open(name)?;
+        if let Err(error) = output.writer.write_all(text.as_bytes()) {
+            return Err(output.failure(&error));
+        }
+        output.close()
+    }
+
     /// Whether it is standard output.
     pub fn is_standard(&self) -> bool {
         matches!(self.writer.get_ref(), Destination::Standard(_))

@@ -6,28 +6,49 @@ use super::files;
 use super::report::Reporter;
 use crate::check::{self, Setting};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
-use crate::model::Dimension;
+use crate::model::{Dimension, Mechanism};
 use crate::source::Sources;
 use crate::structure::Determined;
 use crate::syntax::{self, ast};
 
-/// Reads, checks, lowers and proves the mechanism of a command; prints its warnings.
+/// Reads and checks the mechanism of a command, lowers and proves it; prints its warnings.
 pub(super) fn determined(input: &Input, reporter: &mut Reporter) -> Result<Determined, Failure> {
+    let file = tree(input, reporter)?;
+    checked(&file, input, reporter, crate::compile)
+}
+
+/// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
+pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Mechanism, Failure> {
+    let file = tree(input, reporter)?;
+    checked(&file, input, reporter, check::check)
+}
+
+/// The tree of a command's file.
+pub(super) fn tree(input: &Input, reporter: &mut Reporter) -> Result<ast::File, Failure> {
     let file = files::read(&input.file, &mut reporter.sources)?;
-    let tree = syntax::parse(&reporter.sources, file)?;
-    let mut diagnostics = check::check_file(&tree);
+    Ok(syntax::parse(&reporter.sources, file)?)
+}
+
+/// What a pass makes of the chosen mechanism of a file.
+fn checked<T>(
+    file: &ast::File,
+    input: &Input,
+    reporter: &mut Reporter,
+    pass: impl FnOnce(&ast::Mechanism, &[Setting], &Sources) -> (Option<T>, Diagnostics),
+) -> Result<T, Failure> {
+    let mut diagnostics = check::check_file(file);
     if diagnostics.has_errors() {
         return Err(diagnostics.into());
     }
-    let mechanism = chosen(&tree, input)?;
+    let mechanism = chosen(file, input)?;
     let settings = settings(&input.set, mechanism, &mut reporter.sources)?;
-    let (determined, found) = crate::compile(mechanism, &settings, &reporter.sources);
+    let (result, found) = pass(mechanism, &settings, &reporter.sources);
     diagnostics.extend(found);
-    match determined {
+    match result {
         None => Err(diagnostics.into()),
-        Some(determined) => {
+        Some(result) => {
             reporter.print(&diagnostics);
-            Ok(determined)
+            Ok(result)
         }
     }
 }
@@ -35,7 +56,8 @@ pub(super) fn determined(input: &Input, reporter: &mut Reporter) -> Result<Deter
 fn chosen<'t>(tree: &'t ast::File, input: &Input) -> Result<&'t ast::Mechanism, Failure> {
     let names: Vec<&str> = tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str()).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
-    match (&input.mechanism, tree.mechanisms.as_slice()) {
+    let wanted = input.mechanism.as_deref().map(syntax::normalized);
+    match (&wanted, tree.mechanisms.as_slice()) {
         (None, [only]) => Ok(only),
         (None, _) => Err(Diagnostic::new(Code::E0704, format!("`{}` holds {} mechanisms", input.file, names.len()))
             .help(format!("choose one with `--mechanism NAME`; {listed}"))

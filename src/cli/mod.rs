@@ -4,6 +4,7 @@
 
 mod arguments;
 mod check;
+mod dump;
 mod failure;
 mod files;
 mod input;
@@ -24,6 +25,11 @@ pub fn main() -> ExitCode {
         Command::Check(check) => {
             let mut reporter = Reporter::new(&check.input);
             let result = check::check(&check, &mut reporter);
+            reporter.finish(result)
+        }
+        Command::Dump(dump) => {
+            let mut reporter = Reporter::new(&dump.input);
+            let result = dump::dump(&dump, &mut reporter);
             reporter.finish(result)
         }
         Command::Run(run) => {

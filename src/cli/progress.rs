@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 
 /// How long a run stays without a bar.
 const PATIENCE: Duration = Duration::from_secs(1);
-/// Rows between two looks at the clock.
+/// Rows between two looks at the clock, where there are many.
 const ROWS: u64 = 64;
 
 pub(super) struct Progress {
@@ -28,7 +28,8 @@ impl Progress {
     /// A row is done.
     pub fn tick(&mut self) {
         self.done += 1;
-        if !self.wanted || !self.done.is_multiple_of(ROWS) {
+        let often = self.total < 100 * ROWS;
+        if !self.wanted || !(often || self.done.is_multiple_of(ROWS)) {
             return;
         }
         match &self.bar {

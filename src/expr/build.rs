@@ -1,8 +1,9 @@
 //! The simplifying constructors.
 //!
 //! They fold numbers, drop zeros and ones, gather signs and equal factors, and order the operands of sums and
-//! products. None looks at the value of a parameter, and none changes a value beyond rounding; a result that is not
-//! finite is never folded, so that it shows when it is evaluated.
+//! products. None looks at the value of a parameter, and none changes a value beyond rounding, where there is one: zero
+//! times anything is zero, `a − a` too, also where `a` has a pole. A result that is not finite is never folded, so that
+//! it shows when it is evaluated.
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary, binary_value, compare, unary_value};
 use crate::math;
@@ -56,8 +57,11 @@ impl Graph {
         }
         match (self.node(a), self.node(b)) {
             _ if a == b => self.constant(0.0),
-            _ if self.is(b, 0.0) => a,
             _ if self.is(a, 0.0) => self.neg(b),
+            (_, Node::Const(bits)) => {
+                let opposite = self.constant(-f64::from_bits(bits));
+                self.add(a, opposite)
+            }
             (_, Node::Neg(inner)) => self.add(a, inner),
             (Node::Neg(inner), _) => {
                 let sum = self.add(inner, b);
@@ -307,12 +311,6 @@ impl Graph {
             Node::Not(inner) => self.select(inner, b, a),
             _ => self.intern(Node::Select(condition, a, b)),
         }
-    }
-
-    /// The sum of all.
-    pub fn sum(&mut self, terms: &[ExprId]) -> ExprId {
-        let zero = self.constant(0.0);
-        terms.iter().fold(zero, |sum, &term| self.add(sum, term))
     }
 
     /// `a − b·⌊a/b⌋`

@@ -40,11 +40,15 @@ impl Graph {
     /// Backward: the partial derivatives of one root by every symbol that `wanted` holds, in the symbols' order;
     /// those that vanish identically are left out.
     pub fn gradient(&mut self, root: ExprId, wanted: Dependence) -> Vec<(Symbol, ExprId)> {
+        let reachable = self.reachable(&[root]);
+        if reachable.iter().any(|&id| self.is_piecewise(id) && self.dependence(id).on(wanted)) {
+            return self.gradient_by_branches(root, wanted);
+        }
         let mut adjoints: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         let one = self.constant(1.0);
         adjoints.insert(root, one);
         let mut gradient = Vec::new();
-        for id in self.reachable(&[root]).into_iter().rev() {
+        for id in reachable.into_iter().rev() {
             if !self.dependence(id).on(wanted) {
                 continue;
             }
@@ -73,6 +77,24 @@ impl Graph {
         gradient.retain(|&(_, derivative)| !self.is_zero(derivative));
         gradient.sort_unstable_by_key(|&(symbol, _)| symbol);
         gradient
+    }
+
+    fn is_piecewise(&self, id: ExprId) -> bool {
+        matches!(self.node(id), Node::Select(..) | Node::Binary(Binary::Min | Binary::Max, ..))
+    }
+
+    /// The gradient of a formula with branches, symbol by symbol: forward, the branch that counts is chosen after it has
+    /// been differentiated. Backward, it would be a zero times the slope of the other branch, which need not be finite.
+    fn gradient_by_branches(&mut self, root: ExprId, wanted: Dependence) -> Vec<(Symbol, ExprId)> {
+        let symbols = self.symbols(root);
+        let wanted = symbols.into_iter().filter(|&symbol| Dependence::of(symbol).on(wanted));
+        let slopes: Vec<(Symbol, ExprId)> = wanted
+            .map(|symbol| {
+                let slope = self.derivatives(&[root], |graph, other| (other == symbol).then(|| graph.constant(1.0)));
+                (symbol, slope[0])
+            })
+            .collect();
+        slopes.into_iter().filter(|&(_, slope)| !self.is_zero(slope)).collect()
     }
 
     fn is_zero(&self, id: ExprId) -> bool {
@@ -129,14 +151,6 @@ impl Graph {
             }
             (Node::Unary(function, a), _) => return self.unary_share(function, id, a, factor),
             (Node::Binary(function, a, b), _) => self.binary_share(function, id, [a, b], place, factor),
-            (Node::Select(condition, ..), 1) => {
-                let zero = self.constant(0.0);
-                self.select(condition, factor, zero)
-            }
-            (Node::Select(condition, ..), 2) => {
-                let zero = self.constant(0.0);
-                self.select(condition, zero, factor)
-            }
             // conditions are constant between their switches
             (
                 Node::Select(..)
@@ -253,6 +267,8 @@ impl Graph {
                 let slope = self.mul(b, lower);
                 self.mul(factor, slope)
             }
+            // 0 to any power stays 0, and has no logarithm
+            (Binary::Pow, _) if self.is_zero(a) => zero,
             (Binary::Pow, _) => {
                 let logarithm = self.unary(Unary::Ln, a);
                 let slope = self.mul(id, logarithm);

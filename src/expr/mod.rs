@@ -9,9 +9,11 @@ mod build;
 mod derive;
 mod evaluate;
 mod motion;
+mod print;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;
+pub use print::{Printer, number};
 
 use rustc_hash::FxHashMap;
 

@@ -18,6 +18,8 @@
 //! - Every row knows the declaration that wrote it, with its place in the text.
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
+mod print;
+
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::source::Span;
 

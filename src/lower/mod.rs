@@ -200,7 +200,7 @@ impl Lowering<'_> {
             Quantity::Angle(from, to) => self.angle_between(from, to),
             Quantity::Distance(p, q) => self.distance(p, q),
             Quantity::Rotation(joint, axes) => self.rotation(joint, axes),
-            Quantity::Displacement(joint) => self.displacement(joint),
+            Quantity::Displacement(_, a, b) => self.displacement(a, b),
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use crate::expr::{ExprId, Unary};
-use crate::model::{AxisId, Direction, JointId, JointKind, PointId};
+use crate::model::{AxisId, Direction, JointId, PointId};
 
 impl Lowering<'_> {
     /// x (part 0) or y (part 1) of a point, or from one point to another (m).
@@ -64,10 +64,7 @@ impl Lowering<'_> {
     }
 
     /// `v_iᵀ d` (m)
-    pub(super) fn displacement(&mut self, joint: JointId) -> ExprId {
-        let JointKind::Translational(a, b) = self.model[joint].kind else {
-            unreachable!("check gives displacement to translational joints only")
-        };
+    pub(super) fn displacement(&mut self, a: AxisId, b: AxisId) -> ExprId {
         let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
         let d = self.minus(other, origin);
         let v = self.direction(a);

@@ -4,6 +4,7 @@
 //! here has been found sound; nothing after `check` fails on it.
 
 mod dimension;
+mod print;
 
 pub use dimension::Dimension;
 
@@ -113,6 +114,11 @@ impl Mechanism {
             conditions: Vec::new(),
             analysis: None,
         }
+    }
+
+    /// The ids of the bodies, in order.
+    pub fn body_ids(&self) -> impl Iterator<Item = BodyId> {
+        (0..self.bodies.len() as u32).map(BodyId)
     }
 
     /// A frame's name: the body's, or `ground`.
@@ -260,8 +266,8 @@ pub enum Quantity {
     Distance(PointId, PointId),
     /// Angle of a revolute joint (rad), between axes if given.
     Rotation(JointId, Option<(AxisId, AxisId)>),
-    /// Way of a translational joint (m).
-    Displacement(JointId),
+    /// Way of a translational joint along its first axis, to its second (m).
+    Displacement(JointId, AxisId, AxisId),
 }
 
 /// A body's x axis, or an axis.

@@ -25,7 +25,8 @@ impl Program {
             measures_dd: layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second)),
             terms: Vec::new(),
         };
-        outputs.terms = system.rows.iter().map(|row| layout.place(Stage::Terms, system.graph.terms(row.phi))).collect();
+        outputs.terms =
+            system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         layout.finish(outputs)
     }
 }
@@ -33,7 +34,7 @@ impl Program {
 struct Layout<'s> {
     graph: &'s Graph,
     register_of: Vec<Register>,
-    /// Angles of which sine and cosine are both wanted somewhere, with the nodes of both.
+    /// Angles of which sine and cosine are both wanted somewhere.
     pairs: FxHashSet<ExprId>,
     operations: Vec<Vec<Op>>,
     constants: Vec<(Register, f64)>,

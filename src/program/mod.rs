@@ -34,21 +34,11 @@ pub enum Stage {
     Jerk,
     /// The measures; needs all derivatives of `q`.
     Measures,
-    /// The terms of each row, against whose size its rounding is judged; seldom run.
-    Terms,
 }
 
 /// All stages, in the order in which they may be run.
-pub const STAGES: [Stage; 8] = [
-    Stage::Prologue,
-    Stage::Time,
-    Stage::Position,
-    Stage::Velocity,
-    Stage::Acceleration,
-    Stage::Jerk,
-    Stage::Measures,
-    Stage::Terms,
-];
+pub const STAGES: [Stage; 7] =
+    [Stage::Prologue, Stage::Time, Stage::Position, Stage::Velocity, Stage::Acceleration, Stage::Jerk, Stage::Measures];
 
 /// One operation: reads registers, writes `to`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -163,7 +153,7 @@ pub struct Outputs {
     pub measures_dd: Vec<Register>,
     /// Formulas that must be positive.
     pub conditions: Vec<Register>,
-    /// For each row, the terms of its sum.
+    /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
 }
 

@@ -4,31 +4,12 @@
 //! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
 //! tree builder counts them in.)
 
-use super::errors;
+use super::{DECLARATIONS, errors};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
 
 /// The deepest nesting that is read.
 pub const DEEPEST: usize = 200;
-
-/// Words that begin a declaration, where every formula before them has ended.
-const DECLARATIONS: &[&str] = &[
-    "mechanism",
-    "param",
-    "fn",
-    "table",
-    "ground",
-    "body",
-    "point",
-    "axis",
-    "circle",
-    "curve",
-    "joint",
-    "driver",
-    "constraint",
-    "measure",
-    "analysis",
-];
 
 /// Refuses a text that nests deeper than [`DEEPEST`].
 pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
@@ -86,6 +67,8 @@ fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
                 Some(end) => end + 2,
                 None => text.len(),
             }
+        } else if first.is_ascii_digit() {
+            text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len())
         } else if first.is_alphanumeric() || first == '_' {
             text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
         } else if text.starts_with("==") || text.starts_with("<=") || text.starts_with(">=") || text.starts_with("!=") {

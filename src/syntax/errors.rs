@@ -1,7 +1,7 @@
 //! What is said of a text that does not follow the grammar.
 
-use super::DEEPEST;
 use super::parse::Rule;
+use super::{DECLARATIONS, DEEPEST};
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::source::{FileId, Span};
 use pest::error::{Error, ErrorVariant};
@@ -197,23 +197,6 @@ fn human(rule: Rule, after_operand: bool) -> &'static str {
 
 /// What was probably meant, where it can be told from the words around the fault.
 fn mend(error: &Error<Rule>, text: &str, at: usize, found: &str) -> Option<String> {
-    const DECLARATIONS: &[&str] = &[
-        "mechanism",
-        "param",
-        "fn",
-        "table",
-        "ground",
-        "body",
-        "point",
-        "axis",
-        "circle",
-        "curve",
-        "joint",
-        "driver",
-        "constraint",
-        "measure",
-        "analysis",
-    ];
     let expects = |rule| expects(error, rule);
     let before = text[..at].trim_end();
     let starts_operand = found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');

@@ -120,20 +120,19 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     }
 
     fn either(&mut self, depth: usize) -> Built<Expr> {
-        let first = self.both(depth)?;
-        let mut list = vec![first];
+        let (first, mut rest) = (self.both(depth)?, Vec::new());
         while self.infix(&["or"]).is_some() {
-            list.push(self.both(depth)?);
+            rest.push(self.both(depth)?);
         }
-        Ok(flat(list, ExprKind::Or))
+        Ok(flat(first, rest, ExprKind::Or))
     }
 
     fn both(&mut self, depth: usize) -> Built<Expr> {
-        let mut list = vec![self.negation(depth)?];
+        let (first, mut rest) = (self.negation(depth)?, Vec::new());
         while self.infix(&["and"]).is_some() {
-            list.push(self.negation(depth)?);
+            rest.push(self.negation(depth)?);
         }
-        Ok(flat(list, ExprKind::And))
+        Ok(flat(first, rest, ExprKind::And))
     }
 
     fn negation(&mut self, depth: usize) -> Built<Expr> {
@@ -254,14 +253,12 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
     }
 }
 
-fn flat(mut list: Vec<Expr>, form: fn(Vec<Expr>) -> ExprKind) -> Expr {
-    match (list.len(), list.pop()) {
-        (1, Some(only)) => only,
-        (_, Some(last)) => {
-            let span = list.first().map_or(last.span, |first| first.span.to(last.span));
-            list.push(last);
-            Expr { kind: form(list), span }
-        }
-        (_, None) => unreachable!("a row begins with an operand"),
-    }
+/// One operand as it is, several as one form.
+fn flat(first: Expr, mut rest: Vec<Expr>, form: fn(Vec<Expr>) -> ExprKind) -> Expr {
+    let Some(last) = rest.last() else {
+        return first;
+    };
+    let span = first.span.to(last.span);
+    rest.insert(0, first);
+    Expr { kind: form(rest), span }
 }

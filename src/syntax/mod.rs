@@ -10,4 +10,23 @@ mod formula;
 mod parse;
 
 pub use depth::DEEPEST;
-pub use parse::{is_name, normalized, parse, parse_expression};
+pub use parse::{normalized, parse, parse_expression};
+
+/// Words that begin a declaration, where every formula before them has ended.
+const DECLARATIONS: &[&str] = &[
+    "mechanism",
+    "param",
+    "fn",
+    "table",
+    "ground",
+    "body",
+    "point",
+    "axis",
+    "circle",
+    "curve",
+    "joint",
+    "driver",
+    "constraint",
+    "measure",
+    "analysis",
+];

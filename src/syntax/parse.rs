@@ -59,12 +59,6 @@ pub fn normalized(name: &str) -> String {
     name.nfc().collect()
 }
 
-/// Whether a word can be a name.
-#[must_use]
-pub fn is_name(word: &str) -> bool {
-    grammar::Grammar::parse(Rule::name, word).is_ok_and(|pairs| pairs.as_str() == word)
-}
-
 fn on_a_deep_stack<T>(
     sources: &Sources,
     file: FileId,

@@ -1,0 +1,282 @@
+//! Formulas as text: by precedence, with as few parentheses as needed, in the syntax of the language.
+//!
+//! What is printed reads back to the same expression: the constructors of this room make the same nodes of it. A formula
+//! shares its parts and a text does not, so large parts that stand in several places can be given names.
+
+use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
+use rustc_hash::FxHashMap;
+
+/// Parts smaller than this are written out wherever they stand.
+const SMALL: u32 = 12;
+
+/// How tightly a form binds; an operand that binds less tightly than its place needs parentheses.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Tightness {
+    Conditional,
+    Or,
+    And,
+    Not,
+    Comparison,
+    Sum,
+    Product,
+    Negation,
+    Power,
+    Atom,
+}
+
+impl Unary {
+    /// As in the language (`floor` is within `mod` there).
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Unary::Sin => "sin",
+            Unary::Cos => "cos",
+            Unary::Tan => "tan",
+            Unary::Asin => "asin",
+            Unary::Acos => "acos",
+            Unary::Atan => "atan",
+            Unary::Sinh => "sinh",
+            Unary::Cosh => "cosh",
+            Unary::Tanh => "tanh",
+            Unary::Exp => "exp",
+            Unary::Ln => "ln",
+            Unary::Log10 => "log10",
+            Unary::Sqrt => "sqrt",
+            Unary::Abs => "abs",
+            Unary::Sign => "sign",
+            Unary::Floor => "floor",
+        }
+    }
+}
+
+impl Binary {
+    /// As in the language; a power has no word there.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Binary::Atan2 => "atan2",
+            Binary::Hypot => "hypot",
+            Binary::Min => "min",
+            Binary::Max => "max",
+            Binary::Pow => "pow",
+        }
+    }
+}
+
+/// Prints formulas of one graph.
+pub struct Printer<'g, S: Fn(Symbol) -> String> {
+    graph: &'g Graph,
+    symbol: S,
+    names: FxHashMap<ExprId, String>,
+}
+
+impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
+    /// A printer that writes symbols as it is told, and every part out.
+    pub fn new(graph: &'g Graph, symbol: S) -> Printer<'g, S> {
+        Printer { graph, symbol, names: FxHashMap::default() }
+    }
+
+    /// Gives a name to every large part that several of the roots, or several places of one, share; returns the parts in
+    /// an order in which each holds only names of those before it.
+    pub fn name_shared(&mut self, roots: &[ExprId], name: impl Fn(usize) -> String) -> Vec<(String, ExprId)> {
+        let mut uses: FxHashMap<ExprId, u32> = FxHashMap::default();
+        let reachable = self.graph.reachable(roots);
+        for root in roots {
+            *uses.entry(*root).or_default() += 1;
+        }
+        for &id in &reachable {
+            for child in self.graph.node(id).children().as_slice() {
+                *uses.entry(*child).or_default() += 1;
+            }
+        }
+        let mut sizes: FxHashMap<ExprId, u32> = FxHashMap::default();
+        let mut shared = Vec::new();
+        for id in reachable {
+            let children = self.graph.node(id).children();
+            let size = children.as_slice().iter().map(|child| sizes[child]).fold(1, u32::saturating_add);
+            if size >= SMALL && uses[&id] > 1 {
+                let name = name(shared.len());
+                shared.push((name.clone(), id));
+                self.names.insert(id, name);
+                // its name is as short as a symbol
+                sizes.insert(id, 1);
+            } else {
+                sizes.insert(id, size);
+            }
+        }
+        shared
+    }
+
+    /// A formula as text.
+    #[must_use]
+    pub fn text(&self, root: ExprId) -> String {
+        let mut out = String::new();
+        self.write(root, Tightness::Conditional, &mut out);
+        out
+    }
+
+    /// The formula behind a name that [`Printer::name_shared`] gave, written out one level.
+    #[must_use]
+    pub fn definition(&self, id: ExprId) -> String {
+        let mut out = String::new();
+        self.write_node(id, Tightness::Conditional, &mut out);
+        out
+    }
+
+    /// Writes an operand into a place that wants at least some tightness.
+    fn write(&self, id: ExprId, wanted: Tightness, out: &mut String) {
+        match self.names.get(&id) {
+            Some(name) => out.push_str(name),
+            // a sum of very many terms is very deep
+            None => stacker::maybe_grow(64 << 10, 1 << 20, || self.write_node(id, wanted, out)),
+        }
+    }
+
+    fn write_node(&self, id: ExprId, wanted: Tightness, out: &mut String) {
+        let needs_parentheses = self.tightness(id) < wanted;
+        if needs_parentheses {
+            out.push('(');
+        }
+        self.write_bare(id, out);
+        if needs_parentheses {
+            out.push(')');
+        }
+    }
+
+    fn tightness(&self, id: ExprId) -> Tightness {
+        if self.as_modulo(id).is_some() {
+            return Tightness::Atom;
+        }
+        match self.graph.node(id) {
+            Node::Const(bits) if f64::from_bits(bits) < 0.0 => Tightness::Negation,
+            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) => Tightness::Atom,
+            Node::Binary(Binary::Pow, ..) | Node::Power(..) => Tightness::Power,
+            Node::Binary(..) => Tightness::Atom,
+            Node::Add(..) | Node::Sub(..) => Tightness::Sum,
+            Node::Mul(..) | Node::Div(..) => Tightness::Product,
+            // the sign of a product stands before its first factor
+            Node::Neg(a) => match self.tightness(a) {
+                Tightness::Product => Tightness::Product,
+                _ => Tightness::Negation,
+            },
+            Node::Compare(..) => Tightness::Comparison,
+            Node::And(..) => Tightness::And,
+            Node::Or(..) => Tightness::Or,
+            Node::Not(_) => Tightness::Not,
+            Node::Select(..) => Tightness::Conditional,
+        }
+    }
+
+    fn write_bare(&self, id: ExprId, out: &mut String) {
+        if let Some((a, b)) = self.as_modulo(id) {
+            return self.write_call("mod", &[a, b], out);
+        }
+        match self.graph.node(id) {
+            Node::Const(bits) => out.push_str(&number(f64::from_bits(bits))),
+            Node::Symbol(symbol) => out.push_str(&(self.symbol)(symbol)),
+            Node::Add(a, b) => self.write_sum(a, b, out),
+            Node::Sub(a, b) => self.write_pair(a, " - ", b, [Tightness::Sum, Tightness::Product], out),
+            Node::Mul(a, b) => {
+                // a product or quotient for the first operand needs no parentheses
+                let (first, second) = if self.is_chain(b) && !self.is_chain(a) { (b, a) } else { (a, b) };
+                self.write_pair(first, " * ", second, [Tightness::Product, Tightness::Negation], out);
+            }
+            Node::Div(a, b) => self.write_pair(a, " / ", b, [Tightness::Product, Tightness::Negation], out),
+            Node::Neg(a) => {
+                out.push('-');
+                self.write(a, Tightness::Product, out);
+            }
+            Node::Power(a, n) => {
+                self.write(a, Tightness::Atom, out);
+                out.push_str(&format!("^{n}"));
+            }
+            Node::Binary(Binary::Pow, a, b) => self.write_pair(a, "^", b, [Tightness::Atom, Tightness::Negation], out),
+            Node::Unary(function, a) => self.write_call(function.word(), &[a], out),
+            Node::Binary(function, a, b) => self.write_call(function.word(), &[a, b], out),
+            Node::Compare(comparison, a, b) => {
+                let operator = match comparison {
+                    Comparison::Less => " < ",
+                    Comparison::LessEqual => " <= ",
+                    Comparison::Equal => " == ",
+                };
+                self.write_pair(a, operator, b, [Tightness::Sum, Tightness::Sum], out);
+            }
+            Node::And(a, b) => self.write_pair(a, " and ", b, [Tightness::And, Tightness::Not], out),
+            Node::Or(a, b) => self.write_pair(a, " or ", b, [Tightness::Or, Tightness::And], out),
+            Node::Not(a) => {
+                out.push_str("not ");
+                self.write(a, Tightness::Not, out);
+            }
+            Node::Select(condition, a, b) => {
+                out.push_str("if ");
+                self.write(condition, Tightness::Or, out);
+                out.push_str(" then ");
+                self.write(a, Tightness::Or, out);
+                out.push_str(" else ");
+                self.write(b, Tightness::Conditional, out);
+            }
+        }
+    }
+
+    /// A sum with its sums first, and a negative number as a subtraction.
+    fn write_sum(&self, a: ExprId, b: ExprId, out: &mut String) {
+        let is_number = |id: ExprId| self.graph.as_const(id).is_some();
+        let is_sum = |id: ExprId| self.tightness(id) == Tightness::Sum && !self.names.contains_key(&id);
+        let swap = is_number(a) || is_sum(b) && !is_sum(a) && !is_number(b);
+        let (first, second) = if swap { (b, a) } else { (a, b) };
+        self.write(first, Tightness::Sum, out);
+        match self.graph.as_const(second).filter(|value| *value < 0.0) {
+            Some(value) => out.push_str(&format!(" - {}", number(-value))),
+            None => {
+                out.push_str(" + ");
+                self.write(second, Tightness::Product, out);
+            }
+        }
+    }
+
+    fn write_pair(&self, a: ExprId, operator: &str, b: ExprId, wanted: [Tightness; 2], out: &mut String) {
+        self.write(a, wanted[0], out);
+        out.push_str(operator);
+        self.write(b, wanted[1], out);
+    }
+
+    fn write_call(&self, word: &str, arguments: &[ExprId], out: &mut String) {
+        out.push_str(word);
+        out.push('(');
+        for (k, &argument) in arguments.iter().enumerate() {
+            if k > 0 {
+                out.push_str(", ");
+            }
+            self.write(argument, Tightness::Conditional, out);
+        }
+        out.push(')');
+    }
+
+    /// Whether an operand is a row of factors itself.
+    fn is_chain(&self, id: ExprId) -> bool {
+        self.tightness(id) == Tightness::Product && !self.names.contains_key(&id)
+    }
+
+    /// `a − b·⌊a/b⌋` as `mod(a, b)`.
+    fn as_modulo(&self, id: ExprId) -> Option<(ExprId, ExprId)> {
+        let Node::Sub(a, multiple) = self.graph.node(id) else { return None };
+        let (b, floor) = match self.graph.node(multiple) {
+            Node::Mul(x, y) if self.is_floor(y) => (x, y),
+            Node::Mul(x, y) if self.is_floor(x) => (y, x),
+            _ => return None,
+        };
+        let Node::Unary(Unary::Floor, quotient) = self.graph.node(floor) else { return None };
+        (self.graph.node(quotient) == Node::Div(a, b)).then_some((a, b))
+    }
+
+    fn is_floor(&self, id: ExprId) -> bool {
+        matches!(self.graph.node(id), Node::Unary(Unary::Floor, _))
+    }
+}
+
+/// The shortest decimal that reads back, without a point for whole numbers.
+#[must_use]
+pub fn number(value: f64) -> String {
+    let text = zmij::Buffer::new().format(value).to_owned();
+    text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
+}
