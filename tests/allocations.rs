@@ -17,9 +17,34 @@ static ALLOCATOR: AllocDisabler = AllocDisabler;
 #[test]
 fn following_a_motion_allocates_nothing() {
     for name in ["four_bar", "andrews", "jansen", "digger", "derivatives", "three_rpr"] {
-        let mut sources = Sources::default();
         let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
-        let (determined, _) = compile(&mut sources, name, &text);
+        follow(name, &text);
+    }
+}
+
+#[test]
+fn passing_near_a_dead_point_allocates_nothing() {
+    follow(
+        "slider_crank",
+        "mechanism slider_crank {
+            ground { point O = (0, 0) axis way = O along (1, 0) }
+            body crank at (0, 0, 0.3) { point O = (0, 0) point pin = (1, 0) }
+            body rod at (0.95, 0.3, -0.3) { point pin = (0, 0) point wrist = (1.0001, 0) }
+            body slider at (1.9, 0, 0) { point wrist = (0, 0) axis way = wrist along (1, 0) }
+            joint main: revolute(ground.O, crank.O)
+            joint big: revolute(crank.pin, rod.pin)
+            joint small: revolute(rod.wrist, slider.wrist)
+            joint guide: translational(ground.way, slider.way)
+            driver motor: rotation(main) = t + 0.3
+            analysis from 0 to 3 every 0.01
+        }",
+    );
+}
+
+fn follow(name: &str, text: &str) {
+    {
+        let mut sources = Sources::default();
+        let (determined, _) = compile(&mut sources, name, text);
         let determined = determined.expect("determined");
         let [from, to, every] = determined.system().analysis.expect("an analysis");
         // coarser steps are cut by the solver, so that rejected ones take part too

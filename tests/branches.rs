@@ -122,3 +122,14 @@ fn a_start_may_be_far_from_the_estimates_in_what_a_driver_fixes() {
         assert!((a - b).abs() < 1e-9, "{a} and {b}");
     }
 }
+
+#[test]
+fn a_driver_in_step_with_the_output_hides_nothing() {
+    // it swings into the dead point and back between any two of these times
+    let text = fs::read_to_string("tests/ui/run/four_bar_into_lock_up.mech").expect("a text");
+    let text = text.replace("60 deg + 90 deg/s * t", "60 deg + 60 deg * sin(360 deg * t / 1 s)^4");
+    for every in [0.5, 1.0, 0.1] {
+        let outcome = run("four_bar", &text, Span { every: Some(every), to: Some(4.0) });
+        assert_eq!(outcome.codes(), ["E0602"], "every {every}: {}", outcome.text());
+    }
+}

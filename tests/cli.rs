@@ -123,6 +123,11 @@ fn settings_are_checked() {
     assert!(failure(&["run", SLIDER_CRANK, "--every", "1 mm"], 2).contains("E0402"));
     assert!(failure(&["run", SLIDER_CRANK, "--from", "1", "--to", "0.5"], 2).contains("before its start"));
     assert!(failure(&["run", SLIDER_CRANK, "--at=-1"], 2).contains("before the start"));
+    let timeless = fs::read_to_string(SLIDER_CRANK).unwrap().replace("analysis", "// analysis");
+    let output = mechc().args(["run", "-", "--from", "0"]).write_stdin(timeless).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(String::from_utf8_lossy(&output.stderr).contains("E0705"));
+    assert!(failure(&["run", SLIDER_CRANK, "--set", "rod_length=crank_length"], 2).contains("cannot name"));
     let run = |arguments: &[&str]| -> String {
         let output = mechc().args(["run", SLIDER_CRANK, "--at", "0"]).args(arguments).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
@@ -144,4 +149,17 @@ fn colour_only_where_asked_for() {
     assert!(colored(&["--color", "always"]));
     assert!(!colored(&["--color", "never"]));
     std::io::stderr().flush().unwrap();
+}
+
+#[test]
+fn timings_go_to_standard_error() {
+    let output = mechc().args(["run", SLIDER_CRANK, "--timings"]).output().unwrap();
+    let text = String::from_utf8(output.stderr).unwrap();
+    let words: Vec<&str> = text.lines().filter_map(|line| line.split_whitespace().next()).collect();
+    assert_eq!(words[..6], ["parse", "check", "prove", "program", "solve", "write"], "{text}");
+    let last = text.lines().last().expect("a line");
+    assert!(last.ends_with("ns per step"), "{last}");
+    assert!(output.status.success());
+    let without = mechc().args(["run", SLIDER_CRANK]).output().unwrap();
+    assert_eq!(output.stdout, without.stdout, "the table is the same");
 }

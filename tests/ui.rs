@@ -45,7 +45,9 @@ fn check_file(path: &Path) {
         return;
     }
     assert!(!outcome.diagnostics.is_empty(), "{where_} has a mistake, and nothing was said");
-    if !wanted.is_empty() {
+    if wanted.is_empty() {
+        assert_eq!(outcome.codes(), ["E0104"], "{where_} has no marker, though it is not empty");
+    } else {
         assert_eq!(places(&outcome), wanted, "{where_}:\n{}", outcome.text());
     }
     insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
@@ -66,4 +68,23 @@ fn every_input_gets_its_diagnostics() {
         })
         .collect();
     assert!(failed.is_empty(), "{} inputs:\n{}", failed.len(), failed.join("\n"));
+}
+
+/// Codes that a file alone cannot raise; the sessions in `tests/cli.rs` do.
+const OF_THE_COMMAND_LINE: &[&str] = &["E0102", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706"];
+
+#[test]
+fn every_code_of_the_catalogue_is_shown() {
+    let snapshots: String =
+        files("tests/ui", "snap").iter().map(|path| fs::read_to_string(path).expect("a text")).collect();
+    let sessions = fs::read_to_string("tests/cli.rs").expect("a text");
+    for code in mechc::diag::Code::ALL {
+        let code = code.as_str();
+        let shown = if OF_THE_COMMAND_LINE.contains(&code) {
+            sessions.contains(code)
+        } else {
+            snapshots.contains(&format!("[{code}]"))
+        };
+        assert!(shown, "no test shows {code}");
+    }
 }

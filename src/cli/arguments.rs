@@ -153,6 +153,10 @@ pub(super) struct RunArguments {
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
     pub tolerance: f64,
+
+    /// Print to standard error where the time went
+    #[arg(long)]
+    pub timings: bool,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]

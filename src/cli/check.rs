@@ -5,13 +5,14 @@ use super::failure::Failure;
 use super::files::Output;
 use super::input;
 use super::report::Reporter;
+use super::timings::Timings;
 use crate::analysis::{self, Started};
 use crate::ir::CoordinateKind;
 use crate::program::Program;
 use crate::structure::{self, Determined};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let determined = input::determined(&arguments.input, reporter)?;
+    let determined = input::determined(&arguments.input, reporter, &mut Timings::new(false))?;
     let system = determined.system();
     let program = Program::new(system);
     let t = system.analysis.map_or(0.0, |[from, ..]| from);

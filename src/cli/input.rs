@@ -4,23 +4,30 @@ use super::arguments::Input;
 use super::failure::Failure;
 use super::files;
 use super::report::Reporter;
+use super::timings::{Phase, Timings};
 use crate::check::{self, Setting};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
+use crate::lower;
 use crate::model::{Dimension, Mechanism};
 use crate::source::Sources;
-use crate::structure::Determined;
+use crate::structure::{self, Determined};
 use crate::syntax::{self, ast};
 
 /// Reads and checks the mechanism of a command, lowers and proves it; prints its warnings.
-pub(super) fn determined(input: &Input, reporter: &mut Reporter) -> Result<Determined, Failure> {
+pub(super) fn determined(input: &Input, reporter: &mut Reporter, timings: &mut Timings) -> Result<Determined, Failure> {
     let file = tree(input, reporter)?;
-    checked(&file, input, reporter, crate::compile)
+    timings.end(Phase::Parse);
+    let model = checked(&file, input, reporter)?;
+    timings.end(Phase::Check);
+    let determined = structure::prove(lower::lower(&model))?;
+    timings.end(Phase::Prove);
+    Ok(determined)
 }
 
 /// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
 pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Mechanism, Failure> {
     let file = tree(input, reporter)?;
-    checked(&file, input, reporter, check::check)
+    checked(&file, input, reporter)
 }
 
 /// The tree of a command's file.
@@ -29,26 +36,20 @@ pub(super) fn tree(input: &Input, reporter: &mut Reporter) -> Result<ast::File, 
     Ok(syntax::parse(&reporter.sources, file)?)
 }
 
-/// What a pass makes of the chosen mechanism of a file.
-fn checked<T>(
-    file: &ast::File,
-    input: &Input,
-    reporter: &mut Reporter,
-    pass: impl FnOnce(&ast::Mechanism, &[Setting], &Sources) -> (Option<T>, Diagnostics),
-) -> Result<T, Failure> {
+fn checked(file: &ast::File, input: &Input, reporter: &mut Reporter) -> Result<Mechanism, Failure> {
     let mut diagnostics = check::check_file(file);
     if diagnostics.has_errors() {
         return Err(diagnostics.into());
     }
     let mechanism = chosen(file, input)?;
     let settings = settings(&input.set, mechanism, &mut reporter.sources)?;
-    let (result, found) = pass(mechanism, &settings, &reporter.sources);
+    let (model, found) = check::check(mechanism, &settings, &reporter.sources);
     diagnostics.extend(found);
-    match result {
+    match model {
         None => Err(diagnostics.into()),
-        Some(result) => {
+        Some(model) => {
             reporter.print(&diagnostics);
-            Ok(result)
+            Ok(model)
         }
     }
 }

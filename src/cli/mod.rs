@@ -11,6 +11,7 @@ mod input;
 mod progress;
 mod report;
 mod run;
+mod timings;
 
 use arguments::{Arguments, Command};
 use clap::Parser;

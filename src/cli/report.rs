@@ -46,6 +46,11 @@ impl Reporter {
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
     }
 
+    /// Says something that is no diagnostic.
+    pub fn say(text: &str) {
+        let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    }
+
     /// Says why a command ended, and gives its exit code.
     pub fn finish(&self, result: Result<(), Failure>) -> u8 {
         match result {

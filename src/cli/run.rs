@@ -6,6 +6,7 @@ use super::files::Output;
 use super::input;
 use super::progress::Progress;
 use super::report::Reporter;
+use super::timings::{Phase, Timings};
 use crate::analysis::{self, Started, Times};
 use crate::diag::{Code, Diagnostic};
 use crate::output::{TableFormat, TableWriter};
@@ -14,48 +15,61 @@ use crate::source::Sources;
 use std::path::Path;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let determined = input::determined(&arguments.input, reporter)?;
+    let mut timings = Timings::new(arguments.timings);
+    let determined = input::determined(&arguments.input, reporter, &mut timings)?;
     let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
     let output = Output::open(&arguments.output)?;
     let program = Program::new(determined.system());
+    timings.end(Phase::Program);
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
     reporter.print(&started.remarks());
-    write_table(&mut started, &times, output, format(arguments))
+    let table = Table { output, format: format(arguments), timings };
+    let (timings, result) = table.write(&mut started, &times)?;
+    Reporter::say(&timings);
+    result
 }
 
-/// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
-fn write_table(
-    started: &mut Started<'_>,
-    times: &Times,
-    mut output: Output,
+/// Where the rows go, and how.
+struct Table {
+    output: Output,
     format: TableFormat,
-) -> Result<(), Failure> {
-    let columns = started.columns();
-    let mut progress = Progress::new(times.len(), output.is_standard());
-    let mut motion = started.motion(times.span());
-    let mut stopped = None;
-    let written = (|| {
-        let mut table = TableWriter::new(output.writer(), format, &columns)?;
-        for t in times.iter() {
-            match motion.row_at(t) {
-                Ok(row) => table.row(row)?,
-                Err(diagnostic) => {
-                    stopped = Some(diagnostic);
-                    break;
+    timings: Timings,
+}
+
+impl Table {
+    /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept. Gives what the clock says,
+    /// and why the motion stopped, if it did.
+    fn write(mut self, started: &mut Started<'_>, times: &Times) -> Result<(String, Result<(), Failure>), Failure> {
+        let columns = started.columns();
+        let mut progress = Progress::new(times.len(), self.output.is_standard());
+        let mut motion = started.motion(times.span());
+        let (mut stopped, mut rows) = (Ok(()), 0);
+        let timings = &mut self.timings;
+        let written = (|| {
+            let mut table = TableWriter::new(self.output.writer(), self.format, &columns)?;
+            for t in times.iter() {
+                let row = motion.row_at(t);
+                timings.end(Phase::Solve);
+                match row {
+                    Ok(row) => table.row(row)?,
+                    Err(diagnostic) => {
+                        stopped = Err(diagnostic.into());
+                        break;
+                    }
                 }
+                timings.end(Phase::Write);
+                rows += 1;
+                progress.tick();
             }
-            progress.tick();
+            table.finish().map(|_| ())
+        })();
+        progress.finish();
+        if let Err(error) = written {
+            return Err(self.output.failure(&error));
         }
-        table.finish().map(|_| ())
-    })();
-    progress.finish();
-    if let Err(error) = written {
-        return Err(output.failure(&error));
-    }
-    output.close()?;
-    match stopped {
-        Some(diagnostic) => Err(diagnostic.into()),
-        None => Ok(()),
+        self.output.close()?;
+        self.timings.end(Phase::Write);
+        Ok((self.timings.text(rows), stopped))
     }
 }
 

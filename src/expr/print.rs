@@ -149,9 +149,8 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
         match self.graph.node(id) {
             Node::Const(bits) if f64::from_bits(bits) < 0.0 => Tightness::Negation,
-            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) => Tightness::Atom,
             Node::Binary(Binary::Pow, ..) | Node::Power(..) => Tightness::Power,
-            Node::Binary(..) => Tightness::Atom,
+            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) => Tightness::Atom,
             Node::Add(..) | Node::Sub(..) => Tightness::Sum,
             Node::Mul(..) | Node::Div(..) => Tightness::Product,
             // the sign of a product stands before its first factor
@@ -225,12 +224,11 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         let swap = is_number(a) || is_sum(b) && !is_sum(a) && !is_number(b);
         let (first, second) = if swap { (b, a) } else { (a, b) };
         self.write(first, Tightness::Sum, out);
-        match self.graph.as_const(second).filter(|value| *value < 0.0) {
-            Some(value) => out.push_str(&format!(" - {}", number(-value))),
-            None => {
-                out.push_str(" + ");
-                self.write(second, Tightness::Product, out);
-            }
+        if let Some(value) = self.graph.as_const(second).filter(|value| *value < 0.0) {
+            out.push_str(&format!(" - {}", number(-value)));
+        } else {
+            out.push_str(" + ");
+            self.write(second, Tightness::Product, out);
         }
     }
 

@@ -1,0 +1,59 @@
+//! `--timings`: where the time of a run goes.
+
+use std::time::{Duration, Instant};
+
+/// The stages of a run, in order.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Phase {
+    Parse,
+    Check,
+    Prove,
+    Program,
+    Solve,
+    Write,
+}
+
+const PHASES: [(Phase, &str); 6] = [
+    (Phase::Parse, "parse"),
+    (Phase::Check, "check"),
+    (Phase::Prove, "prove"),
+    (Phase::Program, "program"),
+    (Phase::Solve, "solve"),
+    (Phase::Write, "write"),
+];
+
+/// A clock that is read at the end of each phase; costs nothing where nobody asked.
+pub(super) struct Timings {
+    last: Option<Instant>,
+    spent: [Duration; PHASES.len()],
+}
+
+impl Timings {
+    /// Starts the clock, if it is wanted.
+    pub fn new(wanted: bool) -> Timings {
+        Timings { last: wanted.then(Instant::now), spent: [Duration::ZERO; PHASES.len()] }
+    }
+
+    /// Books the time since the last reading to a phase.
+    pub fn end(&mut self, phase: Phase) {
+        if let Some(last) = &mut self.last {
+            let now = Instant::now();
+            self.spent[phase as usize] += now - *last;
+            *last = now;
+        }
+    }
+
+    /// Seconds by phase, and the time that solving took for each output time; nothing where nobody asked.
+    pub fn text(&self, rows: u64) -> String {
+        if self.last.is_none() {
+            return String::new();
+        }
+        let mut text = String::new();
+        for (phase, name) in PHASES {
+            text += &format!("{name:<8} {:>12.6} s\n", self.spent[phase as usize].as_secs_f64());
+        }
+        let solve = self.spent[Phase::Solve as usize].as_secs_f64();
+        let per_step = solve / rows.max(1) as f64 * 1e9;
+        text + &format!("{rows} times, {per_step:.0} ns per step\n")
+    }
+}
