@@ -77,7 +77,10 @@ const OF_THE_COMMAND_LINE: &[&str] = &["E0102", "E0701", "E0702", "E0703", "E070
 fn every_code_of_the_catalogue_is_shown() {
     let snapshots: String =
         files("tests/ui", "snap").iter().map(|path| fs::read_to_string(path).expect("a text")).collect();
-    let sessions = fs::read_to_string("tests/cli.rs").expect("a text");
+    let sessions: String = std::iter::once("tests/cli.rs".into())
+        .chain(files("tests/cli", "trycmd"))
+        .map(|path| fs::read_to_string(path).expect("a text"))
+        .collect();
     for code in mechc::diag::Code::ALL {
         let code = code.as_str();
         let shown = if OF_THE_COMMAND_LINE.contains(&code) {
