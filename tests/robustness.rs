@@ -47,6 +47,12 @@ fn nesting_is_capped_before_anything_recurses() {
 }
 
 #[test]
+fn broken_chains_of_conditions_are_refused_at_once() {
+    let broken = format!("{}@", "if t then t else if t then ".repeat(90));
+    assert_eq!(check("", &broken).codes(), ["E0101"]);
+}
+
+#[test]
 fn what_is_long_but_not_deep_costs_linear_time() {
     let n = 50_000;
     check("", &format!("t{}", " + 1e-6".repeat(n))).expect_success();

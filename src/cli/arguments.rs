@@ -42,9 +42,9 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
-    /// What the compiler sees, readable: the model or the equations
+    /// What the compiler sees, readable: the tree, the model or the equations
     #[command(long_about = "What the compiler sees, readable.\n\n\
-        The model has its names resolved and its values in SI; the IR has \
+        The tree is the file as it would be written; the model has its names resolved and its values in SI; the IR has \
         every coordinate, every row of Φ with the declaration that wrote it, the entries of Φ_q, ν and γ.")]
     Dump(DumpArguments),
 }
@@ -115,6 +115,8 @@ pub(super) struct DumpArguments {
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum Stage {
+    /// The syntax tree, as it would be written
+    Ast,
     /// The checked mechanism
     Model,
     /// The constraint system

@@ -13,34 +13,35 @@ pub const DEEPEST: usize = 200;
 
 /// Refuses a text that nests deeper than [`DEEPEST`].
 pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
-    // for each open parenthesis, the `if`s that stand open inside it
-    let mut levels: Vec<usize> = vec![0];
+    // for each open parenthesis, the `if`s that stand open inside it: whether the last `else` has been read
+    let mut levels: Vec<Vec<bool>> = vec![Vec::new()];
     let mut ifs = 0;
     let mut after_else = false;
     let mut rest = text;
     while let Some(token) = next_token(&mut rest) {
         let at = (text.len() - rest.len() - token.len()) as u32;
-        let is_else_if = after_else && token == "if";
-        after_else = token == "else";
+        let is_else_if = std::mem::replace(&mut after_else, token == "else") && token == "if";
+        let parentheses = levels.len() - 1;
+        let Some(level) = levels.last_mut() else { break };
         match token {
-            "(" => levels.push(0),
-            ")" if levels.len() > 1 => {
-                ifs -= levels.pop().unwrap_or(0);
-            }
-            "if" if !is_else_if => {
+            "(" => levels.push(Vec::new()),
+            ")" if parentheses > 0 => ifs -= levels.pop().map_or(0, |level| level.len()),
+            // the `else` before was not the last
+            "if" if is_else_if => set_last(level, false),
+            "if" => {
                 ifs += 1;
-                if let Some(level) = levels.last_mut() {
-                    *level += 1;
-                }
+                level.push(false);
             }
-            "," | "=" | "}" => {
-                if let Some(level) = levels.last_mut() {
-                    ifs -= std::mem::take(level);
+            // these belong to an `if` that is not complete; the complete ones inside it end here
+            "then" | "else" => {
+                while level.pop_if(|complete| *complete).is_some() {
+                    ifs -= 1;
                 }
+                set_last(level, token == "else");
             }
+            "," | "=" | "}" => ifs -= std::mem::take(level).len(),
             word if DECLARATIONS.contains(&word) => {
-                levels.clear();
-                levels.push(0);
+                levels = vec![Vec::new()];
                 ifs = 0;
             }
             _ => {}
@@ -51,6 +52,12 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
         }
     }
     Ok(())
+}
+
+fn set_last(level: &mut [bool], after_last_else: bool) {
+    if let Some(last) = level.last_mut() {
+        *last = after_last_else;
+    }
 }
 
 /// The next word or character that is neither comment, string nor white space.

@@ -1,4 +1,4 @@
-//! Text to tree: what was written, with its places, and no meaning.
+//! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
 //!
 //! The grammar is `grammar/mech.pest`. This room knows words and precedences; it does not know which names exist,
 //! which units there are, or what a joint is.
@@ -6,10 +6,12 @@
 pub mod ast;
 mod depth;
 mod errors;
+pub mod format;
 mod formula;
 mod parse;
 
 pub use depth::DEEPEST;
+pub use format::format;
 pub use parse::{normalized, parse, parse_expression};
 
 /// Words that begin a declaration, where every formula before them has ended.

@@ -1,0 +1,231 @@
+//! Tree to text: a file as a person would write it.
+//!
+//! What is printed reads back as the same tree, apart from places and from parentheses that change nothing. Columns
+//! are aligned, and a blank line stands where the kind of declaration changes. Comments other than `///` are not in
+//! the tree, and so not in the text either.
+//!
+//! This room knows how things are written, not what they mean: a tree that `check` would refuse is printed as well.
+
+mod expression;
+
+use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
+pub use expression::expression;
+
+/// One level of indentation.
+const INDENT: &str = "    ";
+
+/// Cells wider than this stick out of their column instead of pushing the others away.
+const WIDEST_CELL: usize = 40;
+
+/// A table's rows stand on one line up to this width, and on a line each beyond it.
+const WIDEST_LIST: usize = 72;
+
+/// A file as text. It ends with a line end, and is empty if the file is.
+#[must_use]
+pub fn format(file: &File) -> String {
+    let mechanisms: Vec<String> = file.mechanisms.iter().map(mechanism).collect();
+    mechanisms.join("\n")
+}
+
+fn mechanism(mechanism: &Mechanism) -> String {
+    let groups: Vec<String> =
+        mechanism.items.chunk_by(|a, b| Group::of(&a.kind) == Group::of(&b.kind)).map(group).collect();
+    let mut text = documentation(&mechanism.docs, "");
+    text += &format!("mechanism {} ", mechanism.name.text);
+    text += &braces(&groups.join("\n"), "");
+    text + "\n"
+}
+
+/// Declarations that stand together, without a blank line between them.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Group {
+    Params,
+    Functions,
+    Tables,
+    Bodies,
+    Joints,
+    Constraints,
+    Drivers,
+    Measures,
+    Analysis,
+}
+
+impl Group {
+    fn of(kind: &ItemKind) -> Group {
+        match kind {
+            ItemKind::Param { .. } => Group::Params,
+            ItemKind::Function { .. } => Group::Functions,
+            ItemKind::Table { .. } => Group::Tables,
+            ItemKind::Ground { .. } | ItemKind::Body { .. } => Group::Bodies,
+            ItemKind::Joint { .. } => Group::Joints,
+            ItemKind::Equation { driver: false, .. } => Group::Constraints,
+            ItemKind::Equation { driver: true, .. } => Group::Drivers,
+            ItemKind::Measure { .. } => Group::Measures,
+            ItemKind::Analysis { .. } => Group::Analysis,
+        }
+    }
+}
+
+/// A declaration in columns; the last one is as wide as it likes.
+struct Row<'a> {
+    docs: &'a [String],
+    cells: Vec<String>,
+}
+
+fn group(items: &[Item]) -> String {
+    let rows: Vec<Row<'_>> = items.iter().map(|item| Row { docs: &item.docs, cells: item_cells(&item.kind) }).collect();
+    columns(&rows, INDENT)
+}
+
+fn item_cells(kind: &ItemKind) -> Vec<String> {
+    match kind {
+        ItemKind::Param { name, value } => cells(["param", &name.text, &defined(value)]),
+        ItemKind::Function { name, argument, value } => {
+            cells(["fn", &format!("{}({})", name.text, argument.text), &defined(value)])
+        }
+        ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
+        ItemKind::Ground { features } => vec![format!("ground {}", body(features))],
+        ItemKind::Body { name, pose: None, features } => vec![format!("body {} {}", name.text, body(features))],
+        ItemKind::Body { name, pose: Some(pose), features } => {
+            vec![format!("body {} at {} {}", name.text, pair(pose), body(features))]
+        }
+        ItemKind::Joint { name, kind, arguments, .. } => {
+            cells(["joint", &label(name), &format!("{}({})", kind.text, list(arguments))])
+        }
+        ItemKind::Equation { driver, name, left, right } => {
+            let keyword = if *driver { "driver" } else { "constraint" };
+            cells([keyword, &label(name), &expression(left), &defined(right)])
+        }
+        ItemKind::Measure { name, value } => cells(["measure", &name.text, &defined(value)]),
+        ItemKind::Analysis { from, to, every } => {
+            vec![format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))]
+        }
+    }
+}
+
+fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {
+    texts.map(str::to_owned).into()
+}
+
+fn defined(value: &Expr) -> String {
+    format!("= {}", expression(value))
+}
+
+fn label(name: &Name) -> String {
+    format!("{}:", name.text)
+}
+
+fn list(list: &[Expr]) -> String {
+    let texts: Vec<String> = list.iter().map(expression).collect();
+    texts.join(", ")
+}
+
+fn table(periodic: bool, rows: &TableRows) -> String {
+    let spline = if periodic { "= periodic spline" } else { "= spline" };
+    match rows {
+        TableRows::File { path, units: None } => format!("{spline} \"{}\"", path.text),
+        TableRows::File { path, units: Some([first, second]) } => {
+            format!("{spline} \"{}\" ({}, {})", path.text, first.text, second.text)
+        }
+        TableRows::Listed(rows) => {
+            let on_one_line = list(rows);
+            if width(&on_one_line) <= WIDEST_LIST {
+                return format!("{spline} [{on_one_line}]");
+            }
+            let lines: Vec<String> = rows.iter().map(expression).collect();
+            let line_end = format!(",\n{INDENT}{INDENT}");
+            format!("{spline} [\n{INDENT}{INDENT}{},\n{INDENT}]", lines.join(&line_end))
+        }
+    }
+}
+
+/// The features of a body or of the ground in their braces.
+fn body(features: &[Feature]) -> String {
+    let rows: Vec<Row<'_>> =
+        features.iter().map(|feature| Row { docs: &feature.docs, cells: feature_cells(feature) }).collect();
+    braces(&columns(&rows, &INDENT.repeat(2)), INDENT)
+}
+
+fn feature_cells(feature: &Feature) -> Vec<String> {
+    let name = &feature.name.text;
+    match &feature.kind {
+        FeatureKind::Point { at } => cells(["point", name, &format!("= {}", pair(at))]),
+        FeatureKind::AxisAlong { origin, direction } => {
+            cells(["axis", name, &format!("= {} along {}", place(origin), pair(direction))])
+        }
+        FeatureKind::AxisTo { origin, target } => {
+            cells(["axis", name, &format!("= {} to {}", place(origin), place(target))])
+        }
+        FeatureKind::Circle { center, radius } => {
+            cells(["circle", name, &format!("= {} radius {}", place(center), expression(radius))])
+        }
+        FeatureKind::Curve { argument, at, estimate } => {
+            let estimate = estimate.as_ref().map_or_else(String::new, |e| format!(" at {}", expression(e)));
+            cells(["curve", &format!("{name}({})", argument.text), &format!("= {}{estimate}", pair(at))])
+        }
+    }
+}
+
+/// Where the grammar wants parentheses, whatever stands in them.
+fn pair(e: &Expr) -> String {
+    match e.bare().kind {
+        ExprKind::Tuple(_) => expression(e),
+        _ => format!("({})", expression(e)),
+    }
+}
+
+/// A point of the body by its name, or in parentheses.
+fn place(e: &Expr) -> String {
+    match &e.bare().kind {
+        ExprKind::Name(name) => name.text.clone(),
+        _ => pair(e),
+    }
+}
+
+/// Lines in braces, or empty braces if there are none.
+fn braces(lines: &str, indent: &str) -> String {
+    if lines.is_empty() { "{}".to_owned() } else { format!("{{\n{lines}{indent}}}") }
+}
+
+/// The `///` lines above a declaration.
+fn documentation(docs: &[String], indent: &str) -> String {
+    let mut text = String::new();
+    for line in docs.iter().flat_map(|doc| doc.split('\n')) {
+        text += indent;
+        text += "///";
+        if !line.is_empty() {
+            text += " ";
+            text += line;
+        }
+        text += "\n";
+    }
+    text
+}
+
+/// A line per row, every cell but the last as wide as the widest of its column.
+fn columns(rows: &[Row<'_>], indent: &str) -> String {
+    let widest = |column: usize| {
+        let others = rows.iter().filter_map(|row| row.cells.split_last()?.1.get(column));
+        others.map(|cell| width(cell)).filter(|&width| width <= WIDEST_CELL).max().unwrap_or(0)
+    };
+    let count = rows.iter().map(|row| row.cells.len()).max().unwrap_or(0);
+    let widths: Vec<usize> = (0..count).map(widest).collect();
+    let mut text = String::new();
+    for row in rows {
+        text += &documentation(row.docs, indent);
+        text += indent;
+        if let Some((last, others)) = row.cells.split_last() {
+            for (cell, &wide) in others.iter().zip(&widths) {
+                text += &format!("{cell:wide$} ");
+            }
+            text += last;
+        }
+        text += "\n";
+    }
+    text
+}
+
+/// In characters, as the padding of `format!` counts them.
+fn width(text: &str) -> usize {
+    text.chars().count()
+}
