@@ -4,22 +4,20 @@
 //! the standard library's `sin` and its like do not give the same bits on every platform, so they are forbidden
 //! elsewhere (`clippy.toml`). Angles are in radians.
 
-/// Sine and cosine of one angle.
-#[must_use]
-pub fn sin_cos(x: f64) -> (f64, f64) {
-    libm::sincos(x)
-}
+mod sin_cos;
+
+pub use sin_cos::sin_cos;
 
 /// Sine.
 #[must_use]
 pub fn sin(x: f64) -> f64 {
-    libm::sin(x)
+    sin_cos(x).0
 }
 
 /// Cosine.
 #[must_use]
 pub fn cos(x: f64) -> f64 {
-    libm::cos(x)
+    sin_cos(x).1
 }
 
 /// Tangent.
@@ -149,4 +147,45 @@ pub fn min(a: f64, b: f64) -> f64 {
 #[must_use]
 pub fn max(a: f64, b: f64) -> f64 {
     if a.is_nan() || a > b { a } else { b }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::sin_cos;
+
+    /// The distance in units of the last place of `b`.
+    fn ulps(a: f64, b: f64) -> f64 {
+        let ulp = f64::from_bits((b.abs().max(f64::MIN_POSITIVE)).to_bits() + 1) - b.abs();
+        ((a - b) / ulp).abs()
+    }
+
+    #[test]
+    fn sine_and_cosine_are_within_an_ulp_of_another_implementation() {
+        let mut state = 1_u64;
+        for k in 0..400_000_u32 {
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let x = match k % 4 {
+                // near multiples of a quarter turn, of every day's size, up to a million, of any size
+                0 => f64::from(k / 4) * std::f64::consts::FRAC_PI_2,
+                1 => (state >> 11) as f64 / (1_u64 << 53) as f64 * 20.0 - 10.0,
+                2 => (state >> 11) as f64 / (1_u64 << 53) as f64 * 4e6 - 2e6,
+                _ => f64::from_bits(state),
+            };
+            if !x.is_finite() {
+                continue;
+            }
+            let (sin, cos) = sin_cos(x);
+            // each is within one of the true value
+            assert!(ulps(sin, libm::sin(x)) <= 2.0, "sin({x:e}): {sin:e} and {:e}", libm::sin(x));
+            assert!(ulps(cos, libm::cos(x)) <= 2.0, "cos({x:e}): {cos:e} and {:e}", libm::cos(x));
+        }
+    }
+
+    #[test]
+    fn angles_that_are_no_numbers_have_neither() {
+        for x in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(sin_cos(x).0.is_nan() && sin_cos(x).1.is_nan());
+        }
+        assert_eq!(sin_cos(0.0), (0.0, 1.0));
+    }
 }
