@@ -72,7 +72,13 @@ pub fn compile(sources: &mut Sources, name: &str, text: &str) -> (Option<Determi
 /// Runs the first mechanism of a text over its analysis.
 pub fn run(name: &str, text: &str, span: Span) -> Outcome {
     let mut sources = Sources::default();
-    let (determined, mut diagnostics) = compile(&mut sources, name, text);
+    let compiled = compile(&mut sources, name, text);
+    analyse(sources, compiled, span)
+}
+
+/// Runs what was compiled over its analysis.
+pub fn analyse(sources: Sources, compiled: (Option<Determined>, Diagnostics), span: Span) -> Outcome {
+    let (determined, mut diagnostics) = compiled;
     let (mut columns, mut rows) = (Vec::new(), Vec::new());
     if let Some(determined) = determined
         && let Some([from, to, every]) = determined.system().analysis
