@@ -34,6 +34,8 @@ pub mod program;
 
 pub mod analysis;
 
+pub mod emit;
+
 pub mod output;
 
 pub mod cli;

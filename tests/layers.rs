@@ -21,12 +21,13 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("structure", &["ir", "expr", "diag"]),
     ("program", &["ir", "expr", "math"]),
     ("analysis", &["program", "structure", "ir", "diag", "math"]),
+    ("emit", &["program", "structure", "ir", "expr"]),
     ("output", &[]),
 ];
 
 #[test]
 fn rooms_know_only_those_before_them() {
-    let all: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).chain(["cli", "emit"]).collect();
+    let all: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).chain(["cli"]).collect();
     let mut seen = 0;
     for path in files("src", "rs") {
         let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").to_owned();

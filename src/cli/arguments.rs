@@ -42,6 +42,11 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
+    /// Rust that evaluates Φ, Φ_q, ν and γ
+    #[command(long_about = "Rust that evaluates Φ, Φ_q, Φ_t, ν and γ.\n\n\
+        Writes one module without dependencies (but the crate `libm` where a formula asks for it), whose functions give \
+        the same bits as the analysis.")]
+    Emit(EmitArguments),
     /// What the compiler sees, readable: the tree, the model or the equations
     #[command(long_about = "What the compiler sees, readable.\n\n\
         The tree is the file as it would be written; the model has its names resolved and its values in SI; the IR has \
@@ -97,6 +102,16 @@ pub(super) enum When {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub input: Input,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct EmitArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// Where the code goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
 }
 
 #[derive(Args, Debug)]

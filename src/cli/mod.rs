@@ -5,6 +5,7 @@
 mod arguments;
 mod check;
 mod dump;
+mod emit;
 mod failure;
 mod files;
 mod input;
@@ -31,6 +32,11 @@ pub fn main() -> ExitCode {
         Command::Dump(dump) => {
             let mut reporter = Reporter::new(&dump.input);
             let result = dump::dump(&dump, &mut reporter);
+            reporter.finish(result)
+        }
+        Command::Emit(emit) => {
+            let mut reporter = Reporter::new(&emit.input);
+            let result = emit::emit(&emit, &mut reporter);
             reporter.finish(result)
         }
         Command::Run(run) => {

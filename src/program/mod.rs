@@ -176,6 +176,12 @@ impl Program {
         &self.operations[stage as usize]
     }
 
+    /// The numbers that stand in registers from the start.
+    #[must_use]
+    pub fn constants(&self) -> &[(Register, f64)] {
+        &self.constants
+    }
+
     /// How many registers it needs.
     #[must_use]
     pub fn registers(&self) -> usize {

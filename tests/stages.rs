@@ -1,0 +1,38 @@
+//! What each stage of the compiler sees of a mechanism: a folder per mechanism with its text and the snapshots.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::source::Sources;
+use mechc::{check, lower, syntax};
+use std::fmt::Write;
+use std::fs;
+use support::{Span, files, run, stem};
+
+#[test]
+fn every_stage_of_every_mechanism() {
+    for path in files("tests/stages", "mech") {
+        let folder = path.parent().expect("a folder");
+        let name = stem(folder);
+        let text = fs::read_to_string(&path).expect("a text");
+        let mut sources = Sources::default();
+        let file = sources.add(name.clone(), text.as_str());
+        let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+        let (model, diagnostics) = check::check(&tree.mechanisms[0], &[], &sources);
+        assert!(diagnostics.is_empty(), "{name}");
+        let model = model.expect("sound");
+        let rows = run(&name, &text, Span::default()).expect_success();
+        let mut first_rows = rows.columns.join(",") + "\n";
+        for row in rows.rows.iter().take(3) {
+            let cells: Vec<String> = row.iter().map(f64::to_string).collect();
+            writeln!(first_rows, "{}", cells.join(",")).expect("a string takes everything");
+        }
+        insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
+            insta::assert_snapshot!("ast", syntax::format(&tree));
+            insta::assert_snapshot!("model", model.to_string());
+            insta::assert_snapshot!("ir", lower::lower(&model).to_string());
+            insta::assert_snapshot!("run", first_rows);
+        });
+    }
+}
