@@ -15,7 +15,7 @@ const SLIDER_CRANK: &str = "examples/slider_crank.mech";
 
 #[test]
 fn sessions() {
-    trycmd::TestCases::new().case("tests/cli/*.trycmd").case("README.md");
+    trycmd::TestCases::new().case("tests/cli/*.trycmd").case("README.md").case("docs/*.md");
 }
 
 /// What it printed to standard error, after it ended with an exit code.

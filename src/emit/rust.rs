@@ -285,9 +285,8 @@ impl Body<'_, '_> {
         self.count += 1;
         let k = self.count;
         if let Op::SinCos { sin, cos, .. } = op {
-            let name = |letter: char, register: Register| match self.read[register as usize] {
-                true => format!("{letter}{k}"),
-                false => "_".to_owned(),
+            let name = |letter: char, register: Register| {
+                if self.read[register as usize] { format!("{letter}{k}") } else { "_".to_owned() }
             };
             let (sin_name, cos_name) = (name('s', sin), name('c', cos));
             self.text += &format!("    let ({sin_name}, {cos_name}) = {value};\n");

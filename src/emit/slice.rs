@@ -5,14 +5,16 @@ use crate::program::{Op, Program, Register, STAGES};
 /// The registers that an operation reads and writes.
 pub(super) fn operands(op: Op) -> (Vec<Register>, Vec<Register>) {
     match op {
-        Op::Add { to, a, b } | Op::Sub { to, a, b } | Op::Mul { to, a, b } | Op::Div { to, a, b } => {
-            (vec![a, b], vec![to])
-        }
         Op::Neg { to, a } | Op::Recip { to, a } | Op::Not { to, a } | Op::Unary { to, a, .. } => (vec![a], vec![to]),
         Op::SinCos { sin, cos, a } => (vec![a], vec![sin, cos]),
-        Op::Binary { to, a, b, .. } | Op::Compare { to, a, b, .. } | Op::And { to, a, b } | Op::Or { to, a, b } => {
-            (vec![a, b], vec![to])
-        }
+        Op::Add { to, a, b }
+        | Op::Sub { to, a, b }
+        | Op::Mul { to, a, b }
+        | Op::Div { to, a, b }
+        | Op::Binary { to, a, b, .. }
+        | Op::Compare { to, a, b, .. }
+        | Op::And { to, a, b }
+        | Op::Or { to, a, b } => (vec![a, b], vec![to]),
         Op::Select { to, condition, a, b } => (vec![condition, a, b], vec![to]),
     }
 }

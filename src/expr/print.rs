@@ -154,10 +154,8 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             Node::Add(..) | Node::Sub(..) => Tightness::Sum,
             Node::Mul(..) | Node::Div(..) => Tightness::Product,
             // the sign of a product stands before its first factor
-            Node::Neg(a) => match self.tightness(a) {
-                Tightness::Product => Tightness::Product,
-                _ => Tightness::Negation,
-            },
+            Node::Neg(a) if self.takes_sign_in_front(a) => Tightness::Product,
+            Node::Neg(_) => Tightness::Negation,
             Node::Compare(..) => Tightness::Comparison,
             Node::And(..) => Tightness::And,
             Node::Or(..) => Tightness::Or,
@@ -176,14 +174,16 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             Node::Add(a, b) => self.write_sum(a, b, out),
             Node::Sub(a, b) => self.write_pair(a, " - ", b, [Tightness::Sum, Tightness::Product], out),
             Node::Mul(a, b) => {
-                // a product or quotient for the first operand needs no parentheses
-                let (first, second) = if self.is_chain(b) && !self.is_chain(a) { (b, a) } else { (a, b) };
-                self.write_pair(first, " * ", second, [Tightness::Product, Tightness::Negation], out);
+                let (first, second) = self.factors(a, b);
+                let is_scaled = self.graph.as_const(first).is_some() && self.is_row_of_products(second);
+                let wanted = if is_scaled { Tightness::Product } else { Tightness::Negation };
+                self.write_pair(first, " * ", second, [Tightness::Product, wanted], out);
             }
             Node::Div(a, b) => self.write_pair(a, " / ", b, [Tightness::Product, Tightness::Negation], out),
             Node::Neg(a) => {
                 out.push('-');
-                self.write(a, Tightness::Product, out);
+                let wanted = if self.takes_sign_in_front(a) { Tightness::Product } else { Tightness::Negation };
+                self.write(a, wanted, out);
             }
             Node::Power(a, n) => {
                 self.write(a, Tightness::Atom, out);
@@ -248,6 +248,46 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             self.write(argument, Tightness::Conditional, out);
         }
         out.push(')');
+    }
+
+    /// The operands of a product in the order of printing: a number before a row of products, which it is gathered with
+    /// wherever it stands; else a product or quotient first, where it needs no parentheses.
+    fn factors(&self, a: ExprId, b: ExprId) -> (ExprId, ExprId) {
+        let scaled = self.graph.as_const(a).is_some() && self.is_row_of_products(b);
+        if self.is_chain(b) && !self.is_chain(a) && !scaled { (b, a) } else { (a, b) }
+    }
+
+    /// Whether an operand is printed as products without a quotient among them.
+    fn is_row_of_products(&self, id: ExprId) -> bool {
+        let mut first = id;
+        while self.is_chain(first) {
+            first = match self.graph.node(first) {
+                Node::Mul(a, b) => self.factors(a, b).0,
+                _ => return false,
+            };
+        }
+        first != id
+    }
+
+    /// Whether the sign of a row of factors can stand before the first of them: not where that is a difference, which it
+    /// would turn round, nor where a number is among them, which would take it up.
+    fn takes_sign_in_front(&self, id: ExprId) -> bool {
+        let mut first = id;
+        while self.is_chain(first) {
+            first = match self.graph.node(first) {
+                Node::Mul(a, b) if self.graph.as_const(a).is_none() => self.factors(a, b).0,
+                Node::Mul(..) => return false,
+                Node::Div(a, _) => a,
+                _ => break,
+            };
+        }
+        let takes_up_a_sign = match self.graph.node(first) {
+            Node::Sub(..) | Node::Const(_) => true,
+            // behind a name
+            Node::Mul(a, _) => self.graph.as_const(a).is_some(),
+            _ => false,
+        };
+        first != id && !takes_up_a_sign
     }
 
     /// Whether an operand is a row of factors itself.

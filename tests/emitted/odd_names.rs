@@ -224,9 +224,9 @@ mod sine_and_cosine {
 // Trigonometric Functions, 1983). The coefficients of the two polynomials are those of Sun's fdlibm.
 
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
-#[allow(clippy::float_cmp)] // exact: what is not finite differs from itself less itself
+#[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle - angle != 0.0 {
+    if !angle.is_finite() {
         return (f64::NAN, f64::NAN);
     }
     let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
