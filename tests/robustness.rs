@@ -250,3 +250,19 @@ fn a_chain_of_functions_with_other_arguments_stays_linear() {
     });
     check(&chain, "f2999(t)").expect_success();
 }
+
+#[test]
+fn printing_stays_linear_where_parts_are_shared() {
+    let chain: String = (1..40).fold("param p0 = 1\n".to_owned(), |mut params, k| {
+        writeln!(params, "param p{k} = sin(p{0}) * p{0} + p{0} / 2", k - 1).expect("a string takes everything");
+        params
+    });
+    let text = pendulum(&chain, "p39 * t").replace("body bar {", "body bar at (p39, 0, 0) {");
+    let mut sources = Sources::default();
+    let file = sources.add("chain", text.as_str());
+    let tree = mechc::syntax::parse(&sources, file).expect("it follows the grammar");
+    let (model, _) = mechc::check::check(&tree.mechanisms[0], &[], &sources);
+    let model = model.expect("sound");
+    assert!(model.to_string().len() < 20_000);
+    assert!(mechc::lower::lower(&model).to_string().len() < 20_000);
+}

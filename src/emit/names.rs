@@ -10,6 +10,9 @@ const KEYWORDS: &[&str] = &[
     "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
+/// Longer names are cut; the documentation beside them has the whole.
+const LONGEST: usize = 40;
+
 /// Hands out names, each once.
 #[derive(Default)]
 pub(super) struct Namer {
@@ -53,7 +56,8 @@ fn words(source: &str) -> String {
             text += &format!("u{:04x}", u32::from(c));
         }
     }
-    let text = text.trim_end_matches('_');
+    let cut = text.char_indices().nth(LONGEST).map_or(text.len(), |(at, _)| at);
+    let text = text[..cut].trim_end_matches('_');
     match text.chars().next() {
         None => "unnamed".to_owned(),
         Some(first) if first.is_ascii_digit() => format!("n{text}"),

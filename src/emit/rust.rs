@@ -28,7 +28,7 @@ pub fn rust(system: &ConstraintSystem, program: &Program, file: &str) -> String 
     text += &writer.indices();
     text += &functions;
     text += &helpers(&functions);
-    text
+    text.trim_end().to_owned() + "\n"
 }
 
 struct Writer<'s> {
@@ -62,20 +62,22 @@ impl<'s> Writer<'s> {
     fn header(&self, file: &str, needs_libm: bool) -> String {
         let (n, entries) = (self.system.coordinates.len(), self.system.phi_q.entries().len());
         let mut text = format!(
-            "//! Constraint system of mechanism `{}`, written by mechc {} from `{file}`.\n//!\n",
+            "//! Constraint system of mechanism `{}`, written by mechc {} from `{}`.\n//!\n",
             one_line(&self.system.name),
             env!("CARGO_PKG_VERSION"),
+            one_line(file),
         );
         text += &format!("//! - coordinates `q`: {n} (m, rad), equations `phi = 0`: {}\n", self.system.rows.len());
         text += &format!("//! - `phi_q`: {entries} entries that do not vanish, see [`PHI_Q_PATTERN`]\n");
-        text += &format!("//! - parameters: {}\n", self.system.params.len());
+        text +=
+            &format!("//! - parameters: {}; those that follow from others are worked out\n", self.system.params.len());
         text += if needs_libm {
             "//! - needs the crate `libm`, for elementary functions with the same bits on every platform\n"
         } else {
             "//! - needs no other crate\n"
         };
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
-        text + "\n#![allow(clippy::approx_constant, clippy::eq_op, clippy::excessive_precision)]\n\n"
+        text + "\n#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
     }
 
     fn params(&self) -> String {
@@ -85,7 +87,7 @@ impl<'s> Writer<'s> {
         }
         let mut text = "/// The parameters, in SI; those of the file by default.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Params {\n".to_owned();
         for (name, param) in self.params.iter().zip(&self.system.params) {
-            text += &format!("    /// `{}`\n    pub {name}: f64,\n", one_line(&param.name));
+            text += &format!("    /// `{}` ({})\n    pub {name}: f64,\n", one_line(&param.name), param.unit);
         }
         text += "}\n\nimpl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        Self {\n";
         for (name, param) in self.params.iter().zip(&self.system.params) {
@@ -208,7 +210,7 @@ impl Body<'_, '_> {
         let read = self.read;
         let (system, inputs) = (self.writer.system, self.writer.program.inputs);
         let mut namer = Namer::default();
-        for taken in ["q", "qd", "t", "p", "out", "n"] {
+        for taken in ["q", "qd", "t", "p", "out", "sin_cos", "select", "sign", "lesser", "greater"] {
             namer.snake(taken);
         }
         let mut used = [false; 4];
@@ -348,7 +350,7 @@ fn helpers(functions: &str) -> String {
         text += SIN_COS;
         text += "\n}\n";
     }
-    text.trim_end().to_owned() + "\n"
+    text
 }
 
 /// A number that reads back to the same bits.

@@ -76,6 +76,13 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         Printer { graph, symbol, names: FxHashMap::default() }
     }
 
+    /// The same printer with names for some parts.
+    #[must_use]
+    pub fn with_names(mut self, names: &FxHashMap<ExprId, String>) -> Printer<'g, S> {
+        self.names.clone_from(names);
+        self
+    }
+
     /// Gives a name to every large part that several of the roots, or several places of one, share; returns the parts in
     /// an order in which each holds only names of those before it.
     pub fn name_shared(&mut self, roots: &[ExprId], name: impl Fn(usize) -> String) -> Vec<(String, ExprId)> {

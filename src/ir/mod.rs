@@ -67,6 +67,8 @@ pub struct Param {
     pub name: String,
     /// Its value in SI.
     pub value: f64,
+    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    pub unit: String,
 }
 
 /// A body with its place in the text.

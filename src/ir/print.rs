@@ -47,14 +47,6 @@ impl std::fmt::Display for ConstraintSystem {
         if !self.params.is_empty() {
             section(f, "parameters", self.params.iter().map(|p| (p.name.clone(), format!("= {}", number(p.value)))))?;
         }
-        section(
-            f,
-            "coordinates q, with their estimates",
-            self.coordinates.iter().map(|c| {
-                let unit = if c.kind == CoordinateKind::Length { "m" } else { "rad" };
-                (c.name.clone(), format!("≈ {} {unit}", printer.text(c.estimate)))
-            }),
-        )?;
         if !shared.is_empty() {
             let title = "parts that stand in several places";
             section(
@@ -63,6 +55,14 @@ impl std::fmt::Display for ConstraintSystem {
                 shared.iter().map(|(name, id)| (name.clone(), format!("= {}", printer.definition(*id)))),
             )?;
         }
+        section(
+            f,
+            "coordinates q, with their estimates",
+            self.coordinates.iter().map(|c| {
+                let unit = if c.kind == CoordinateKind::Length { "m" } else { "rad" };
+                (c.name.clone(), format!("≈ {} {unit}", printer.text(c.estimate)))
+            }),
+        )?;
         let row = |k: usize| self.row_name(k);
         let rows = 0..self.rows.len();
         section(
@@ -118,6 +118,8 @@ impl ConstraintSystem {
     /// All that is printed, so that what it shares can be named.
     fn printed(&self) -> Vec<ExprId> {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
+        roots.extend(self.conditions.iter().map(|condition| condition.positive));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
         roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));
         roots.extend(self.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));

@@ -42,7 +42,11 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
-        params: model.params.iter().map(|p| Param { name: p.declared.name.clone(), value: p.value }).collect(),
+        params: model
+            .params
+            .iter()
+            .map(|p| Param { name: p.declared.name.clone(), value: p.value, unit: p.dimension.unit() })
+            .collect(),
         bodies: model
             .bodies
             .iter()

@@ -2,21 +2,22 @@
 //!
 //! - coordinates `q`: 21 (m, rad), equations `phi = 0`: 21
 //! - `phi_q`: 56 entries that do not vanish, see [`PHI_Q_PATTERN`]
-//! - parameters: 4
+//! - parameters: 4; those that follow from others are worked out
 //! - needs the crate `libm`, for elementary functions with the same bits on every platform
 
-#![allow(clippy::approx_constant, clippy::eq_op, clippy::excessive_precision)]
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `a`
+    /// `a` (m)
     pub a: f64,
-    /// `rate`
+    /// `rate` (1/s)
     pub rate: f64,
-    /// `n`
+    /// `n` (1)
     pub n: f64,
-    /// `half`
+    /// `half` (1)
     pub half: f64,
 }
 
@@ -196,7 +197,7 @@ pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
 /// 254 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let a = p.a;
-    let n_2 = p.n;
+    let n = p.n;
     let half = p.half;
     let q0 = q[0];
     let q1 = q[1];
@@ -224,7 +225,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v3 = a * half;
     let v4 = 4.0 * t;
     let (_, c5) = sin_cos(v4);
-    let v6 = c5 / n_2;
+    let v6 = c5 / n;
     let v7 = 2.0 * t;
     let (s8, _) = sin_cos(v7);
     let v9 = v6 + s8;
@@ -307,7 +308,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v86 = libm::cosh(v85);
     let v87 = libm::sinh(v38);
     let v88 = v86 * v87;
-    let v89 = n_2 * t;
+    let v89 = n * t;
     let v90 = 2.0 + v89;
     let v91 = t * v90;
     let v92 = 1.0 + v91;
@@ -736,7 +737,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
 ///
 /// 172 operations.
 pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
-    let n_2 = p.n;
+    let n = p.n;
     let half = p.half;
     let v1 = half + -1.0;
     let v2 = 4.0 * t;
@@ -783,7 +784,7 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v43 = t / 4.0;
     let v44 = libm::cosh(v43);
     let v45 = libm::sinh(v22);
-    let v46 = n_2 * t;
+    let v46 = n * t;
     let v47 = 2.0 + v46;
     let v48 = v41 / 6.0;
     let v49 = 12.566370614359172 * v48;
@@ -804,7 +805,7 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v64 = -t;
     let v65 = libm::exp(v64);
     let v66 = -4.0 * s3;
-    let v67 = v66 / n_2;
+    let v67 = v66 / n;
     let v68 = 2.0 * c5;
     let v69 = v67 + v68;
     let v70 = 0.17453292519943295 * v69;
@@ -922,7 +923,7 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
 ///
 /// 172 operations.
 pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
-    let n_2 = p.n;
+    let n = p.n;
     let half = p.half;
     let v1 = half + -1.0;
     let v2 = 4.0 * t;
@@ -969,7 +970,7 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v43 = t / 4.0;
     let v44 = libm::cosh(v43);
     let v45 = libm::sinh(v22);
-    let v46 = n_2 * t;
+    let v46 = n * t;
     let v47 = 2.0 + v46;
     let v48 = v41 / 6.0;
     let v49 = 12.566370614359172 * v48;
@@ -990,7 +991,7 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v64 = -t;
     let v65 = libm::exp(v64);
     let v66 = -4.0 * s3;
-    let v67 = v66 / n_2;
+    let v67 = v66 / n;
     let v68 = 2.0 * c5;
     let v69 = v67 + v68;
     let v70 = 0.17453292519943295 * v69;
@@ -1109,7 +1110,7 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
 /// 477 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let a = p.a;
-    let n_2 = p.n;
+    let n = p.n;
     let half = p.half;
     let q0 = q[0];
     let q1 = q[1];
@@ -1147,7 +1148,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v1 = a * half;
     let v2 = half + -1.0;
     let v3 = -1.0 + v2;
-    let v4 = 2.0 * n_2;
+    let v4 = 2.0 * n;
     let v5 = v4 / 10.0;
     let v6 = 4.0 * t;
     let (_, c7) = sin_cos(v6);
@@ -1407,7 +1408,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v261 = q2 * qd2;
     let v262 = v108 * v223;
     let v263 = -16.0 * c7;
-    let v264 = v263 / n_2;
+    let v264 = v263 / n;
     let v265 = -4.0 * s9;
     let v266 = v264 + v265;
     let v267 = 0.5 * v136;

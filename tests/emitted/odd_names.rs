@@ -2,24 +2,31 @@
 //!
 //! - coordinates `q`: 6 (m, rad), equations `phi = 0`: 6
 //! - `phi_q`: 11 entries that do not vanish, see [`PHI_Q_PATTERN`]
-//! - parameters: 5
+//! - parameters: 8; those that follow from others are worked out
 //! - needs no other crate
 
-#![allow(clippy::approx_constant, clippy::eq_op, clippy::excessive_precision)]
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `fn_`
+    /// `fn_` (1)
     pub fn_: f64,
-    /// `Self`
+    /// `Self` (1/s)
     pub self_: f64,
-    /// `é`
+    /// `é` (1)
     pub u00e9: f64,
-    /// `R`
+    /// `R` (m)
     pub r: f64,
-    /// `r`
+    /// `r` (m)
     pub r_2: f64,
+    /// `greater` (1)
+    pub greater: f64,
+    /// `select` (1)
+    pub select: f64,
+    /// `v1` (1)
+    pub v1: f64,
 }
 
 impl Default for Params {
@@ -31,6 +38,9 @@ impl Default for Params {
             u00e9: 0.5235987755982988,
             r: 0.05,
             r_2: 0.02,
+            greater: 1.0,
+            select: 2.0,
+            v1: 0.5,
         }
     }
 }
@@ -91,43 +101,53 @@ pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
 
 /// The residual of the equations (m, m^2 or rad).
 ///
-/// 17 operations.
+/// 24 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let fn_ = p.fn_;
     let p1 = p.self_;
     let u00e9 = p.u00e9;
     let r = p.r;
     let r_2 = p.r_2;
+    let greater_2 = p.greater;
+    let p6 = p.select;
+    let p7 = p.v1;
     let loop_x = q[0];
     let loop_y = q[1];
     let loop_phi = q[2];
     let loop_x_2 = q[3];
     let loop_y_2 = q[4];
     let loop_phi_2 = q[5];
-    let v1 = t * p1;
-    let v2 = u00e9 + v1;
-    let v3 = loop_phi_2 - loop_phi;
-    let (s4, c4) = sin_cos(loop_phi);
-    let v5 = -loop_x;
-    let v6 = -loop_y;
-    let v7 = c4 * r;
-    let v8 = s4 * r;
-    let v9 = loop_x + v7;
-    let v10 = loop_y + v8;
-    let v11 = v9 - loop_x_2;
-    let v12 = v10 - loop_y_2;
-    let v13 = loop_phi - v2;
-    let v14 = loop_phi * fn_;
-    let v15 = v14 * r_2;
-    let v16 = v15 / r;
-    let v17 = v3 - v16;
+    let v1 = p7 * p6;
+    let v2 = v1 - greater_2;
+    let v3 = t * p1;
+    let v4 = u00e9 + v3;
+    let v5 = greater(v4, v2);
+    let v6 = sign(t);
+    let v7 = f64::from(t < 1.0);
+    let v8 = select(v7, 0.0, v6);
+    let v9 = loop_phi_2 - loop_phi;
+    let (s10, c10) = sin_cos(loop_phi);
+    let v11 = -loop_x;
+    let v12 = -loop_y;
+    let v13 = c10 * r;
+    let v14 = s10 * r;
+    let v15 = loop_x + v13;
+    let v16 = loop_y + v14;
+    let v17 = v15 - loop_x_2;
+    let v18 = v16 - loop_y_2;
+    let v19 = loop_phi - v5;
+    let v20 = loop_phi * fn_;
+    let v21 = v20 * r_2;
+    let v22 = v21 / r;
+    let v23 = v8 + v22;
+    let v24 = v9 - v23;
     let mut out = [0.0; N];
-    out[0] = v5;
-    out[1] = v6;
-    out[2] = v11;
-    out[3] = v12;
-    out[4] = v13;
-    out[5] = v17;
+    out[0] = v11;
+    out[1] = v12;
+    out[2] = v17;
+    out[3] = v18;
+    out[4] = v19;
+    out[5] = v24;
     out
 }
 
@@ -164,21 +184,41 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
 
 /// The partial derivative of `phi` by time.
 ///
-/// 0 operations.
-pub fn phi_t(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
+/// 6 operations.
+pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let p1 = p.self_;
+    let u00e9 = p.u00e9;
+    let greater_2 = p.greater;
+    let p6 = p.select;
+    let p7 = p.v1;
+    let v1 = p7 * p6;
+    let v2 = v1 - greater_2;
+    let v3 = t * p1;
+    let v4 = u00e9 + v3;
+    let v5 = f64::from(v2 < v4);
+    let v6 = select(v5, p1, 0.0);
     let mut out = [0.0; N];
-    out[4] = -p1;
+    out[4] = -v6;
     out
 }
 
 /// Right side of the velocity equation `phi_q qd = nu`.
 ///
-/// 0 operations.
-pub fn nu(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
+/// 6 operations.
+pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let p1 = p.self_;
+    let u00e9 = p.u00e9;
+    let greater_2 = p.greater;
+    let p6 = p.select;
+    let p7 = p.v1;
+    let v1 = p7 * p6;
+    let v2 = v1 - greater_2;
+    let v3 = t * p1;
+    let v4 = u00e9 + v3;
+    let v5 = f64::from(v2 < v4);
+    let v6 = select(v5, p1, 0.0);
     let mut out = [0.0; N];
-    out[4] = p1;
+    out[4] = v6;
     out
 }
 
@@ -209,6 +249,27 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
         full[row][column] = value;
     }
     full
+}
+
+/// The second if the first is not 0, else the third.
+fn select(condition: f64, a: f64, b: f64) -> f64 {
+    if condition == 0.0 { b } else { a }
+}
+
+/// -1, 0 or 1; 0 at 0.
+fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        x
+    }
+}
+
+/// The larger one; not a number if either is not.
+fn greater(a: f64, b: f64) -> f64 {
+    if a.is_nan() || a > b { a } else { b }
 }
 
 use sine_and_cosine::sin_cos;

@@ -2,19 +2,20 @@
 //!
 //! - coordinates `q`: 9 (m, rad), equations `phi = 0`: 9
 //! - `phi_q`: 17 entries that do not vanish, see [`PHI_Q_PATTERN`]
-//! - parameters: 3
+//! - parameters: 3; those that follow from others are worked out
 //! - needs no other crate
 
-#![allow(clippy::approx_constant, clippy::eq_op, clippy::excessive_precision)]
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `crank_length`
+    /// `crank_length` (m)
     pub crank_length: f64,
-    /// `rod_length`
+    /// `rod_length` (m)
     pub rod_length: f64,
-    /// `speed`
+    /// `speed` (1/s)
     pub speed: f64,
 }
 
