@@ -14,36 +14,26 @@ mod report;
 mod run;
 mod timings;
 
-use arguments::{Arguments, Command};
+use arguments::{Arguments, Command, Input};
 use clap::Parser;
+use failure::Failure;
 use report::Reporter;
 use std::process::ExitCode;
 
 /// Runs the command that the process was called with.
 #[must_use]
 pub fn main() -> ExitCode {
-    let arguments = Arguments::parse();
-    let result = match arguments.command {
-        Command::Check(check) => {
-            let mut reporter = Reporter::new(&check.input);
-            let result = check::check(&check, &mut reporter);
-            reporter.finish(result)
-        }
-        Command::Dump(dump) => {
-            let mut reporter = Reporter::new(&dump.input);
-            let result = dump::dump(&dump, &mut reporter);
-            reporter.finish(result)
-        }
-        Command::Emit(emit) => {
-            let mut reporter = Reporter::new(&emit.input);
-            let result = emit::emit(&emit, &mut reporter);
-            reporter.finish(result)
-        }
-        Command::Run(run) => {
-            let mut reporter = Reporter::new(&run.input);
-            let result = run::run(&run, &mut reporter);
-            reporter.finish(result)
-        }
-    };
-    ExitCode::from(result)
+    ExitCode::from(match Arguments::parse().command {
+        Command::Check(check) => reported(&check.input, |reporter| check::check(&check, reporter)),
+        Command::Emit(emit) => reported(&emit.input, |reporter| emit::emit(&emit, reporter)),
+        Command::Dump(dump) => reported(&dump.input, |reporter| dump::dump(&dump, reporter)),
+        Command::Run(run) => reported(&run.input, |reporter| run::run(&run, reporter)),
+    })
+}
+
+/// Does a command's work and says why it ended; gives the exit code.
+fn reported(input: &Input, work: impl FnOnce(&mut Reporter) -> Result<(), Failure>) -> u8 {
+    let mut reporter = Reporter::new(input);
+    let result = work(&mut reporter);
+    reporter.finish(result)
 }
