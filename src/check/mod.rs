@@ -5,6 +5,7 @@
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
 mod builtins;
+mod calls;
 mod elements;
 mod errors;
 mod features;
@@ -18,8 +19,9 @@ use crate::expr::{ExprId, Symbol};
 use crate::model::{BodyId, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name};
+use calls::Call;
 use features::Feature;
-use formula::{Call, Context, Dim, Value};
+use formula::{Context, Dim, Value};
 use names::{Entity, Space, mentioned};
 use rustc_hash::FxHashMap;
 
