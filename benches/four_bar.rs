@@ -80,7 +80,7 @@ fn compiled() -> Determined {
     let mut sources = Sources::default();
     let file = sources.add("four_bar.mech", text.join("\n"));
     let tree = syntax::parse(&sources, file).expect("it follows the grammar");
-    mechc::compile(&tree.mechanisms[0], &[], &sources).0.expect("it is determined")
+    mechc::compile(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources).0.expect("it is determined")
 }
 
 fn started<'d>(determined: &'d Determined, program: &'d Program) -> Started<'d> {

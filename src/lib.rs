@@ -40,7 +40,7 @@ pub mod output;
 
 pub mod cli;
 
-use check::Setting;
+use check::Surroundings;
 use diag::Diagnostics;
 use source::Sources;
 use structure::Determined;
@@ -50,7 +50,7 @@ use syntax::ast;
 /// said of it.
 ///
 /// ```
-/// use mechc::{analysis, program::Program, source::Sources, syntax};
+/// use mechc::{analysis, check::Surroundings, program::Program, source::Sources, syntax};
 ///
 /// let mut sources = Sources::default();
 /// let file = sources.add("disc.mech", "
@@ -61,7 +61,7 @@ use syntax::ast;
 ///         driver motor: rotation(axle) = 90 deg/s * t
 ///     }");
 /// let tree = syntax::parse(&sources, file).expect("it follows the grammar");
-/// let (determined, _) = mechc::compile(&tree.mechanisms[0], &[], &sources);
+/// let (determined, _) = mechc::compile(&tree.mechanisms[0], &Surroundings::default(), &sources);
 /// let determined = determined.expect("it is determined");
 /// let program = Program::new(determined.system());
 /// let mut started = analysis::start(&determined, &program, 0.0, analysis::TOLERANCE).expect("it assembles");
@@ -71,10 +71,10 @@ use syntax::ast;
 #[must_use]
 pub fn compile(
     mechanism: &ast::Mechanism,
-    settings: &[Setting],
+    surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Determined>, Diagnostics) {
-    let (model, mut diagnostics) = check::check(mechanism, settings, sources);
+    let (model, mut diagnostics) = check::check(mechanism, surroundings, sources);
     let determined = model.and_then(|model| match structure::prove(lower::lower(&model)) {
         Ok(determined) => Some(determined),
         Err(diagnostic) => {

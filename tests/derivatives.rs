@@ -240,7 +240,7 @@ fn jacobians_and_right_sides_of_every_element() {
         for _ in 0..3 {
             let scale = |k: usize| match system.coordinates[k].kind {
                 mechc::ir::CoordinateKind::Length => system.length.max(1e-3),
-                mechc::ir::CoordinateKind::Angle => 1.0,
+                mechc::ir::CoordinateKind::Angle | mechc::ir::CoordinateKind::Argument => 1.0,
             };
             let q: Vec<f64> = (0..n)
                 .map(|k| along(&system, system.coordinates[k].estimate, 0.0, [&zero; 4], 0.0))

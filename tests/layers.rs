@@ -15,7 +15,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("expr", &["math"]),
     ("syntax", &["source", "diag"]),
     ("model", &["source", "expr"]),
-    ("check", &["source", "diag", "expr", "syntax", "model"]),
+    ("check", &["source", "math", "diag", "expr", "syntax", "model"]),
     ("ir", &["source", "expr"]),
     ("lower", &["expr", "model", "ir", "math"]),
     ("structure", &["ir", "expr", "diag"]),

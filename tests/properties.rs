@@ -362,6 +362,7 @@ fn value(graph: &Graph, root: ExprId, point: [Bounded; 2]) -> Bounded {
             Node::Or(a, b) => of(a).binary(Binary::Max, of(b)),
             Node::Not(a) => Bounded::exact(1.0).sub(of(a)),
             Node::Select(c, a, b) => of(c).select(of(a), of(b)),
+            Node::Table(..) => unreachable!("no tree holds a table"),
         };
         known.insert(id, value);
     }
@@ -574,7 +575,7 @@ fn the_order_of_declarations_means_nothing() {
         let tree = syntax::parse(&sources, file).expect("it follows the grammar");
         let mechanism = &tree.mechanisms[0];
         let follow = |mechanism: &ast::Mechanism| {
-            let (determined, diagnostics) = mechc::compile(mechanism, &[], &sources);
+            let (determined, diagnostics) = mechc::compile(mechanism, &mechc::check::Surroundings::default(), &sources);
             let span = determined
                 .as_ref()
                 .and_then(|d| d.system().analysis)

@@ -261,8 +261,36 @@ fn printing_stays_linear_where_parts_are_shared() {
     let mut sources = Sources::default();
     let file = sources.add("chain", text.as_str());
     let tree = mechc::syntax::parse(&sources, file).expect("it follows the grammar");
-    let (model, _) = mechc::check::check(&tree.mechanisms[0], &[], &sources);
+    let (model, _) = mechc::check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
     let model = model.expect("sound");
     assert!(model.to_string().len() < 20_000);
     assert!(mechc::lower::lower(&model).to_string().len() < 20_000);
+}
+
+#[test]
+fn a_ring_that_is_too_large_to_solve_is_refused() {
+    let n = 4_001;
+    let ring: String = (0..n).fold(String::new(), |mut text, k| {
+        let next = (k + 1) % n;
+        writeln!(text, "body b{k} {{ point O = (0, 0) }} constraint y{k}: y(b{k}.O) = 0").expect("text");
+        writeln!(text, "constraint p{k}: angle(b{k}) = 0").expect("text");
+        writeln!(text, "driver x{k}: x(b{k}.O) + 0.5 * x(b{next}.O) = t").expect("text");
+        text
+    });
+    let outcome =
+        run("ring", &format!("mechanism ring {{ {ring} analysis from 0 s to 1 s every 0.5 s }}"), Span::default());
+    assert_eq!(outcome.codes(), ["E0505"]);
+}
+
+#[test]
+fn tables_of_many_rows_and_edges_by_the_thousand() {
+    let rows: String = (0..2_000).fold(String::new(), |mut rows, k| {
+        write!(rows, "({k}, {}), ", k * 7 % 13).expect("text");
+        rows
+    });
+    let table = format!("table lift = spline [{rows}]");
+    check(&table, "lift(1000 * t)").expect_success();
+    check("fn saw(u) = if u - u < 0 then 1 else mod(u, 1)^2 * (1 - mod(u, 1))^2", "saw(3000 * t)").expect_success();
+    // a switch that stands on its edge all the time
+    check("fn still(u) = if sin(u)^2 + cos(u)^2 < 1 then 0 else 0 * u", "still(t) + t").expect_success();
 }

@@ -19,7 +19,7 @@ fn every_stage_of_every_mechanism() {
         let mut sources = Sources::default();
         let file = sources.add(name.clone(), text.as_str());
         let tree = syntax::parse(&sources, file).expect("it follows the grammar");
-        let (model, diagnostics) = check::check(&tree.mechanisms[0], &[], &sources);
+        let (model, diagnostics) = check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
         assert!(diagnostics.is_empty(), "{name}");
         let model = model.expect("sound");
         let rows = run(&name, &text, Span::default()).expect_success();

@@ -1,19 +1,21 @@
-//! Small inputs, each with its diagnostics: the marker `//~ CODE` stands on every line that a primary label begins on,
-//! and the whole text is in the snapshot beside the input.
+//! Small inputs, each with its diagnostics: the marker `//~ CODE` stands on every line that a primary label begins on (or,
+//! where that is in another file, the first label in this one), and the whole text is in the snapshot beside the input.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
+use mechc::source::Span;
 use std::fs;
 use std::path::Path;
-use support::{Outcome, Span, files, run, stem};
+use support::{Outcome, Span as Times, files, run_in, stem};
 
 /// `(line, code)` of every marker.
 fn markers(text: &str) -> Vec<(usize, String)> {
     text.lines()
         .enumerate()
-        .filter_map(|(k, line)| line.split_once("//~ ").map(|(_, code)| (k + 1, code.trim().to_owned())))
+        .filter_map(|(k, line)| line.split_once("//~ ").map(|(_, codes)| (k, codes)))
+        .flat_map(|(k, codes)| codes.split_whitespace().map(move |code| (k + 1, code.to_owned())))
         .collect()
 }
 
@@ -24,7 +26,8 @@ fn places(outcome: &Outcome) -> Vec<(usize, String)> {
         .iter()
         .filter(|diagnostic| diagnostic.severity() != mechc::diag::Severity::Note)
         .filter_map(|diagnostic| {
-            let span = diagnostic.labels.first()?.span;
+            let here = |span: Span| outcome.sources.get(span.file).name.ends_with(".mech");
+            let span = diagnostic.labels.iter().map(|label| label.span).find(|span| here(*span))?;
             let (line, _) = outcome.sources.get(span.file).position(span.start);
             Some((line, diagnostic.code.to_string()))
         })
@@ -36,8 +39,8 @@ fn places(outcome: &Outcome) -> Vec<(usize, String)> {
 fn check_file(path: &Path) {
     let text = fs::read_to_string(path).expect("a text");
     let name = path.file_name().expect("a name").to_string_lossy().into_owned();
-    let outcome = run(&name, &text, Span::default());
     let folder = path.parent().expect("a folder");
+    let outcome = run_in(folder, &name, &text, Times::default());
     let wanted = markers(&text);
     let where_ = path.display();
     if folder.ends_with("ok") {
@@ -73,6 +76,9 @@ fn every_input_gets_its_diagnostics() {
 /// Codes that a file alone cannot raise; the sessions in `tests/cli.rs` do.
 const OF_THE_COMMAND_LINE: &[&str] = &["E0102", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706"];
 
+/// Codes that only texts raise which are too large to be written down; `tests/robustness.rs` makes them.
+const OF_LARGE_INPUTS: &[&str] = &["E0505"];
+
 #[test]
 fn every_code_of_the_catalogue_is_shown() {
     let snapshots: String =
@@ -81,9 +87,12 @@ fn every_code_of_the_catalogue_is_shown() {
         .chain(files("tests/cli", "trycmd"))
         .map(|path| fs::read_to_string(path).expect("a text"))
         .collect();
+    let generated = fs::read_to_string("tests/robustness.rs").expect("a text");
     for code in mechc::diag::Code::ALL {
         let code = code.as_str();
-        let shown = if OF_THE_COMMAND_LINE.contains(&code) {
+        let shown = if OF_LARGE_INPUTS.contains(&code) {
+            generated.contains(code)
+        } else if OF_THE_COMMAND_LINE.contains(&code) {
             sessions.contains(code)
         } else {
             snapshots.contains(&format!("[{code}]"))

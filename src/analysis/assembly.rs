@@ -3,11 +3,13 @@
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
+use super::edges::shortly_after;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::singular;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
+use std::f64::consts::PI;
 
 /// Passes over the explicit coordinates at most; each settles what depends on the one before.
 const EXPLICIT_STEPS: usize = 50;
@@ -27,6 +29,8 @@ const LARGEST_DENSE: usize = 300;
 const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.
 const SINGULAR_START: f64 = 1e-5;
+/// A tangent shorter than this, in sizes of its body, is none.
+const VANISHING_TANGENT: f64 = 1e-7;
 
 /// How far assembly moved the bodies from their estimates.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -47,29 +51,34 @@ pub struct Moved {
 pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
     let system = kinematics.system();
     let estimates = kinematics.estimates();
+    // at a switch the later side counts
+    kinematics.settle_time(shortly_after(t));
+    kinematics.freeze(true, false);
     kinematics.set_time(t);
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
     let start = explicit_first(kinematics, &estimates);
-    let (q, perturbed) = match newton(kinematics, &start) {
+    let (q, perturbed) = match assembled(kinematics, &start) {
         Some(q) => (q, false),
         None => by_least_squares(kinematics, &start, t)?,
     };
     let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
+    refuse_vanishing_tangents(kinematics, &q, t)?;
     refuse_singular(kinematics, &q, t)?;
     Ok((State::new(t, q), moved))
 }
 
 fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
     let mut moved = Moved::default();
-    for (coordinate, (a, b)) in system.coordinates.iter().zip(from.iter().zip(to)) {
+    for (k, (a, b)) in from.iter().zip(to).enumerate() {
+        let Some(body) = system.body_of(k) else {
+            continue;
+        };
         let way = (b - a).abs();
-        match coordinate.kind {
-            CoordinateKind::Length if way > moved.length => {
-                (moved.length, moved.length_body) = (way, coordinate.body);
-            }
-            CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, coordinate.body),
+        match system.coordinates[k].kind {
+            CoordinateKind::Length if way > moved.length => (moved.length, moved.length_body) = (way, body),
+            CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, body),
             _ => {}
         }
     }
@@ -99,6 +108,22 @@ fn explicit_first(kinematics: &mut Kinematics<'_>, estimates: &[f64]) -> Vec<f64
         }
     }
     estimates.to_vec()
+}
+
+/// Where Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
+/// alone would let it point the other way.
+fn assembled(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
+    let q = newton(kinematics, start)?;
+    let turned = kinematics.turned_lines();
+    if turned.is_empty() {
+        return Some(q);
+    }
+    let mut again = q;
+    for theta in turned {
+        again[theta] += if again[theta] > start[theta] { -PI } else { PI };
+    }
+    let q = newton(kinematics, &again)?;
+    kinematics.turned_lines().is_empty().then_some(q)
 }
 
 /// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
@@ -152,12 +177,12 @@ fn by_least_squares(
             .map(|k| estimates[k] + size * kinematics.linear().column_scale(k) * noise.next())
             .collect();
         let q = least_squares(kinematics, start);
-        if let Some(polished) = newton(kinematics, &q) {
+        if let Some(polished) = assembled(kinematics, &q) {
             return Ok((polished, size > 0.0));
         }
         let _ = kinematics.set_position(&q);
         let _ = kinematics.factor();
-        if kinematics.violated().is_none() {
+        if kinematics.violated().is_none() && kinematics.turned_lines().is_empty() {
             // assembled, but Newton does not settle: a singular position
             return Ok((q, size > 0.0));
         }
@@ -186,6 +211,20 @@ fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
     // a length or a driver is more often wrong than a pin
     rows.sort_by_key(|row| matches!(kinematics.system().declaration_of(row.0).kind, DeclarationKind::Joint(word) if word != "revolute_revolute"));
     errors::cannot_assemble(kinematics.system(), &rows, t)
+}
+
+/// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
+fn refuse_vanishing_tangents(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let system = kinematics.system();
+    if kinematics.set_position(q).is_err() {
+        return Ok(());
+    }
+    let vanishes =
+        |k: &usize| system.watches[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT;
+    match (0..system.watches.len()).find(vanishes) {
+        Some(index) => Err(Box::new(errors::no_contact(system, index, t))),
+        None => Ok(()),
+    }
 }
 
 /// The equations must be independent where the motion starts.

@@ -3,10 +3,16 @@
 use super::assembly::Moved;
 use super::kinematics::Fault;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::ir::{ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Fit, WatchKind};
 
 /// Labels of one message at most.
 const LISTED: usize = 6;
+
+/// Gears may be off by this part of the larger radius.
+const LARGEST_MISFIT: f64 = 1e-6;
+
+/// Columns that one message names at most.
+const MOST_COLUMNS: usize = 12;
 
 /// A time as a reader wants it.
 fn at(t: f64) -> String {
@@ -46,7 +52,7 @@ fn named(system: &ConstraintSystem, row: usize) -> String {
 
 pub fn too_large(system: &ConstraintSystem, size: usize, largest: usize) -> Diagnostic {
     Diagnostic::new(
-        Code::E0208,
+        Code::E0505,
         format!("{size} coordinates have to be solved together; this version solves up to {largest} of them"),
     )
     .at(system.span, "one closed chain of bodies")
@@ -62,7 +68,8 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
             Diagnostic::new(Code::E0605, message).at(declaration.span, "infinite or not a number").datum("t", t)
         }
         Fault::Condition { index } => condition(system, index, t),
-        Fault::Singular | Fault::TooFar => cannot_follow(system, t, None),
+        Fault::Watch { index } => no_contact(system, index, t),
+        Fault::Singular | Fault::TooFar | Fault::Edge => cannot_follow(system, t, None),
     }
 }
 
@@ -75,13 +82,154 @@ pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Di
 
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let condition = &system.conditions[index];
-    let message = if condition.is_distance {
-        format!("the distance of `{}` is not positive at {}", condition.owner, at(t))
-    } else {
-        format!("the interval of a motion in `{}` is empty at {}", condition.owner, at(t))
+    let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
+    let owner = &condition.owner;
+    match condition.kind {
+        ConditionKind::Distance => diagnostic(Code::E0606, &format!("the distance of `{owner}` is not positive"))
+            .at(condition.span, "reaches zero")
+            .help("a distance must stay above zero"),
+        ConditionKind::Interval => diagnostic(Code::E0606, &format!("the interval of a motion in `{owner}` is empty"))
+            .at(condition.span, "reaches zero"),
+        ConditionKind::Range(table) => {
+            let table = &system.graph.tables()[table.index()];
+            let ends = [table.knots.first(), table.knots.last()];
+            let [first, last] = ends.map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])));
+            diagnostic(Code::E0608, &format!("table `{}` is left in `{owner}`", table.name))
+                .at(condition.span, format!("out of its range, {} to {}", short(first), short(last)))
+                .help("add rows, or let it repeat: `periodic spline`")
+        }
+    }
+}
+
+/// `joint `contact``, `driver `motor` and `brake``.
+fn named_all(system: &ConstraintSystem, declarations: &[usize]) -> String {
+    let names: Vec<String> = declarations
+        .iter()
+        .take(LISTED)
+        .map(|&k| format!("{} `{}`", system.declarations[k].kind.noun(), system.declarations[k].name))
+        .collect();
+    names.join(" and ")
+}
+
+fn in_units(system: &ConstraintSystem, column: usize, value: f64) -> String {
+    match system.coordinates[column].kind {
+        CoordinateKind::Length => length(value),
+        CoordinateKind::Angle => degrees(value),
+        CoordinateKind::Argument => three_digits(value),
+    }
+}
+
+/// A position that would have to change in no time.
+pub fn position_jump(system: &ConstraintSystem, behind: &[usize], column: usize, by: f64, t: f64) -> Diagnostic {
+    let is_contact =
+        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
+    if let Some(&joint) = behind.iter().find(|k| is_contact(k)) {
+        let joint = &system.declarations[joint];
+        let message = format!("the contact of `{}` comes to a corner of its curve at {}", joint.name, at(t));
+        return Diagnostic::new(Code::E0609, message)
+            .at(joint.span, "the tangent of the curve jumps there")
+            .help("round the corner: a curve under a cam or flat follower needs a tangent everywhere")
+            .datum("t", t);
+    }
+    let message = format!("{} jumps at {}", named_all(system, behind), at(t));
+    let how = format!("`{}` would have to jump by {}", system.coordinates[column].name, in_units(system, column, by));
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+        .help("let the two branches meet there, or lead from one to the other with `step5(t, t0, v0, t1, v1)`")
+        .datum("t", t)
+}
+
+/// A velocity that would have to change in no time.
+pub fn velocity_jump(
+    system: &ConstraintSystem,
+    behind: &[usize],
+    column: usize,
+    [before, after]: [f64; 2],
+    t: f64,
+) -> Diagnostic {
+    let message = format!("the velocity of {} jumps at {}: there is no acceleration", named_all(system, behind), at(t));
+    let velocity = |value: f64| format!("{}/s", in_units(system, column, value));
+    let how = format!("`{}.d` jumps from {} to {}", system.coordinates[column].name, velocity(before), velocity(after));
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+        .help("motions that begin and end at rest: `step`, `harmonic`; smooth to the acceleration: `step5`, `cycloidal`, `modsine`")
+        .datum("t", t)
+}
+
+/// An acceleration that has two values at one time.
+pub fn acceleration_jump(system: &ConstraintSystem, behind: &[usize], columns: &[String], t: f64) -> Diagnostic {
+    let message = format!("the acceleration of {} jumps at {}", named_all(system, behind), at(t));
+    let mut shown: Vec<String> = columns.iter().take(MOST_COLUMNS).map(|name| format!("`{name}`")).collect();
+    if columns.len() > MOST_COLUMNS {
+        shown.push(format!("{} more", columns.len() - MOST_COLUMNS));
+    }
+    with_places(Diagnostic::new(Code::W0601, message), system, behind, "jumps there, and maybe again later")
+        .note(format!("columns that jump: {}", shown.join(", ")))
+        .help("at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`")
+        .datum("t", t)
+}
+
+/// A contact where a tangent vanishes, or gears whose centres meet.
+pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let watch = &system.watches[index];
+    let joint = &system.declarations[watch.declaration];
+    let diagnostic = |message: String| Diagnostic::new(Code::E0607, message).datum("t", t);
+    match watch.kind {
+        WatchKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
+            .at(joint.span, "there is no line of centres")
+            .help("hold the gears apart by a carrier"),
+        WatchKind::Tangents | WatchKind::Curvature => diagnostic(format!(
+            "a curve has no tangent at the contact `{}` at {}",
+            joint.name,
+            at(t)
+        ))
+        .at(joint.span, "the derivative of the curve by its argument vanishes there")
+        .help(
+            "give another first estimate: `curve k(u) = (…) at …`; or write the curve so that it nowhere rests as \
+                     its argument goes on",
+        ),
+    }
+}
+
+/// Why a contact is singular.
+pub fn equal_curvatures(system: &ConstraintSystem, joint: usize) -> String {
+    let name = &system.declarations[joint].name;
+    match system.declarations[joint].kind {
+        DeclarationKind::Joint("flat_follower") => format!("at the contact `{name}` the curve is as flat as the face"),
+        _ => format!("at the contact `{name}` the curvatures of the two curves are equal"),
+    }
+}
+
+/// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.
+pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
+    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - wanted;
+    if off.abs() <= LARGEST_MISFIT * radius {
+        return None;
+    }
+    let joint = &system.declarations[fit.declaration];
+    let (what, why) = match joint.kind {
+        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii"),
+        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii"),
+        _ => ("centre and axis", "the radius"),
     };
-    let diagnostic = Diagnostic::new(Code::E0606, message).at(condition.span, "reaches zero").datum("t", t);
-    if condition.is_distance { diagnostic.help("a distance must stay above zero") } else { diagnostic }
+    let message = format!(
+        "the {what} of `{}` are {} apart at {}, {why} is {}",
+        joint.name,
+        digits_that_differ(distance, wanted),
+        at(t),
+        digits_that_differ(wanted, distance)
+    );
+    Some(
+        Diagnostic::new(Code::W0501, message)
+            .at(joint.span, format!("off by {}", length(off)))
+            .help("a gear or rack does not hold its distance: the joints of its bodies must"),
+    )
+}
+
+/// A length (m) with as many digits as tell it from another.
+fn digits_that_differ(value: f64, other: f64) -> String {
+    let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
+    let rounded: f64 = format!("{:.digits$e}", value * 1e3).parse().unwrap_or(value);
+    format!("{rounded} mm")
 }
 
 pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -> Diagnostic {
@@ -118,13 +266,17 @@ fn with_places(mut diagnostic: Diagnostic, system: &ConstraintSystem, joints: &[
     diagnostic
 }
 
-fn bodies_of(system: &ConstraintSystem, bodies: &[usize]) -> String {
-    let names: Vec<String> =
-        bodies.iter().take(LISTED).map(|&body| format!("`{}`", system.bodies[body].name)).collect();
+/// The bodies that coordinates are of; where none is a body's, the joints.
+fn owners(system: &ConstraintSystem, columns: &[usize]) -> String {
+    let of_bodies: Vec<usize> = columns.iter().copied().filter(|&k| system.body_of(k).is_some()).collect();
+    let columns = if of_bodies.is_empty() { columns } else { &of_bodies };
+    let mut names: Vec<String> = columns.iter().map(|&column| format!("`{}`", system.owner_name(column))).collect();
+    names.dedup();
+    names.truncate(LISTED);
     names.join(", ")
 }
 
-pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
+pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
     let declaration = system.declaration_of(driver);
     let diagnostic = Diagnostic::new(
         Code::E0602,
@@ -132,18 +284,18 @@ pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], bodie
     )
     .at(declaration.span, "drives into a dead point");
     with_places(diagnostic, system, joints, "these hold it there")
-        .note(format!("the bodies that would have to jump: {}", bodies_of(system, bodies)))
+        .note(format!("the bodies that would have to jump: {}", owners(system, columns)))
         .help("let the driver turn back before that time, drive another joint, or change a length")
         .datum("t", t)
 }
 
-pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], bodies: &[usize], t: f64) -> Diagnostic {
+pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::E0603,
         format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
     );
     with_places(diagnostic, system, joints, "these leave it open")
-        .note(format!("the bodies that could go either way: {}", bodies_of(system, bodies)))
+        .note(format!("the bodies that could go either way: {}", owners(system, columns)))
         .help("change a length a little, or stop before that time")
         .datum("t", t)
 }
@@ -158,14 +310,12 @@ pub fn without_effect(system: &ConstraintSystem, row: usize, t: f64) -> Diagnost
 }
 
 pub fn singular_start(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
-    let mut bodies: Vec<usize> = columns.iter().map(|&column| system.coordinates[column].body).collect();
-    bodies.dedup();
     let diagnostic = Diagnostic::new(
         Code::E0504,
         format!("the equations are not independent in the assembled position at {}", at(t)),
     );
     with_places(diagnostic, system, joints, "these depend on each other there")
-        .note(format!("the bodies that are left free to move: {}", bodies_of(system, &bodies)))
+        .note(format!("the bodies that are left free to move: {}", owners(system, columns)))
         .help("a dead point or change point: start at another time; else one of these joints is redundant")
         .datum("t", t)
         .datum("coordinates", system.coordinates.len())

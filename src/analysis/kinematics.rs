@@ -3,8 +3,8 @@
 use super::errors;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, Measure};
-use crate::program::{Program, Register, Registers, Stage};
+use crate::ir::{ConstraintSystem, Measure, Owner, WatchKind};
+use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Stage, Switch};
 use crate::structure::Determined;
 
 /// Largest irreducible block that the dense factors can hold.
@@ -52,6 +52,10 @@ pub(super) enum Fault {
     TooFar,
     /// A formula that must be positive is not: its number.
     Condition { index: usize },
+    /// What is watched changes its sign: its number.
+    Watch { index: usize },
+    /// The step goes over an edge.
+    Edge,
 }
 
 /// A mechanism's program with its registers and factors.
@@ -100,6 +104,67 @@ impl<'d> Kinematics<'d> {
         self.program.outputs.estimates.iter().map(|&register| self.registers.get(register)).collect()
     }
 
+    /// Which switches stay as they are from now on.
+    pub fn freeze(&mut self, time: bool, motion: bool) {
+        self.registers.freeze(Frozen { time, motion });
+    }
+
+    /// Sets the switches of time to what they are at a time, and keeps them so.
+    pub fn settle_time(&mut self, t: f64) {
+        self.freeze(false, true);
+        self.set_time(t);
+        self.freeze(true, true);
+    }
+
+    /// Sets the switches of the motion to what they are at a position, and keeps them so.
+    pub fn settle_motion(&mut self, q: &[f64]) {
+        self.freeze(true, false);
+        // what is wrong with the position itself shows where it is solved for
+        let _ = self.set_position(q);
+        self.freeze(true, true);
+    }
+
+    /// Where the equations may have edges.
+    pub fn switches(&self) -> &'d [Switch] {
+        self.program.switches()
+    }
+
+    /// Whether a switch would have another result now if it were not frozen.
+    pub fn would_switch(&self, switch: &Switch) -> bool {
+        let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
+        // what is not a number is told elsewhere
+        !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
+    }
+
+    /// Whether a switch stands exactly on its edge.
+    pub fn is_on_edge(&self, switch: &Switch) -> bool {
+        match switch.op {
+            Op::Compare { a, b, .. } => self.registers.get(a).total_cmp(&self.registers.get(b)).is_eq(),
+            _ => false,
+        }
+    }
+
+    /// Room for proofs about the switches of time.
+    pub fn enclosure(&self) -> Enclosure {
+        Enclosure::new(self.program, &self.registers)
+    }
+
+    /// Whether the switches of time keep their results from one time (s) to another.
+    pub fn is_steady(&self, enclosure: &mut Enclosure, from: f64, to: f64) -> bool {
+        enclosure.is_steady(self.program, &self.registers, from, to)
+    }
+
+    /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
+    /// derivatives where the position was set must just have been computed.
+    pub fn left_open(&self, row: usize, state: &State) -> (f64, f64) {
+        let (pattern, outputs) = (&self.system().phi_q, &self.program.outputs);
+        let left = |x: &[f64]| -> f64 {
+            pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
+        };
+        let open = |x: &[f64], right: Register| (left(x) - self.registers.get(right)).abs() / self.linear.row_norm(row);
+        (open(&state.qd, outputs.nu[row]), open(&state.qdd, outputs.gamma[row]))
+    }
+
     pub fn set_time(&mut self, t: f64) {
         self.registers.set(self.program.inputs.time, t);
         self.program.run(Stage::Time, &mut self.registers);
@@ -126,6 +191,26 @@ impl<'d> Kinematics<'d> {
     /// An entry of Φ_q, by its position in the pattern.
     pub fn phi_q(&self, position: usize) -> f64 {
         self.registers.get(self.program.outputs.phi_q[position])
+    }
+
+    /// A quantity that is watched, against its scale, where the position was set.
+    pub fn watched(&self, index: usize) -> f64 {
+        self.registers.get(self.program.outputs.watches[index]) / self.system().watches[index].scale
+    }
+
+    /// Writes the sign of everything that is watched.
+    pub fn sides(&self, sides: &mut [bool]) {
+        for (k, side) in sides.iter_mut().enumerate() {
+            *side = self.watched(k) > 0.0;
+        }
+    }
+
+    /// The coordinates `θ` of lines of centres that point away from the other centre, where the position was set.
+    pub fn turned_lines(&self) -> Vec<usize> {
+        let system = self.system();
+        let is_turned = |k: &usize| system.watches[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
+        let joints = (0..system.watches.len()).filter(is_turned).map(|k| Owner::Joint(system.watches[k].declaration));
+        joints.filter_map(|owner| system.coordinates.iter().position(|c| c.owner == owner)).collect()
     }
 
     /// Factors Φ_q where the position was set.

@@ -3,10 +3,12 @@
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
 //! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So the branch followed does not depend on the output times.
 
+use super::edges::{Edge, shortly_after};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::singular;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::program::Enclosure;
 
 /// Largest first correction of a step, scaled.
 const LARGEST_CORRECTION: f64 = 0.05;
@@ -33,13 +35,34 @@ const MOST_STEPS: u64 = 1_000_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 pub struct Motion<'m, 'd> {
-    kinematics: &'m mut Kinematics<'d>,
-    state: &'m mut State,
-    trial: State,
-    delta: Vec<f64>,
-    middle: Vec<f64>,
+    pub(super) kinematics: &'m mut Kinematics<'d>,
+    pub(super) state: &'m mut State,
+    pub(super) trial: State,
+    pub(super) delta: Vec<f64>,
+    pub(super) middle: Vec<f64>,
+    /// The sign of each block's determinant.
     signs: Vec<bool>,
     trial_signs: Vec<bool>,
+    /// The sign of what is watched.
+    sides: Vec<bool>,
+    trial_sides: Vec<bool>,
+    /// The time that the steps are measured against (s).
+    pub(super) span: f64,
+    /// The last time (s).
+    pub(super) last: f64,
+    pub(super) has_time_switches: bool,
+    pub(super) enclosure: Enclosure,
+    /// An edge of the motion that a longer step has met.
+    pub(super) met: Option<Edge>,
+    /// The earlier side of the edge that is being crossed.
+    pub(super) before: State,
+    pub(super) row_before: Vec<f64>,
+    /// How fast velocities and accelerations change, scaled, over the last step (1/s², 1/s³).
+    pub(super) pace: f64,
+    pub(super) jerk: f64,
+    /// Declarations of which it has been said that they make an acceleration jump.
+    pub(super) warned: Vec<bool>,
+    pub(super) remarks: Diagnostics,
     /// The step that the error allows (s).
     h: f64,
     smallest: f64,
@@ -47,7 +70,7 @@ pub struct Motion<'m, 'd> {
     /// Where the last step was looked into, from 0 to 1.
     probe: f64,
     begun: bool,
-    row: Vec<f64>,
+    pub(super) row: Vec<f64>,
 }
 
 /// How well a step went.
@@ -60,13 +83,29 @@ impl<'m, 'd> Motion<'m, 'd> {
     pub(super) fn new(kinematics: &'m mut Kinematics<'d>, state: &'m mut State, span: f64) -> Motion<'m, 'd> {
         let n = state.q.len();
         let blocks = kinematics.linear().blocks();
+        let watches = kinematics.system().watches.len();
         let smallest = SMALLEST_STEP * span;
+        let switches = kinematics.switches();
         Motion {
+            // what happens in no time at all is measured by the second
+            span: if span > 0.0 { span } else { 1.0 },
+            last: state.t + span,
+            has_time_switches: switches.iter().any(|switch| switch.on_time),
+            enclosure: kinematics.enclosure(),
+            met: None,
+            before: state.clone(),
+            row_before: vec![0.0; kinematics.row_length()],
+            pace: 0.0,
+            jerk: 0.0,
+            warned: vec![false; kinematics.system().declarations.len()],
+            remarks: Diagnostics::default(),
             trial: state.clone(),
             delta: vec![0.0; n],
             middle: vec![0.0; n],
             signs: vec![true; blocks],
             trial_signs: vec![true; blocks],
+            sides: vec![true; watches],
+            trial_sides: vec![true; watches],
             h: span / FEWEST_STEPS,
             smallest,
             largest: span / FEWEST_STEPS,
@@ -89,21 +128,42 @@ impl<'m, 'd> Motion<'m, 'd> {
         if t <= self.state.t {
             self.row_at_rest()?;
         }
+        self.last = self.last.max(t);
         let mut steps = 0;
         while self.state.t < t {
             steps += 1;
             if steps > MOST_STEPS {
                 return Err(Box::new(singular::explain_haste(self.kinematics, self.state, MOST_STEPS, t)));
             }
-            let left = t - self.state.t;
-            // no crumb at the end
-            let (h, next) = if self.h >= 0.999 * left { (left, t) } else { (self.h, self.state.t + self.h) };
-            match self.try_step(h, next, next >= t) {
-                Ok(accepted) => self.accept(h, &accepted),
-                Err(fault) => self.shorten(h, fault, t)?,
-            }
+            self.step_towards(t)?;
         }
         if self.row.iter().all(|value| value.is_finite()) { Ok(&self.row) } else { Err(Box::new(self.explain_row(t))) }
+    }
+
+    /// A step, as far as the error and the next edge allow.
+    fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+        let left = t - self.state.t;
+        // no crumb at the end
+        let next = if self.h >= 0.999 * left { t } else { self.state.t + self.h };
+        let edge = self.next_edge(next, next >= t);
+        let next = edge.map_or(next, |edge| edge.t);
+        let h = next - self.state.t;
+        if h <= 0.0 {
+            return edge.map_or(Ok(()), |edge| self.cross(edge));
+        }
+        match self.try_step(h, next, next >= t, self.met.is_some_and(|met| met.t <= next)) {
+            Ok(accepted) => {
+                self.accept(h, &accepted);
+                edge.map_or(Ok(()), |edge| self.cross(edge))
+            }
+            Err(Fault::Edge) if self.locate(next) => Ok(()),
+            Err(fault) => self.shorten(h, fault, t),
+        }
+    }
+
+    /// What there is to say beside the rows so far, each thing once.
+    pub fn take_remarks(&mut self) -> Diagnostics {
+        std::mem::take(&mut self.remarks)
     }
 
     /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
@@ -116,7 +176,14 @@ impl<'m, 'd> Motion<'m, 'd> {
     fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
         self.begun = true;
         self.kinematics.restore(self.state);
+        if !self.kinematics.switches().is_empty() {
+            // which way it goes on decides on which side of an edge it begins
+            let _ = self.kinematics.derivatives(self.state);
+            self.settle(Some(shortly_after(self.state.t)));
+            self.kinematics.restore(self.state);
+        }
         self.kinematics.linear().signs(&mut self.signs);
+        self.kinematics.sides(&mut self.sides);
         if let Err(fault) = self.kinematics.derivatives(self.state) {
             return Err(Box::new(self.explain_start(fault)));
         }
@@ -139,13 +206,13 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
-    fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
+    fn try_step(&mut self, h: f64, t: f64, wanted: bool, to_edge_of_motion: bool) -> Result<Accepted, Fault> {
         self.predict(h, t)?;
         let first_correction = self.correct()?;
-        self.kinematics.linear().signs(&mut self.trial_signs);
-        if self.trial_signs != self.signs {
-            return Err(Fault::Singular);
+        if !to_edge_of_motion && self.meets_edge() {
+            return Err(Fault::Edge);
         }
+        self.same_branch()?;
         self.keep_away()?;
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
@@ -156,8 +223,19 @@ impl<'m, 'd> Motion<'m, 'd> {
         Ok(Accepted { first_correction, between })
     }
 
+    /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
+    /// kept its sign.
+    pub(super) fn same_branch(&mut self) -> Result<(), Fault> {
+        self.kinematics.linear().signs(&mut self.trial_signs);
+        self.kinematics.sides(&mut self.trial_sides);
+        if let Some(index) = (0..self.sides.len()).find(|&k| self.sides[k] != self.trial_sides[k]) {
+            return Err(Fault::Watch { index });
+        }
+        if self.trial_signs == self.signs { Ok(()) } else { Err(Fault::Singular) }
+    }
+
     /// Taylor's predictor, which costs nothing: both derivatives are known.
-    fn predict(&mut self, h: f64, t: f64) -> Result<(), Fault> {
+    pub(super) fn predict(&mut self, h: f64, t: f64) -> Result<(), Fault> {
         self.trial.t = t;
         let mut motion: f64 = 0.0;
         for k in 0..self.trial.q.len() {
@@ -169,7 +247,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     /// Newton, until the full Φ is below the tolerance; gives the first correction.
-    fn correct(&mut self) -> Result<f64, Fault> {
+    pub(super) fn correct(&mut self) -> Result<f64, Fault> {
         self.kinematics.set_time(self.trial.t);
         self.kinematics.set_position(&self.trial.q)?;
         let mut first = None;
@@ -235,6 +313,14 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
+        if !self.kinematics.switches().is_empty() {
+            let (a, b, linear) = (&*self.state, &self.trial, self.kinematics.linear());
+            let change = |a: &[f64], b: &[f64]| {
+                let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
+                (0..a.len()).map(scaled).fold(0.0, f64::max)
+            };
+            (self.pace, self.jerk) = (change(&a.qd, &b.qd) / h, change(&a.qdd, &b.qdd) / h);
+        }
         self.state.copy_from(&self.trial);
         self.signs.copy_from_slice(&self.trial_signs);
         // the predictor's error grows with h³, the curve's between with h⁶

@@ -9,6 +9,7 @@
 //! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there.
 
 mod assembly;
+mod edges;
 mod errors;
 mod kinematics;
 mod linear;
@@ -21,6 +22,7 @@ pub use march::Motion;
 pub use times::Times;
 
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::ConstraintSystem;
 use crate::program::Program;
 use crate::structure::Determined;
 use kinematics::{Kinematics, State};
@@ -51,11 +53,13 @@ pub fn start<'d>(
 }
 
 impl<'d> Started<'d> {
-    /// What is to be said of the assembly, if it moved bodies far.
+    /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {
         let mut diagnostics = Diagnostics::default();
-        diagnostics.extend(errors::far_estimates(self.kinematics.system(), &self.moved, self.state.t));
+        let (system, state) = (self.kinematics.system(), &self.state);
+        diagnostics.extend(errors::far_estimates(system, &self.moved, state.t));
+        diagnostics.extend(system.fits.iter().filter_map(|fit| errors::misfit(system, fit, &state.q, state.t)));
         diagnostics
     }
 
@@ -81,16 +85,7 @@ impl<'d> Started<'d> {
     /// Names of the result's columns, in order.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
-        let system = self.kinematics.system();
-        let coordinates = || system.coordinates.iter().map(|coordinate| coordinate.name.clone());
-        let mut columns = vec!["t".to_owned()];
-        columns.extend(coordinates());
-        columns.extend(system.measures.iter().map(|measure| measure.name.clone()));
-        columns.extend(coordinates().map(|name| name + ".d"));
-        columns.extend(system.measures.iter().filter(|m| m.first.is_some()).map(|m| format!("{}.d", m.name)));
-        columns.extend(coordinates().map(|name| name + ".dd"));
-        columns.extend(system.measures.iter().filter(|m| m.second.is_some()).map(|m| format!("{}.dd", m.name)));
-        columns
+        columns(self.kinematics.system())
     }
 
     /// The motion from the start on, over a span of time (s) that the steps are measured against.
@@ -98,4 +93,17 @@ impl<'d> Started<'d> {
     pub fn motion(&mut self, span: f64) -> Motion<'_, 'd> {
         Motion::new(&mut self.kinematics, &mut self.state, span)
     }
+}
+
+/// Names of a result's columns, in order.
+fn columns(system: &ConstraintSystem) -> Vec<String> {
+    let coordinates = || system.coordinates.iter().map(|coordinate| coordinate.name.clone());
+    let mut columns = vec!["t".to_owned()];
+    columns.extend(coordinates());
+    columns.extend(system.measures.iter().map(|measure| measure.name.clone()));
+    columns.extend(coordinates().map(|name| name + ".d"));
+    columns.extend(system.measures.iter().filter(|m| m.first.is_some()).map(|m| format!("{}.d", m.name)));
+    columns.extend(coordinates().map(|name| name + ".dd"));
+    columns.extend(system.measures.iter().filter(|m| m.second.is_some()).map(|m| format!("{}.dd", m.name)));
+    columns
 }

@@ -3,10 +3,12 @@
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::ir::{ConstraintSystem, DeclarationKind, WatchKind};
 
 /// Below this the position is called singular, or as near to one as the steps could come.
 const NEAR: f64 = 1e-2;
+/// A relative curvature below this is taken for none, beside a position that is singular.
+const FLAT: f64 = 1e-3;
 /// A driver takes part in a dependency if its share is above this part of the largest.
 const TAKES_PART: f64 = 1e-3;
 
@@ -21,17 +23,33 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     if let Some(fault) = without_value(kinematics, state, just_ahead) {
         return errors::no_value(system, fault, state.t);
     }
+    if let Fault::Watch { index } = fault
+        && system.watches[index].kind != WatchKind::Curvature
+    {
+        return errors::no_contact(system, index, state.t);
+    }
     kinematics.restore(state);
     let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
     let diagnostic = if singular.sigma < NEAR {
-        name_singular(system, &singular.left, &singular.right, state.t)
+        let named = name_singular(system, &singular.left, &singular.right, state.t);
+        match flat_contact(kinematics) {
+            Some(joint) => named.note(errors::equal_curvatures(system, joint)),
+            None => named,
+        }
     } else if let Some(fault) = without_value(kinematics, state, target) {
         errors::no_value(system, fault, target)
     } else {
         errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
     };
     diagnostic.datum("residual", residual)
+}
+
+/// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
+fn flat_contact(kinematics: &Kinematics<'_>) -> Option<usize> {
+    let watches = &kinematics.system().watches;
+    let flat = |k: &usize| watches[*k].kind == WatchKind::Curvature && kinematics.watched(*k).abs() < FLAT;
+    (0..watches.len()).find(flat).map(|k| watches[k].declaration)
 }
 
 /// The diagnosis where so many steps did not get to `target`.
@@ -51,10 +69,10 @@ fn without_value(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Opti
 
 /// A lock-up where a driver takes part in the dependency of the equations, a bifurcation where none does.
 fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
-    let (joints, bodies) = (joints_in(system, left), bodies_in(system, right));
+    let (joints, columns) = (joints_in(system, left), columns_in(right));
     match driver_in(system, left) {
-        Some(row) => errors::lock_up(system, row, &joints, &bodies, t),
-        None => errors::bifurcation(system, &joints, &bodies, t),
+        Some(row) => errors::lock_up(system, row, &joints, &columns, t),
+        None => errors::bifurcation(system, &joints, &columns, t),
     }
 }
 
@@ -95,13 +113,6 @@ fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
 fn columns_in(right: &[f64]) -> Vec<usize> {
     let fastest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     (0..right.len()).filter(|&column| right[column].abs() > 0.1 * fastest).collect()
-}
-
-/// The bodies that the free motion moves.
-fn bodies_in(system: &ConstraintSystem, right: &[f64]) -> Vec<usize> {
-    let mut bodies: Vec<usize> = columns_in(right).into_iter().map(|column| system.coordinates[column].body).collect();
-    bodies.dedup();
-    bodies
 }
 
 /// The row of the driver whose bodies move fastest: where something becomes too fast to follow.

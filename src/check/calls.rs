@@ -38,14 +38,13 @@ impl Checker<'_> {
                 }
                 self.function_value(k, argument, e.span, context)
             }
-            // said where it is declared
-            Some(Entity::Table) => None,
+            Some(Entity::Table(k)) => self.table_call(k, e, arguments, context),
             Some(entity) => {
                 self.report(errors::not_callable(name, entity));
                 None
             }
             None => {
-                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_)));
+                let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let diagnostic = errors::unknown_function(name, &own);
                 self.report(diagnostic);
                 None

@@ -1,110 +1,14 @@
-//! Joints, measures, constraints, drivers and the analysis.
+//! Measures, constraints, drivers and the analysis.
 
 use super::formula::Context;
 use super::{Checker, declared, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Joint, JointKind, Measure, Named,
-    PointId, Quantity,
+    Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId, Quantity,
 };
-use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 
-const JOINTS: &[&str] = &["revolute", "translational", "weld", "revolute_revolute", "revolute_translational"];
-
-/// Joints of the language that this version reads only.
-const LATER_JOINTS: &[&str] = &["gear", "internal_gear", "rack_pinion", "point_follower", "cam", "flat_follower"];
-
 impl Checker<'_> {
-    pub(super) fn joints(&mut self) {
-        for item in self.items() {
-            if let ItemKind::Joint { name, kind, arguments, call_span } = &item.kind {
-                let joint = self.joint_kind(name, kind, arguments, *call_span);
-                let id = joint.map(|kind| self.model.add_joint(Joint { declared: declared(name), kind }));
-                self.joints.push(id);
-            }
-        }
-    }
-
-    fn joint_kind(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
-        let joint = match (kind.text.as_str(), arguments) {
-            ("revolute", [p, q]) => {
-                let (p, q) = self.two_points(p, q)?;
-                JointKind::Revolute(p, q)
-            }
-            ("translational", [a, b]) => {
-                let (a, b) = (self.axis(a), self.axis(b));
-                JointKind::Translational(a?, b?)
-            }
-            ("weld", [p, q]) => {
-                let (p, q) = self.two_points(p, q)?;
-                JointKind::Weld(p, q, self.model.graph.constant(0.0))
-            }
-            ("weld", [p, q, angle]) => {
-                let points = self.two_points(p, q);
-                let angle = self.angle(angle, "the angle of a weld");
-                let (p, q) = points?;
-                JointKind::Weld(p, q, angle?)
-            }
-            ("revolute_revolute", [p, q, length]) => {
-                let points = self.two_points(p, q);
-                let length = self.positive_length(length, "the length of the link");
-                let (p, q) = points?;
-                JointKind::RevoluteRevolute(p, q, length?)
-            }
-            ("revolute_translational", [p, a]) => {
-                let (p, a) = (self.point(p), self.axis(a));
-                JointKind::RevoluteTranslational(p?, a?, self.model.graph.constant(0.0))
-            }
-            ("revolute_translational", [p, a, offset]) => {
-                let (p, a) = (self.point(p), self.axis(a));
-                let offset = self.constant(offset, "the offset from the axis", Dimension::LENGTH);
-                JointKind::RevoluteTranslational(p?, a?, offset?.0)
-            }
-            (word, _) if JOINTS.contains(&word) => {
-                let wanted = match word {
-                    "revolute" => "two points",
-                    "translational" => "two axes",
-                    "weld" => "two points, and an angle if it is not 0",
-                    "revolute_revolute" => "two points and a length",
-                    _ => "a point and an axis, and an offset if it is not 0",
-                };
-                self.report(errors::argument_count(word, span, wanted, arguments.len()));
-                return None;
-            }
-            (word, _) if LATER_JOINTS.contains(&word) => {
-                self.report(errors::not_available(&format!("the joint `{word}`"), kind.span));
-                return None;
-            }
-            _ => {
-                let known: Vec<&str> = JOINTS.iter().chain(LATER_JOINTS).copied().collect();
-                let listed = format!("the joints are {}", errors::list(&known));
-                let mut diagnostic = errors::unknown("kind of joint", kind, &known);
-                if diagnostic.help.is_empty() {
-                    diagnostic = diagnostic.help(listed);
-                }
-                self.report(diagnostic);
-                return None;
-            }
-        };
-        let frames = joint.frames(&self.model);
-        if frames[0] == frames[1] {
-            let frame = self.model.frame_name(frames[0]).to_owned();
-            self.report(errors::joint_with_itself(name, &frame, [arguments[0].span, arguments[1].span]));
-            return None;
-        }
-        Some(joint)
-    }
-
-    fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
-        let (id, value) = self.constant(e, what, Dimension::LENGTH)?;
-        if value <= 0.0 {
-            self.report(errors::not_positive_length(what, e.span, value));
-            return None;
-        }
-        Some(id)
-    }
-
     /// Measures, in the order in which they need each other; listed in that of the text.
     pub(super) fn measures(&mut self, order: &[usize]) {
         let mut values = vec![None; self.measures.len()];

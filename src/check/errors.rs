@@ -123,15 +123,6 @@ pub fn hidden_name(argument: &Name, declared: Span) -> Diagnostic {
         .help("rename the argument; `u` is usual")
 }
 
-pub fn not_available(what: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0208, format!("{what} is not available yet"))
-        .at(span, "read, but not understood by this version")
-        .note(
-            "this version knows the joints revolute, translational, weld, revolute_revolute and \
-             revolute_translational,\nand points and axes",
-        )
-}
-
 // ---- kinds and arguments
 
 pub fn argument_count(what: &str, span: Span, wanted: &str, found: usize) -> Diagnostic {
@@ -148,6 +139,14 @@ pub fn signature(what: &str) -> Option<&'static str> {
         "weld" => "`weld(P, Q)` or `weld(P, Q, angle)`",
         "revolute_revolute" => "`revolute_revolute(P, Q, length)`",
         "revolute_translational" => "`revolute_translational(P, a)` or `revolute_translational(P, a, offset)`",
+        "gear" => "`gear(c, d)` or `gear(c, d, phase)`, c and d circles",
+        "internal_gear" => "`internal_gear(c, d)` or `internal_gear(c, d, phase)`, c and d circles",
+        "rack_pinion" => {
+            "`rack_pinion(c, a)`, `rack_pinion(c, a, phase)` or `rack_pinion(c, a, phase, left)`, c a circle and a an axis"
+        }
+        "point_follower" => "`point_follower(P, k)`, k a curve or circle",
+        "cam" => "`cam(k, m)`, k and m curves or circles",
+        "flat_follower" => "`flat_follower(k, a)`, k a curve or circle and a an axis",
         "x" | "y" => "`x(P)` or `x(P, Q)`",
         "angle" => "`angle(b)`, `angle(b, c)`, `angle(b.u)` or `angle(b.u, c.v)`",
         "distance" => "`distance(P, Q)`",
@@ -156,6 +155,7 @@ pub fn signature(what: &str) -> Option<&'static str> {
         "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => "`step(u, u0, v0, u1, v1)`",
         "poly" => "`poly(u, u0, c0, c1, …)`",
         "point" => "`point P = (x, y)`",
+        "curve" => "`curve k(u) = (x, y)`",
         "at" => "`at (x, y, phi)`",
         "along" => "`along (dx, dy)`",
         _ => return None,
@@ -322,6 +322,96 @@ pub fn zero_direction(span: Span) -> Diagnostic {
 
 pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
     Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value} m")).at(span, format!("{value} m"))
+}
+
+pub fn curve_is_a_point(name: &Name, argument: &str, at: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0411, format!("curve `{}` does not depend on its argument `{argument}`", name.text))
+        .at(at, "the same point for every value")
+        .help(format!("a circle of radius r about the origin is `(r * cos({argument}), r * sin({argument}))`"))
+}
+
+// ---- tables
+
+pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
+    let units: Vec<&str> = Unit::names().collect();
+    let meant = nearest(&name.text, Unit::names()).map(|unit| format!("was `{unit}` meant?"));
+    Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
+        .at(name.span, "the unit of a column")
+        .help_if(meant.or_else(|| Some(format!("the units are {}", units.join(" ")))))
+}
+
+pub fn row_of(span: Span, found: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0301, format!("a row of a table is an argument and a value, found {found} parts"))
+        .at(span, format!("found {found}"))
+        .help("a row is written `(argument, value)`")
+}
+
+/// A file that nobody has tried to read: the mechanism was checked without its files.
+pub fn no_table_file(path: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0701, format!("cannot read `{}`: there is no such file", path.text))
+        .at(path.span, "named here")
+}
+
+pub fn empty_table_file(path: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0413, format!("the file `{}` holds no row", path.text))
+        .at(path.span, "named here")
+        .help("a row is an argument and a value, separated by a comma")
+}
+
+pub fn too_few_rows(name: &Name, periodic: bool, least: usize, found: usize) -> Diagnostic {
+    let what = if periodic { "a periodic table" } else { "a table" };
+    Diagnostic::new(Code::E0413, format!("table `{}` has too few rows: {what} needs {least}, found {found}", name.text))
+        .at(name.span, format!("found {found}"))
+}
+
+pub fn not_rising(name: &Name, here: f64, before: f64, rows: [Span; 2]) -> Diagnostic {
+    let message = format!("the arguments of table `{}` do not rise: {here} follows {before}", name.text);
+    let text = if here < before { "smaller than the one before" } else { "not above the one before" };
+    Diagnostic::new(Code::E0414, message)
+        .at(rows[0], text)
+        .also(rows[1], "the row before")
+        .help("arguments must rise from row to row, in SI units as they are told here")
+}
+
+pub fn ends_differ(name: &Name, ends: [Span; 2], last: f64, first: f64) -> Diagnostic {
+    let message = format!("periodic table `{}` ends with {last}, and begins with {first}", name.text);
+    let diagnostic = Diagnostic::new(Code::E0415, message).at(ends[0], "the last row");
+    diagnostic.also(ends[1], "the first row").help("its last row repeats the first value, one period on")
+}
+
+pub fn out_of_table(name: &Name, value: f64, ends: [f64; 2], span: Span) -> Diagnostic {
+    let message = format!("{value} is not in the range of table `{}`, {} to {}", name.text, ends[0], ends[1]);
+    Diagnostic::new(Code::E0417, message).at(span, "out of range").help("a `periodic spline` repeats; a spline ends")
+}
+
+// ---- as drawn
+
+/// Gears of which nothing says in which direction they lie from each other.
+pub fn centers_coincide(circles: [Span; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0412, "the centres of these gears coincide as the bodies are drawn")
+        .at(circles[1], "its centre is that of the other one")
+        .also(circles[0], "the other one")
+        .help("give the bodies poses in `at` that show in which direction one gear lies from the other")
+}
+
+/// A pinion of which nothing says on which side of its rack it lies.
+pub fn center_on_the_rack(arguments: [Span; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0412, "the centre of this pinion lies on the axis of its rack as the bodies are drawn")
+        .at(arguments[0], "on neither side")
+        .also(arguments[1], "of this axis")
+        .help("give poses in `at` that show the side, or say it: `rack_pinion(c, a, phase, left)`")
+}
+
+pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, format!("expected a phase before `{side}`"))
+        .at(span, "the third argument is a length")
+        .help(format!("write the phase too: `rack_pinion(c, a, 0 mm, {side})`"))
+}
+
+pub fn no_side(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0302, "expected `left` or `right`")
+        .at(span, "the side of the axis on which the pinion lies")
+        .help("left and right are seen along the direction of the axis")
 }
 
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {

@@ -1,10 +1,10 @@
-//! Bodies, the ground, and the points and axes on them.
+//! Bodies, the ground, and their features; circles and curves have `profiles`.
 
 use super::formula::Context;
 use super::names::{Entity, Space};
 use super::{Checker, declared, errors};
 use crate::expr::ExprId;
-use crate::model::{Axis, AxisId, Body, Dimension, Frame, Point, PointId};
+use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
 
@@ -13,23 +13,23 @@ use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name
 pub(super) enum Feature {
     Point(Option<PointId>),
     Axis(Option<AxisId>),
-    Circle,
-    Curve,
+    Circle(Option<CircleId>),
+    Curve(Option<CurveId>),
 }
 
 impl Feature {
-    fn noun(self) -> &'static str {
+    pub fn noun(self) -> &'static str {
         match self {
             Feature::Point(_) => "a point",
             Feature::Axis(_) => "an axis",
-            Feature::Circle => "a circle",
-            Feature::Curve => "a curve",
+            Feature::Circle(_) => "a circle",
+            Feature::Curve(_) => "a curve",
         }
     }
 }
 
 impl Checker<'_> {
-    /// Bodies first, then all points, then all axes: each may be used before it is declared.
+    /// Bodies first, then all points, then what needs them: each may be used before it is declared.
     pub(super) fn features(&mut self) {
         let mut frames: Vec<(Frame, &[ast::Feature])> = Vec::new();
         self.features.insert(Frame::Ground, Space::new());
@@ -48,6 +48,7 @@ impl Checker<'_> {
         }
         for &(frame, features) in &frames {
             self.axes_of(frame, features);
+            self.profiles_of(frame, features);
         }
         let mut bodies = 0..;
         for item in self.items() {
@@ -72,17 +73,12 @@ impl Checker<'_> {
             let entity = match feature.kind {
                 FeatureKind::Point { .. } => Feature::Point(None),
                 FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
-                FeatureKind::Circle { .. } => Feature::Circle,
-                FeatureKind::Curve { .. } => Feature::Curve,
+                FeatureKind::Circle { .. } => Feature::Circle(None),
+                FeatureKind::Curve { .. } => Feature::Curve(None),
             };
             let first = self.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {
                 self.report(errors::declared_twice(&feature.name, first));
-            }
-            match entity {
-                Feature::Circle => self.report(errors::not_available("`circle`", feature.name.span)),
-                Feature::Curve => self.report(errors::not_available("`curve`", feature.name.span)),
-                _ => {}
             }
         }
     }
@@ -92,7 +88,7 @@ impl Checker<'_> {
             let FeatureKind::Point { at } = &feature.kind else {
                 continue;
             };
-            let point = self.pair(at, "point", "a point").map(|at| {
+            let point = self.pair_of(at, "point", "a point", None).map(|at| {
                 let name = Some(feature.name.text.clone());
                 self.model.add_point(Point { frame, name, span: feature.name.span, at })
             });
@@ -127,7 +123,7 @@ impl Checker<'_> {
     }
 
     /// Fills in what a feature's name stands for, unless the name was taken.
-    fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
+    pub(super) fn settle(&mut self, frame: Frame, name: &Name, feature: Feature) {
         if let Some(space) = self.features.get_mut(&frame)
             && space.span(&name.text) == Some(name.span)
         {
@@ -160,7 +156,7 @@ impl Checker<'_> {
         Some(direction)
     }
 
-    fn pair_context(&self, parts: [&Expr; 2], place: &'static str) -> Context<'static> {
+    pub(super) fn pair_context(&self, parts: [&Expr; 2], place: &'static str) -> Context<'static> {
         let judged = parts.iter().any(|part| self.is_dimensional(part));
         Context { judged, ..Context::constant(place) }
     }
@@ -168,36 +164,17 @@ impl Checker<'_> {
     /// Two lengths, judged together.
     fn lengths(&mut self, parts: [&Expr; 2], place: &'static str) -> Option<[ExprId; 2]> {
         let context = self.pair_context(parts, place);
-        let values = parts.map(|part| self.formula(part, &context));
-        let [x, y] = values;
-        let (x, y) = (x?, y?);
-        self.alike("the two lengths are", (parts[0].span, x.dim), (parts[1].span, y.dim), &context)?;
-        for (part, value) in parts.into_iter().zip([x, y]) {
-            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, &context)?;
-        }
-        Some([x.id, y.id])
+        self.lengths_in(parts, &context)
     }
 
-    /// `(x, y)`
-    fn pair(&mut self, e: &Expr, what: &str, place: &'static str) -> Option<[ExprId; 2]> {
-        match &e.kind {
-            ExprKind::Tuple(parts) => {
-                if let [x, y] = parts.as_slice() {
-                    self.lengths([x, y], place)
-                } else {
-                    self.report(errors::argument_count(what, e.span, "two lengths", parts.len()));
-                    None
-                }
-            }
-            ExprKind::Paren(_) => {
-                self.report(errors::argument_count(what, e.span, "two lengths", 1));
-                None
-            }
-            _ => {
-                self.wrong_kind(e.span, "a point `(x, y)`", Self::describe(e));
-                None
-            }
+    pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
+        let [x, y] = parts.map(|part| self.formula(part, context));
+        let (x, y) = (x?, y?);
+        self.alike("the two lengths are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        for (part, value) in parts.into_iter().zip([x, y]) {
+            self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
         }
+        Some([x.id, y.id])
     }
 
     fn pose(&mut self, body: usize, e: &Expr) {
@@ -234,11 +211,11 @@ impl Checker<'_> {
     }
 
     /// A point where an axis begins or ends: one of the frame by name, or a literal one.
-    fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+    pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
         if let ExprKind::Name(name) = &e.kind {
             self.point_named(frame, name)
         } else {
-            let at = self.pair(e, "point", "a point")?;
+            let at = self.pair_of(e, "point", "a point", None)?;
             Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
         }
     }
@@ -297,8 +274,8 @@ impl Checker<'_> {
     }
 
     /// A name alone where `body.feature` is wanted.
-    fn bare_name(&mut self, name: &Name, what: &str) {
-        let wanted = if what == "axis" { "an axis" } else { "a point" };
+    pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
+        let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
         let owners: Vec<String> = std::iter::once(Frame::Ground)
             .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
             .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
@@ -313,10 +290,16 @@ impl Checker<'_> {
             "a name" => format!("the name `{}`", name.text),
             noun => noun.to_owned(),
         };
-        self.report(errors::wrong_kind(name.span, wanted, &found).help(help));
+        self.report(errors::wrong_kind(name.span, &wanted, &found).help(help));
     }
 
-    fn feature(&mut self, frame: Frame, name: &Name, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<Feature> {
+    pub(super) fn feature(
+        &mut self,
+        frame: Frame,
+        name: &Name,
+        what: &str,
+        wanted: impl Fn(Feature) -> bool,
+    ) -> Option<Feature> {
         let space = self.features.get(&frame)?;
         if let Some(feature) = space.get(&name.text) {
             return Some(feature);

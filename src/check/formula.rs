@@ -118,6 +118,7 @@ impl Checker<'_> {
                 matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
+            Some(Entity::Table(k)) => self.tables[k].dimensional,
             Some(Entity::Measure(k)) => self.measures[k].dimensional,
             _ => false,
         }
@@ -256,9 +257,9 @@ impl Checker<'_> {
                 );
                 None
             }
-            Some(Entity::Function(_)) => {
+            Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
                 let help = format!("call it: `{}(…)`", name.text);
-                self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
+                self.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
                 None
             }
             Some(entity) => {

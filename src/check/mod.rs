@@ -10,23 +10,39 @@ mod elements;
 mod errors;
 mod features;
 mod formula;
+mod joints;
 mod names;
+mod profiles;
 mod quantities;
+mod table_file;
+mod tables;
 mod units;
+
+pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{BodyId, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
-use crate::syntax::ast::{self, Expr, Item, ItemKind, Name};
+use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
 use calls::Call;
 use features::Feature;
 use formula::{Context, Dim, Value};
 use names::{Entity, Space, mentioned};
 use rustc_hash::FxHashMap;
+use tables::TableState;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
+
+/// What a mechanism is checked with, beside its own text.
+#[derive(Clone, Debug, Default)]
+pub struct Surroundings {
+    /// Parameters set from outside.
+    pub settings: Vec<Setting>,
+    /// The files that its tables name.
+    pub files: TableFiles,
+}
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
 #[derive(Clone, Debug)]
@@ -52,8 +68,12 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 
 /// The model of one mechanism, if it is sound, and all that is to be said of it.
 #[must_use]
-pub fn check(tree: &ast::Mechanism, settings: &[Setting], sources: &Sources) -> (Option<Mechanism>, Diagnostics) {
-    let mut checker = Checker::new(tree, settings, sources);
+pub fn check(
+    tree: &ast::Mechanism,
+    surroundings: &Surroundings,
+    sources: &Sources,
+) -> (Option<Mechanism>, Diagnostics) {
+    let mut checker = Checker::new(tree, surroundings, sources);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.sort_by_place();
@@ -68,7 +88,8 @@ pub fn check(tree: &ast::Mechanism, settings: &[Setting], sources: &Sources) -> 
 pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
     let nobody = Name { text: String::new(), span: formula.span };
     let tree = ast::Mechanism { docs: Vec::new(), name: nobody, span: formula.span, items: Vec::new() };
-    let mut checker = Checker::new(&tree, &[], sources);
+    let nothing = Surroundings::default();
+    let mut checker = Checker::new(&tree, &nothing, sources);
     match checker.constant(formula, place, wanted) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
         _ => Err(checker.diagnostics),
@@ -98,6 +119,7 @@ struct MeasureState<'a> {
 struct Checker<'a> {
     tree: &'a ast::Mechanism,
     settings: &'a [Setting],
+    files: &'a TableFiles,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -105,6 +127,7 @@ struct Checker<'a> {
     /// By the parameter's position; `None` where it is broken.
     params: Vec<Option<Value>>,
     functions: Vec<Function<'a>>,
+    tables: Vec<TableState<'a>>,
     measures: Vec<MeasureState<'a>>,
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
@@ -127,16 +150,18 @@ struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(tree: &'a ast::Mechanism, settings: &'a [Setting], sources: &'a Sources) -> Checker<'a> {
+    fn new(tree: &'a ast::Mechanism, surroundings: &'a Surroundings, sources: &'a Sources) -> Checker<'a> {
         Checker {
             tree,
-            settings,
+            settings: &surroundings.settings,
+            files: &surroundings.files,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
             space: Space::new(),
             params: Vec::new(),
             functions: Vec::new(),
+            tables: Vec::new(),
             measures: Vec::new(),
             bodies: Vec::new(),
             joints: Vec::new(),
@@ -154,7 +179,6 @@ impl<'a> Checker<'a> {
 
     fn run(&mut self) {
         self.collect(self.tree);
-        self.unavailable_tables();
         let measures = self.definitions();
         self.features();
         self.joints();
@@ -188,16 +212,8 @@ impl<'a> Checker<'a> {
         &self.tree.items
     }
 
-    fn unavailable_tables(&mut self) {
-        for item in self.items() {
-            if let ItemKind::Table { name, .. } = &item.kind {
-                self.report(errors::not_available("`table`", name.span));
-            }
-        }
-    }
-
-    /// Params, functions and measures in the order in which they need each other: params are evaluated and functions
-    /// looked over; returns the measures' order.
+    /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
+    /// and functions looked over; returns the measures' order.
     fn definitions(&mut self) -> Vec<usize> {
         let mut definitions = Vec::new();
         let mut entities = Vec::new();
@@ -205,18 +221,30 @@ impl<'a> Checker<'a> {
             match &item.kind {
                 ItemKind::Param { name, value } => {
                     entities.push(Entity::Param(self.params.len()));
-                    definitions.push((name, value));
+                    definitions.push((name, vec![value]));
                     self.params.push(None);
                 }
                 ItemKind::Function { name, argument, value } => {
                     entities.push(Entity::Function(self.functions.len()));
-                    definitions.push((name, value));
+                    definitions.push((name, vec![value]));
                     self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
                 }
                 ItemKind::Measure { name, value } => {
                     entities.push(Entity::Measure(self.measures.len()));
-                    definitions.push((name, value));
+                    definitions.push((name, vec![value]));
                     self.measures.push(MeasureState { name, value, dimensional: false, sound: false });
+                }
+                ItemKind::Table { name, periodic, rows } => {
+                    entities.push(Entity::Table(self.tables.len()));
+                    definitions.push((
+                        name,
+                        match rows {
+                            TableRows::Listed(rows) => rows.iter().collect(),
+                            TableRows::File { .. } => Vec::new(),
+                        },
+                    ));
+                    let periodic = *periodic;
+                    self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
                 }
                 _ => {}
             }
@@ -224,12 +252,13 @@ impl<'a> Checker<'a> {
         let uses = self.uses(&definitions, &entities);
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
-            let (name, value) = definitions[at];
+            let (name, formulas) = &definitions[at];
             match entities[at] {
-                Entity::Param(k) => self.params[k] = self.param(name, value),
+                Entity::Param(k) => self.params[k] = formulas.first().and_then(|value| self.param(name, value)),
                 Entity::Function(k) => self.function(k),
+                Entity::Table(k) => self.table(k),
                 Entity::Measure(k) => {
-                    self.measures[k].dimensional = self.is_dimensional(value);
+                    self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
                 }
                 _ => {}
@@ -238,7 +267,11 @@ impl<'a> Checker<'a> {
         measures
     }
 
-    fn uses<'d>(&self, definitions: &[(&'d Name, &Expr)], entities: &[Entity]) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
+    fn uses<'d>(
+        &self,
+        definitions: &[(&'d Name, Vec<&Expr>)],
+        entities: &[Entity],
+    ) -> Vec<(&'d Name, Vec<(usize, Span)>)> {
         let position: FxHashMap<Entity, usize> = entities.iter().enumerate().map(|(k, &e)| (e, k)).collect();
         let arguments: FxHashMap<usize, &str> = entities
             .iter()
@@ -251,16 +284,18 @@ impl<'a> Checker<'a> {
         definitions
             .iter()
             .enumerate()
-            .map(|(k, &(name, value))| {
+            .map(|(k, (name, formulas))| {
                 let mut uses = Vec::new();
-                mentioned(value, |used| {
-                    let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                    let entity = self.space.get(&used.text).filter(|_| !hidden);
-                    if let Some(&at) = entity.and_then(|e| position.get(&e)) {
-                        uses.push((at, used.span));
-                    }
-                });
-                (name, uses)
+                for formula in formulas {
+                    mentioned(formula, |used| {
+                        let hidden = arguments.get(&k) == Some(&used.text.as_str());
+                        let entity = self.space.get(&used.text).filter(|_| !hidden);
+                        if let Some(&at) = entity.and_then(|e| position.get(&e)) {
+                            uses.push((at, used.span));
+                        }
+                    });
+                }
+                (*name, uses)
             })
             .collect()
     }
@@ -335,7 +370,10 @@ impl<'a> Checker<'a> {
             argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
             ..Context::constant("a function")
         };
+        let known = self.model.conditions.len();
         let sound = self.formula(value, &context).is_some();
+        // what must be positive is asked where the function is called
+        self.model.conditions.truncate(known);
         self.functions[at].sound = sound;
     }
 

@@ -3,7 +3,7 @@
 use super::units::Unit;
 use super::{Checker, errors};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
+use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
 use rustc_hash::FxHashMap;
 
 /// The functions of the language that are called with numbers, with the fewest and the most arguments.
@@ -45,7 +45,7 @@ pub(super) const QUANTITIES: &[&str] = &["x", "y", "angle", "distance", "rotatio
 pub(super) enum Entity {
     Param(usize),
     Function(usize),
-    Table,
+    Table(usize),
     Body(usize),
     Joint(usize),
     Equation,
@@ -58,7 +58,7 @@ impl Entity {
         match self {
             Entity::Param(_) => "a parameter",
             Entity::Function(_) => "a function",
-            Entity::Table => "a table",
+            Entity::Table(_) => "a table",
             Entity::Body(_) => "a body",
             Entity::Joint(_) => "a joint",
             Entity::Equation => "a constraint or driver",
@@ -123,7 +123,8 @@ pub(super) fn is_builtin(name: &str) -> bool {
 impl Checker<'_> {
     /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
-        let (mut params, mut functions, mut bodies, mut joints, mut measures) = (0, 0, 0, 0, 0);
+        let (mut params, mut functions, mut tables) = (0, 0, 0);
+        let (mut bodies, mut joints, mut measures) = (0, 0, 0);
         let next = |count: &mut usize| {
             *count += 1;
             *count - 1
@@ -132,14 +133,14 @@ impl Checker<'_> {
             let (name, entity) = match &item.kind {
                 ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut params))),
                 ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut functions))),
-                ItemKind::Table { name, .. } => (name, Entity::Table),
+                ItemKind::Table { name, .. } => (name, Entity::Table(next(&mut tables))),
                 ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut bodies))),
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
                 ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
             };
-            let callable = matches!(entity, Entity::Function(_) | Entity::Table);
+            let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             if is_taken(&name.text) || callable && is_builtin(&name.text) {
                 self.report(errors::reserved(name));
             }
@@ -149,8 +150,16 @@ impl Checker<'_> {
             }
         }
         for item in &mechanism.items {
-            if let ItemKind::Function { argument, .. } = &item.kind {
-                self.argument_name(argument);
+            match &item.kind {
+                ItemKind::Function { argument, .. } => self.argument_name(argument),
+                ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
+                    for feature in features {
+                        if let FeatureKind::Curve { argument, .. } = &feature.kind {
+                            self.argument_name(argument);
+                        }
+                    }
+                }
+                _ => {}
             }
         }
         self.only_once(mechanism);

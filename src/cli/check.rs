@@ -37,10 +37,11 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
         let unit = match coordinate.kind {
-            CoordinateKind::Length => "m",
-            CoordinateKind::Angle => "rad",
+            CoordinateKind::Argument => "",
+            other => other.unit(),
         };
-        text += &format!("  {} = {} {unit}\n", coordinate.name, nine_digits(*q));
+        let value = format!("{} {unit}", nine_digits(*q));
+        text += &format!("  {} = {}\n", coordinate.name, value.trim_end());
     }
     text
 }

@@ -49,7 +49,15 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
         return USAGE;
     }
     match first.code {
-        Code::E0601 | Code::E0602 | Code::E0603 | Code::E0604 | Code::E0605 | Code::E0606 => ANALYSIS,
+        Code::E0601
+        | Code::E0602
+        | Code::E0603
+        | Code::E0604
+        | Code::E0605
+        | Code::E0606
+        | Code::E0607
+        | Code::E0608
+        | Code::E0609 => ANALYSIS,
         Code::E0701 | Code::E0702 => FILES,
         Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
         _ => INPUT,

@@ -16,13 +16,28 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
         (name, fs::read(name))
     };
     let bytes = bytes.map_err(|error| cannot_read(shown, &error))?;
+    text_of(shown, bytes, sources).map_err(Failure::from)
+}
+
+fn text_of(shown: &str, bytes: Vec<u8>, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     if bytes.len() > u32::MAX as usize {
-        return Err(cannot_read(shown, &io::Error::other("it is larger than 4 GB")).into());
+        return Err(Box::new(cannot_read(shown, &io::Error::other("it is larger than 4 GB"))));
     }
     String::from_utf8(bytes).map(|text| sources.add(shown, text)).map_err(|error| {
         let at = error.utf8_error().valid_up_to();
-        not_utf8(shown, error.as_bytes(), at, sources).into()
+        Box::new(not_utf8(shown, error.as_bytes(), at, sources))
     })
+}
+
+/// The text of a file that a table names, beside the file that names it or in the current folder.
+pub(super) fn read_table(name: &str, beside: &str, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+    let path = match Path::new(beside).parent() {
+        Some(folder) if beside != "-" => folder.join(name),
+        _ => PathBuf::from(name),
+    };
+    let shown = path.to_string_lossy().into_owned();
+    let bytes = fs::read(&path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
+    text_of(&shown, bytes, sources)
 }
 
 fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {

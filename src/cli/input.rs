@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::files;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
-use crate::check::{self, Setting};
+use crate::check::{self, Setting, Surroundings, TableFiles};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
 use crate::lower;
 use crate::model::{Dimension, Mechanism};
@@ -43,7 +43,8 @@ fn checked(file: &ast::File, input: &Input, reporter: &mut Reporter) -> Result<M
     }
     let mechanism = chosen(file, input)?;
     let settings = settings(&input.set, mechanism, &mut reporter.sources)?;
-    let (model, found) = check::check(mechanism, &settings, &reporter.sources);
+    let files = table_files(mechanism, &input.file, &mut reporter.sources);
+    let (model, found) = check::check(mechanism, &Surroundings { settings, files }, &reporter.sources);
     diagnostics.extend(found);
     match model {
         None => Err(diagnostics.into()),
@@ -70,6 +71,19 @@ fn chosen<'t>(tree: &'t ast::File, input: &Input) -> Result<&'t ast::Mechanism, 
                 .into()
         }),
     }
+}
+
+/// The files that a mechanism's tables name.
+fn table_files(mechanism: &ast::Mechanism, beside: &str, sources: &mut Sources) -> TableFiles {
+    let mut files = TableFiles::default();
+    for item in &mechanism.items {
+        if let ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } = &item.kind
+            && !files.contains_key(&path.text)
+        {
+            files.insert(path.text.clone(), files::read_table(&path.text, beside, sources));
+        }
+    }
+    files
 }
 
 fn settings(given: &[String], mechanism: &ast::Mechanism, sources: &mut Sources) -> Result<Vec<Setting>, Failure> {

@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::analysis::{self, Started, Times};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::output::{TableFormat, TableWriter};
 use crate::program::Program;
 use crate::source::Sources;
@@ -24,9 +24,20 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
     reporter.print(&started.remarks());
     let table = Table { output, format: format(arguments), timings };
-    let (timings, result) = table.write(&mut started, &times)?;
-    Reporter::say(&timings);
-    result
+    let ended = table.write(&mut started, &times)?;
+    reporter.print(&ended.remarks);
+    Reporter::say(&ended.timings);
+    ended.result
+}
+
+/// How the rows came to an end.
+struct Ended {
+    /// What there is to say beside them.
+    remarks: Diagnostics,
+    /// What the clock says.
+    timings: String,
+    /// Why the motion stopped, if it did.
+    result: Result<(), Failure>,
 }
 
 /// Where the rows go, and how.
@@ -37,9 +48,8 @@ struct Table {
 }
 
 impl Table {
-    /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept. Gives what the clock says,
-    /// and why the motion stopped, if it did.
-    fn write(mut self, started: &mut Started<'_>, times: &Times) -> Result<(String, Result<(), Failure>), Failure> {
+    /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
+    fn write(mut self, started: &mut Started<'_>, times: &Times) -> Result<Ended, Failure> {
         let columns = started.columns();
         let mut progress = Progress::new(times.len(), self.output.is_standard());
         let mut motion = started.motion(times.span());
@@ -69,7 +79,7 @@ impl Table {
         }
         self.output.close()?;
         self.timings.end(Phase::Write);
-        Ok((self.timings.text(rows), stopped))
+        Ok(Ended { remarks: motion.take_remarks(), timings: self.timings.text(rows), result: stopped })
     }
 }
 

@@ -6,5 +6,6 @@
 mod names;
 mod rust;
 mod slice;
+mod tables;
 
 pub use rust::rust;

@@ -1,10 +1,11 @@
 //! Rust that evaluates `Φ`, `Φ_q`, `Φ_t`, `ν` and `γ`.
 
 use super::names::Namer;
-use super::slice::{operands, slice};
+use super::slice::slice;
+use super::tables::{self, COLUMNS};
 use crate::expr::{Binary, Comparison, Unary};
-use crate::ir::{ConstraintSystem, CoordinateKind};
-use crate::program::{Op, Program, Register};
+use crate::ir::ConstraintSystem;
+use crate::program::{Column, Op, Program, Register};
 use rustc_hash::FxHashMap;
 
 /// The sine-cosine pair, word for word as the interpreter runs it.
@@ -26,6 +27,7 @@ pub fn rust(system: &ConstraintSystem, program: &Program, file: &str) -> String 
     let mut text = writer.header(file, functions.contains("libm::"));
     text += &writer.params();
     text += &writer.indices();
+    text += &writer.tables();
     text += &functions;
     text += &helpers(&functions);
     text.trim_end().to_owned() + "\n"
@@ -36,6 +38,7 @@ struct Writer<'s> {
     program: &'s Program,
     constants: FxHashMap<Register, f64>,
     params: Vec<String>,
+    tables: tables::Names,
 }
 
 /// What a function is given, and what it gives back.
@@ -54,6 +57,7 @@ impl<'s> Writer<'s> {
         Writer {
             params: system.params.iter().map(|param| namer.snake(&param.name)).collect(),
             constants: program.constants().iter().copied().collect(),
+            tables: tables::Names::new(program),
             system,
             program,
         }
@@ -105,7 +109,7 @@ impl<'s> Writer<'s> {
         );
         let mut namer = Namer::default();
         for (k, coordinate) in self.system.coordinates.iter().enumerate() {
-            let unit = if coordinate.kind == CoordinateKind::Length { "m" } else { "rad" };
+            let unit = coordinate.kind.unit();
             let name = namer.constant(&coordinate.name);
             text += &format!("    /// `{}` ({unit})\n    pub const {name}: usize = {k};\n", coordinate.name);
         }
@@ -125,6 +129,32 @@ impl<'s> Writer<'s> {
             }
         }
         text + "];\n\n"
+    }
+
+    /// The tables' columns that hold numbers alone.
+    fn tables(&self) -> String {
+        let mut text = String::new();
+        for (number, table) in self.program.tables().iter().enumerate() {
+            for column in COLUMNS {
+                let number = number as u32;
+                let Some(values) = tables::numbers(self.program, &self.constants, number, column) else {
+                    continue;
+                };
+                let what = match column {
+                    Column::Knots => "where its pieces begin, and where the last one ends".to_owned(),
+                    Column::Coefficient(order) => format!("coefficient {order} of each piece"),
+                };
+                let values: Vec<String> = values.into_iter().map(literal).collect();
+                text += &format!(
+                    "/// Table `{}`: {what}.\n#[rustfmt::skip]\nstatic {}: [f64; {}] = [\n{}];\n\n",
+                    one_line(&table.name),
+                    self.tables.of(number, column),
+                    values.len(),
+                    tables::lines(&values, ""),
+                );
+            }
+        }
+        text
     }
 
     fn functions(&self) -> String {
@@ -152,7 +182,14 @@ impl<'s> Writer<'s> {
 
     fn function(&self, function: &Function<'_>) -> String {
         let (ops, read) = slice(self.program, function.outputs);
-        let mut body = Body { writer: self, read: &read, names: FxHashMap::default(), text: String::new(), count: 0 };
+        let mut body = Body {
+            writer: self,
+            read: &read,
+            names: FxHashMap::default(),
+            arrays: FxHashMap::default(),
+            text: String::new(),
+            count: 0,
+        };
         let used = body.inputs();
         for op in &ops {
             body.operation(*op);
@@ -200,6 +237,8 @@ struct Body<'w, 's> {
     /// Which registers are read at all.
     read: &'w [bool],
     names: FxHashMap<Register, String>,
+    /// Columns of parameters that have been built.
+    arrays: FxHashMap<(u32, Column), String>,
     text: String,
     count: usize,
 }
@@ -210,7 +249,9 @@ impl Body<'_, '_> {
         let read = self.read;
         let (system, inputs) = (self.writer.system, self.writer.program.inputs);
         let mut namer = Namer::default();
-        for taken in ["q", "qd", "t", "p", "out", "sin_cos", "select", "sign", "lesser", "greater"] {
+        for taken in
+            ["q", "qd", "t", "p", "out", "sin_cos", "select", "either", "sign", "lesser", "greater", "piece", "pick"]
+        {
             namer.snake(taken);
         }
         let mut used = [false; 4];
@@ -259,7 +300,43 @@ impl Body<'_, '_> {
         }
     }
 
+    /// What a column of a table is called here; one that holds parameters is built at its first use.
+    fn column(&mut self, table: u32, column: Column) -> String {
+        let writer = self.writer;
+        let name = writer.tables.of(table, column);
+        if tables::numbers(writer.program, &writer.constants, table, column).is_some() {
+            return name.to_owned();
+        }
+        if let Some(name) = self.arrays.get(&(table, column)) {
+            return name.clone();
+        }
+        let local = name.to_lowercase();
+        let cells = writer.program.tables()[table as usize].column(column);
+        let values: Vec<String> = cells.map(|register| self.value(register)).collect();
+        self.text += &format!("    #[rustfmt::skip]\n    let {local} = [\n{}    ];\n", tables::lines(&values, "    "));
+        self.arrays.insert((table, column), local.clone());
+        local
+    }
+
     fn operation(&mut self, op: Op) {
+        match op {
+            // another name for the same value
+            Op::Copy { to, a } => {
+                let value = self.value(a);
+                self.names.insert(to, value);
+                return;
+            }
+            Op::Piece { table, .. } => {
+                self.column(table, Column::Knots);
+            }
+            Op::Pick { table, column, .. } => {
+                self.column(table, column);
+            }
+            _ => {}
+        }
+        let column = |table: u32, column: Column| {
+            self.arrays.get(&(table, column)).map_or(self.writer.tables.of(table, column), String::as_str)
+        };
         let v = |register: Register| self.value(register);
         let value = match op {
             Op::Add { a, b, .. } => format!("{} + {}", v(a), v(b)),
@@ -283,6 +360,10 @@ impl Body<'_, '_> {
             Op::Or { a, b, .. } => format!("f64::from({} != 0.0 || {} != 0.0)", v(a), v(b)),
             Op::Not { a, .. } => format!("f64::from({} == 0.0)", v(a)),
             Op::Select { condition, a, b, .. } => format!("select({}, {}, {})", v(condition), v(a), v(b)),
+            Op::Either { condition, a, b, .. } => format!("either({}, {}, {})", v(condition), v(a), v(b)),
+            Op::Copy { a, .. } => v(a),
+            Op::Piece { table, a, .. } => format!("piece({}, &{})", v(a), column(table, Column::Knots)),
+            Op::Pick { table, column: of, piece, .. } => format!("pick(&{}, {})", column(table, of), v(piece)),
         };
         self.count += 1;
         let k = self.count;
@@ -296,7 +377,7 @@ impl Body<'_, '_> {
             self.names.insert(cos, cos_name);
         } else {
             self.text += &format!("    let v{k} = {value};\n");
-            for register in operands(op).1 {
+            for register in self.writer.program.operands(op).1 {
                 self.names.insert(register, format!("v{k}"));
             }
         }
@@ -324,10 +405,22 @@ fn binary(function: Binary, a: &str, b: &str) -> String {
 
 /// The functions of our own that the others call.
 fn helpers(functions: &str) -> String {
-    const HELPERS: [(&str, &str); 4] = [
+    const HELPERS: [(&str, &str); 7] = [
         (
             "select(",
             "/// The second if the first is not 0, else the third.\nfn select(condition: f64, a: f64, b: f64) -> f64 {\n    if condition == 0.0 { b } else { a }\n}\n\n",
+        ),
+        (
+            "either(",
+            "/// As `select`, but not a number if either is not.\nfn either(condition: f64, a: f64, b: f64) -> f64 {\n    if a.is_nan() || b.is_nan() {\n        f64::NAN\n    } else if condition == 0.0 {\n        b\n    } else {\n        a\n    }\n}\n\n",
+        ),
+        (
+            "piece(",
+            "/// The piece of a table that `x` lies in, counted from 0.\nfn piece(x: f64, knots: &[f64]) -> f64 {\n    if x.is_nan() {\n        return x;\n    }\n    let (mut low, mut high) = (0, knots.len() - 1);\n    while high - low > 1 {\n        let middle = low + (high - low) / 2;\n        if knots.get(middle).is_some_and(|knot| *knot <= x) {\n            low = middle;\n        } else {\n            high = middle;\n        }\n    }\n    low as f64\n}\n\n",
+        ),
+        (
+            "pick(",
+            "/// The entry of a column for a piece.\nfn pick(column: &[f64], piece: f64) -> f64 {\n    if piece.is_nan() {\n        return piece;\n    }\n    column.get(piece as usize).copied().unwrap_or(f64::NAN)\n}\n\n",
         ),
         (
             "sign(",

@@ -23,7 +23,7 @@ impl Graph {
         self.intern(Node::Symbol(symbol))
     }
 
-    fn folded(&mut self, value: f64, node: Node) -> ExprId {
+    pub(super) fn folded(&mut self, value: f64, node: Node) -> ExprId {
         if value.is_finite() { self.constant(value) } else { self.intern(node) }
     }
 
@@ -339,6 +339,7 @@ impl Graph {
             Node::Or(a, b) => self.or(operand(a), operand(b)),
             Node::Not(a) => self.not(operand(a)),
             Node::Select(c, a, b) => self.select(operand(c), operand(a), operand(b)),
+            Node::Table(table, order, a) => self.table(table, order, operand(a)),
         }
     }
 }

@@ -151,13 +151,18 @@ impl Graph {
             }
             (Node::Unary(function, a), _) => return self.unary_share(function, id, a, factor),
             (Node::Binary(function, a, b), _) => self.binary_share(function, id, [a, b], place, factor),
-            // conditions are constant between their switches
+            (Node::Table(table, order, a), _) if order < 3 => {
+                let slope = self.table(table, order + 1, a);
+                self.mul(factor, slope)
+            }
+            // conditions are constant between their switches, third derivatives of tables between their knots
             (
                 Node::Select(..)
                 | Node::Compare(..)
                 | Node::And(..)
                 | Node::Or(..)
                 | Node::Not(_)
+                | Node::Table(..)
                 | Node::Const(_)
                 | Node::Symbol(_),
                 _,

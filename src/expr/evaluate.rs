@@ -79,6 +79,7 @@ impl Graph {
                     operand(a)
                 }
             }
+            Node::Table(table, order, a) => self.table_value(table, order, operand(a), operand),
         }
     }
 
@@ -94,7 +95,7 @@ impl Graph {
     #[must_use]
     pub fn value(&self, root: ExprId, symbol: impl Fn(Symbol) -> f64) -> f64 {
         let mut values: rustc_hash::FxHashMap<ExprId, f64> = rustc_hash::FxHashMap::default();
-        for id in self.reachable(&[root]) {
+        for id in self.reachable_with_tables(&[root]) {
             let value = self.node_value(self.node(id), |child| values[&child], &symbol);
             values.insert(id, value);
         }

@@ -10,10 +10,12 @@ mod derive;
 mod evaluate;
 mod motion;
 mod print;
+mod table;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;
 pub use print::{Printer, number};
+pub use table::{Table, TableId, piece};
 
 use rustc_hash::FxHashMap;
 
@@ -123,6 +125,8 @@ pub enum Node {
     Not(ExprId),
     /// The second if the first holds, else the third; only that one counts.
     Select(ExprId, ExprId, ExprId),
+    /// A table's derivative of some order, 0 to 3, at an argument. What the table is made of is not among the operands.
+    Table(TableId, u8, ExprId),
 }
 
 impl Node {
@@ -131,7 +135,9 @@ impl Node {
     pub fn children(self) -> Children {
         match self {
             Node::Const(_) | Node::Symbol(_) => Children::new(&[]),
-            Node::Neg(a) | Node::Power(a, _) | Node::Unary(_, a) | Node::Not(a) => Children::new(&[a]),
+            Node::Neg(a) | Node::Power(a, _) | Node::Unary(_, a) | Node::Not(a) | Node::Table(_, _, a) => {
+                Children::new(&[a])
+            }
             Node::Add(a, b)
             | Node::Sub(a, b)
             | Node::Mul(a, b)
@@ -224,6 +230,7 @@ pub struct Graph {
     nodes: Vec<Node>,
     dependence: Vec<Dependence>,
     ids: FxHashMap<Node, ExprId>,
+    tables: Vec<Table>,
 }
 
 impl Graph {
@@ -275,6 +282,27 @@ impl Graph {
     #[must_use]
     pub fn find_unary(&self, function: Unary, argument: ExprId) -> Option<ExprId> {
         self.ids.get(&Node::Unary(function, argument)).copied()
+    }
+
+    /// As [`Graph::reachable`], with all that the tables among them are made of.
+    #[must_use]
+    pub fn reachable_with_tables(&self, roots: &[ExprId]) -> Vec<ExprId> {
+        let list = self.reachable(roots);
+        let mut tables: Vec<TableId> = list
+            .iter()
+            .filter_map(|&id| match self.node(id) {
+                Node::Table(table, ..) => Some(table),
+                _ => None,
+            })
+            .collect();
+        if tables.is_empty() {
+            return list;
+        }
+        tables.sort_unstable();
+        tables.dedup();
+        let mut roots = roots.to_vec();
+        roots.extend(tables.iter().flat_map(|table| self.tables[table.index()].cells()));
+        self.reachable(&roots)
     }
 
     /// Every node that the roots are built of, children before parents.
@@ -356,14 +384,12 @@ impl Graph {
             return id;
         }
         let id = ExprId(self.nodes.len() as u32);
-        let dependence = match node {
+        let own = match node {
             Node::Symbol(symbol) => Dependence::of(symbol),
-            _ => node
-                .children()
-                .as_slice()
-                .iter()
-                .fold(Dependence::default(), |all, &child| all.or(self.dependence(child))),
+            Node::Table(table, ..) => self.tables[table.index()].dependence,
+            _ => Dependence::default(),
         };
+        let dependence = node.children().as_slice().iter().fold(own, |all, &child| all.or(self.dependence(child)));
         self.nodes.push(node);
         self.dependence.push(dependence);
         self.ids.insert(node, id);

@@ -157,7 +157,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         match self.graph.node(id) {
             Node::Const(bits) if f64::from_bits(bits) < 0.0 => Tightness::Negation,
             Node::Binary(Binary::Pow, ..) | Node::Power(..) => Tightness::Power,
-            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) => Tightness::Atom,
+            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) | Node::Table(..) => Tightness::Atom,
             Node::Add(..) | Node::Sub(..) => Tightness::Sum,
             Node::Mul(..) | Node::Div(..) => Tightness::Product,
             // the sign of a product stands before its first factor
@@ -199,6 +199,10 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             Node::Binary(Binary::Pow, a, b) => self.write_pair(a, "^", b, [Tightness::Atom, Tightness::Negation], out),
             Node::Unary(function, a) => self.write_call(function.word(), &[a], out),
             Node::Binary(function, a, b) => self.write_call(function.word(), &[a, b], out),
+            Node::Table(table, order, a) => {
+                let name = &self.graph.tables()[table.index()].name;
+                self.write_call(&format!("{name}{}", "'".repeat(usize::from(order))), &[a], out);
+            }
             Node::Compare(comparison, a, b) => {
                 let operator = match comparison {
                     Comparison::Less => " < ",

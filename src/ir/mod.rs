@@ -20,7 +20,7 @@
 
 mod print;
 
-use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
 
 /// A mechanism as equations.
@@ -34,7 +34,7 @@ pub struct ConstraintSystem {
     pub graph: Graph,
     /// The parameters, by the number of their symbol.
     pub params: Vec<Param>,
-    /// The bodies, each with three coordinates.
+    /// The bodies, each with three coordinates; those of the joints come after them.
     pub bodies: Vec<Body>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
@@ -54,6 +54,10 @@ pub struct ConstraintSystem {
     pub measures: Vec<Measure>,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
+    /// What tells one branch of a gear or contact from another.
+    pub watches: Vec<Watch>,
+    /// Distances that gears and racks are made for, but do not hold themselves.
+    pub fits: Vec<Fit>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
     /// The file's analysis: first time, last time, step (s).
@@ -87,6 +91,29 @@ pub enum CoordinateKind {
     Length,
     /// In radians.
     Angle,
+    /// A pure number: the argument of a curve at a contact, or the angle on a circle that serves as one.
+    Argument,
+}
+
+impl CoordinateKind {
+    /// The SI unit; `1` for a pure number.
+    #[must_use]
+    pub fn unit(self) -> &'static str {
+        match self {
+            CoordinateKind::Length => "m",
+            CoordinateKind::Angle => "rad",
+            CoordinateKind::Argument => "1",
+        }
+    }
+}
+
+/// Whose a coordinate is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Owner {
+    /// A body, by its index.
+    Body(usize),
+    /// A joint, by the index of its declaration.
+    Joint(usize),
 }
 
 /// A generalized coordinate.
@@ -94,13 +121,13 @@ pub enum CoordinateKind {
 pub struct Coordinate {
     /// `crank.phi`
     pub name: String,
-    /// Index of its body.
-    pub body: usize,
+    /// Whose it is.
+    pub owner: Owner,
     /// What it measures.
     pub kind: CoordinateKind,
     /// Where assembly starts; holds parameters only.
     pub estimate: ExprId,
-    /// What a change of it is judged against: the size of its body (m), or 1 rad.
+    /// What a change of it is judged against: the size of its body (m), or 1 (rad).
     pub scale: f64,
 }
 
@@ -169,12 +196,60 @@ pub struct Measure {
 pub struct Condition {
     /// The formula.
     pub positive: ExprId,
-    /// Whether it is a prescribed distance, rather than the interval of a motion.
-    pub is_distance: bool,
+    /// What it is about.
+    pub kind: ConditionKind,
     /// The formula's place.
     pub span: Span,
     /// The declaration that asks for it.
     pub owner: String,
+}
+
+/// A quantity that keeps its sign along a branch of the motion, and only there.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// The quantity.
+    pub value: ExprId,
+    /// What it is.
+    pub kind: WatchKind,
+    /// What it is judged against.
+    pub scale: f64,
+    /// Index of the joint's declaration.
+    pub declaration: usize,
+}
+
+/// What a [`Watch`] looks at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum WatchKind {
+    /// The way from centre to centre along the line of centres; it must be positive.
+    LineOfCenters,
+    /// One tangent at a contact along the other; zero where a tangent vanishes.
+    Tangents,
+    /// The relative curvature at a contact; zero where the contact is singular.
+    Curvature,
+}
+
+/// A distance in the assembled start, and what it should be.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// As it is (m).
+    pub distance: ExprId,
+    /// As the radii have it (m).
+    pub wanted: ExprId,
+    /// The larger radius (m).
+    pub radius: ExprId,
+    /// Index of the joint's declaration.
+    pub declaration: usize,
+}
+
+/// What a condition is about.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ConditionKind {
+    /// A prescribed distance.
+    Distance,
+    /// The interval of a motion function.
+    Interval,
+    /// The range of a table.
+    Range(TableId),
 }
 
 /// A sparse matrix of expressions, row by row.
@@ -264,6 +339,43 @@ impl ConstraintSystem {
     #[must_use]
     pub fn is_driver(&self, row: usize) -> bool {
         self.declaration_of(row).kind == DeclarationKind::Driver
+    }
+
+    /// The body that a coordinate is of, if it is of a body.
+    #[must_use]
+    pub fn body_of(&self, coordinate: usize) -> Option<usize> {
+        match self.coordinates[coordinate].owner {
+            Owner::Body(body) => Some(body),
+            Owner::Joint(_) => None,
+        }
+    }
+
+    /// The name of the body or joint that a coordinate is of.
+    #[must_use]
+    pub fn owner_name(&self, coordinate: usize) -> &str {
+        match self.coordinates[coordinate].owner {
+            Owner::Body(body) => &self.bodies[body].name,
+            Owner::Joint(joint) => &self.declarations[joint].name,
+        }
+    }
+
+    /// The place of the body or joint that a coordinate is of.
+    #[must_use]
+    pub fn owner_span(&self, coordinate: usize) -> Span {
+        match self.coordinates[coordinate].owner {
+            Owner::Body(body) => self.bodies[body].span,
+            Owner::Joint(joint) => self.declarations[joint].span,
+        }
+    }
+
+    /// The value of a formula of parameters and coordinates, at a position. Walks the graph: not for the time loop.
+    #[must_use]
+    pub fn value_at(&self, formula: ExprId, q: &[f64]) -> f64 {
+        self.graph.value(formula, |symbol| match symbol {
+            Symbol::Param(k) => self.params[k as usize].value,
+            Symbol::Coordinate { index, order: 0 } => q[index as usize],
+            _ => f64::NAN,
+        })
     }
 
     /// Coordinates minus equations.

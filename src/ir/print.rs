@@ -1,6 +1,6 @@
 //! The constraint system as readable text.
 
-use super::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use super::{ConstraintSystem, DeclarationKind, WatchKind};
 use crate::expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
@@ -58,10 +58,9 @@ impl std::fmt::Display for ConstraintSystem {
         section(
             f,
             "coordinates q, with their estimates",
-            self.coordinates.iter().map(|c| {
-                let unit = if c.kind == CoordinateKind::Length { "m" } else { "rad" };
-                (c.name.clone(), format!("≈ {} {unit}", printer.text(c.estimate)))
-            }),
+            self.coordinates
+                .iter()
+                .map(|c| (c.name.clone(), format!("≈ {} {}", printer.text(c.estimate), c.kind.unit()))),
         )?;
         let row = |k: usize| self.row_name(k);
         let rows = 0..self.rows.len();
@@ -110,6 +109,18 @@ impl std::fmt::Display for ConstraintSystem {
             let lines = self.conditions.iter().map(|c| (c.owner.clone(), format!("{} > 0", printer.text(c.positive))));
             section(f, "conditions", lines)?;
         }
+        if !self.watches.is_empty() {
+            let lines = self.watches.iter().map(|watch| {
+                let rule = match watch.kind {
+                    WatchKind::LineOfCenters => "> 0, along the line of centres",
+                    WatchKind::Tangents => "keeps its sign: the tangents",
+                    WatchKind::Curvature => "keeps its sign: the relative curvature",
+                };
+                let name = self.declarations[watch.declaration].name.clone();
+                (name, format!("{} {rule}", printer.text(watch.value)))
+            });
+            section(f, "watched along the way", lines)?;
+        }
         Ok(())
     }
 }
@@ -120,6 +131,7 @@ impl ConstraintSystem {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
         roots.extend(self.conditions.iter().map(|condition| condition.positive));
+        roots.extend(self.watches.iter().map(|watch| watch.value));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
         roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));
         roots.extend(self.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));

@@ -12,6 +12,10 @@ impl Lowering<'_> {
     pub(super) fn frame_coordinate(&mut self, frame: Frame, part: u32) -> ExprId {
         match frame {
             Frame::Ground => self.graph.constant(0.0),
+            Frame::Body(body) if self.as_drawn => {
+                let pose = self.model[body].pose[part as usize];
+                self.formula(pose)
+            }
             Frame::Body(body) => {
                 let index = 3 * body.index() as u32 + part;
                 self.graph.symbol(Symbol::Coordinate { index, order: 0 })
@@ -20,7 +24,7 @@ impl Lowering<'_> {
     }
 
     /// A vector fixed in a frame, turned into the global one.
-    fn turned(&mut self, frame: Frame, [x, y]: Vector) -> Vector {
+    pub(super) fn turned(&mut self, frame: Frame, [x, y]: Vector) -> Vector {
         if frame == Frame::Ground {
             return [x, y];
         }
@@ -37,6 +41,11 @@ impl Lowering<'_> {
         let point = &self.model[point];
         let frame = point.frame;
         let local = point.at.map(|id| self.formula(id));
+        self.placed(frame, local)
+    }
+
+    /// A point of a frame in the global one (m).
+    pub(super) fn placed(&mut self, frame: Frame, local: Vector) -> Vector {
         let [x, y] = self.turned(frame, local);
         let origin = [0, 1].map(|part| self.frame_coordinate(frame, part));
         [self.graph.add(origin[0], x), self.graph.add(origin[1], y)]

@@ -2,11 +2,11 @@
 
 use super::Lowering;
 use crate::expr::ExprId;
-use crate::model::{JointKind, PointId};
+use crate::model::{Joint, JointKind, PointId};
 
 impl Lowering<'_> {
-    pub(super) fn joint(&mut self, kind: JointKind) -> Vec<ExprId> {
-        match kind {
+    pub(super) fn joint(&mut self, joint: &Joint) -> Vec<ExprId> {
+        match joint.kind {
             // r_i^P − r_j^Q
             JointKind::Revolute(p, q) => {
                 let (p, q) = (self.global(p), self.global(q));
@@ -44,6 +44,11 @@ impl Lowering<'_> {
                 let left = self.left_of(v, d);
                 vec![self.graph.sub(left, offset)]
             }
+            JointKind::Gear { circles, internal, phase } => self.gear(joint, circles, internal, phase),
+            JointKind::RackPinion { pinion, rack, phase, side } => self.rack_pinion(pinion, rack, phase, side),
+            JointKind::PointFollower(point, profile) => self.point_follower(joint, point, profile),
+            JointKind::Cam(k, m) => self.cam(joint, k, m),
+            JointKind::FlatFollower(profile, face) => self.flat_follower(joint, profile, face),
         }
     }
 

@@ -2,17 +2,20 @@
 //! alone (`elements.md`; H stands for E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*,
 //! 1989).
 
+mod contacts;
+mod estimates;
 mod frames;
+mod gears;
 mod joints;
 mod quantities;
 mod size;
 
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{
-    Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Measure, Param, Row,
-    SparseRows,
+    self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
+    Owner, Param, Row, SparseRows, Watch,
 };
-use crate::model::{ConditionKind, EquationForm, Mechanism, Named, Quantity};
+use crate::model::{ConditionKind, EquationForm, Frame, Mechanism, Named, Quantity};
 use rustc_hash::FxHashMap;
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -23,15 +26,21 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         graph: Graph::new(),
         known: FxHashMap::default(),
         named: Vec::new(),
+        as_drawn: false,
+        sizes: size::of_bodies(model),
+        coordinates: Vec::new(),
         rows: Vec::new(),
         declarations: Vec::new(),
+        conditions: Vec::new(),
+        watches: Vec::new(),
+        fits: Vec::new(),
     };
+    lowering.tables();
     lowering.named();
-    let sizes = size::of_bodies(model);
-    let coordinates = lowering.coordinates(&sizes);
+    lowering.body_coordinates();
     lowering.joint_rows();
     lowering.equation_rows();
-    let conditions = lowering.conditions();
+    lowering.conditions();
     let measures = lowering.measures();
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
@@ -52,7 +61,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .iter()
             .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span })
             .collect(),
-        coordinates,
+        coordinates: lowering.coordinates,
         declarations: lowering.declarations,
         rows: lowering.rows,
         graph: lowering.graph,
@@ -61,8 +70,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         gamma: Vec::new(),
         jerk: None,
         measures,
-        conditions,
-        length: sizes.iter().copied().fold(0.0, f64::max),
+        conditions: lowering.conditions,
+        watches: lowering.watches,
+        fits: lowering.fits,
+        length: lowering.sizes.iter().copied().fold(0.0, f64::max),
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
@@ -76,8 +87,16 @@ struct Lowering<'m> {
     known: FxHashMap<ExprId, ExprId>,
     /// The model's named symbols as expressions in the coordinates.
     named: Vec<ExprId>,
+    /// Whether frames stand in their poses as written, rather than where the coordinates put them.
+    as_drawn: bool,
+    /// The size of each body (m).
+    sizes: Vec<f64>,
+    coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
     declarations: Vec<Declaration>,
+    conditions: Vec<Condition>,
+    watches: Vec<Watch>,
+    fits: Vec<Fit>,
 }
 
 impl Lowering<'_> {
@@ -91,6 +110,11 @@ impl Lowering<'_> {
         self.known[&id]
     }
 
+    fn tables(&mut self) {
+        // a table holds parameters and nothing else
+        self.graph.import_tables(&self.model.graph, &mut self.known, Graph::symbol);
+    }
+
     /// Named symbols in their order: each speaks only of those before it.
     fn named(&mut self) {
         for k in 0..self.model.named.len() {
@@ -100,30 +124,45 @@ impl Lowering<'_> {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
                 }
-                // only formulas that nobody uses hold it
+                // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),
             };
             self.named.push(id);
         }
     }
 
-    fn coordinates(&mut self, sizes: &[f64]) -> Vec<Coordinate> {
+    fn body_coordinates(&mut self) {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
-        let mut coordinates = Vec::with_capacity(3 * model.bodies.len());
         for (k, body) in model.bodies.iter().enumerate() {
             for ((part, kind), estimate) in PARTS.into_iter().zip(body.pose) {
-                coordinates.push(Coordinate {
+                let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
-                    body: k,
+                    owner: Owner::Body(k),
                     kind,
                     estimate: self.formula(estimate),
-                    scale: if kind == CoordinateKind::Length { sizes[k] } else { 1.0 },
-                });
+                    scale: if kind == CoordinateKind::Length { self.sizes[k] } else { 1.0 },
+                };
+                self.coordinates.push(coordinate);
             }
         }
-        coordinates
+    }
+
+    /// The size of a frame's body (m), that of the largest for the ground.
+    fn size(&self, frame: Frame) -> f64 {
+        match frame {
+            Frame::Ground => self.sizes.iter().copied().fold(0.0, f64::max),
+            Frame::Body(body) => self.sizes[body.index()],
+        }
+    }
+
+    /// What frames are in their poses as written.
+    fn as_drawn<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        self.as_drawn = true;
+        let result = work(self);
+        self.as_drawn = false;
+        result
     }
 
     fn declare(&mut self, name: &crate::model::Declared, kind: DeclarationKind, phi: &[ExprId]) {
@@ -135,7 +174,7 @@ impl Lowering<'_> {
     fn joint_rows(&mut self) {
         let model = self.model;
         for joint in &model.joints {
-            let phi = self.joint(joint.kind);
+            let phi = self.joint(joint);
             self.declare(&joint.declared, DeclarationKind::Joint(joint.kind.word()), &phi);
         }
     }
@@ -160,18 +199,26 @@ impl Lowering<'_> {
         }
     }
 
-    fn conditions(&mut self) -> Vec<Condition> {
+    fn conditions(&mut self) {
         let model = self.model;
-        model
-            .conditions
-            .iter()
-            .map(|condition| Condition {
-                positive: self.formula(condition.positive),
-                is_distance: condition.kind == ConditionKind::Distance,
-                span: condition.span,
-                owner: condition.owner.clone(),
-            })
-            .collect()
+        for condition in &model.conditions {
+            let positive = self.formula(condition.positive);
+            self.condition(condition, positive);
+        }
+    }
+
+    fn condition(&mut self, condition: &crate::model::Condition, positive: ExprId) {
+        self.conditions.push(Condition {
+            positive,
+            kind: match condition.kind {
+                ConditionKind::Distance => ir::ConditionKind::Distance,
+                ConditionKind::Interval => ir::ConditionKind::Interval,
+                // tables keep their numbers
+                ConditionKind::Range(table) => ir::ConditionKind::Range(table),
+            },
+            span: condition.span,
+            owner: condition.owner.clone(),
+        });
     }
 
     fn measures(&mut self) -> Vec<Measure> {

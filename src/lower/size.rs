@@ -4,11 +4,14 @@
 //! large machine, it would make good positions look singular.
 
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Frame, JointKind, Mechanism};
+use crate::model::{Curve, Frame, JointKind, Mechanism, Named};
 use rustc_hash::FxHashMap;
 
 /// Frames with more points than this are measured by their bounding box, to stay linear.
 const MANY_POINTS: usize = 500;
+
+/// So many places stand for a whole curve.
+const PLACES_ON_CURVE: u32 = 16;
 
 /// The size of each body (m): the largest distance between two of its features.
 ///
@@ -25,6 +28,14 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for point in &model.points {
         points.entry(point.frame).or_default().push(point.at.map(value));
+    }
+    for circle in &model.circles {
+        let ([x, y], radius) = (model[circle.center].at.map(value), value(circle.radius));
+        let ends = [[x + radius, y], [x - radius, y], [x, y + radius], [x, y - radius]];
+        points.entry(circle.frame).or_default().extend(ends);
+    }
+    for curve in &model.curves {
+        points.entry(curve.frame).or_default().extend(places_on(model, curve));
     }
     let mut sizes = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
@@ -53,6 +64,21 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
         }
     }
     sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect()
+}
+
+/// Some places on a curve (m), over one turn of its argument.
+fn places_on<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item = [f64; 2]> + 'm {
+    (0..PLACES_ON_CURVE).filter_map(move |k| {
+        let u = std::f64::consts::PI * (2.0 * f64::from(k) / f64::from(PLACES_ON_CURVE) - 1.0);
+        let place = curve.at.map(|id| {
+            model.graph.value(id, |symbol| match symbol {
+                Symbol::Param(k) => model.params[k as usize].value,
+                Symbol::Named(k) if model.named[k as usize] == Named::Argument => u,
+                _ => f64::NAN,
+            })
+        });
+        place.iter().all(|x| x.is_finite()).then_some(place)
+    })
 }
 
 /// A size for all bodies where none has one of its own.

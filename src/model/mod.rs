@@ -8,7 +8,7 @@ mod print;
 
 pub use dimension::Dimension;
 
-use crate::expr::{ExprId, Graph};
+use crate::expr::{ExprId, Graph, TableId};
 use crate::source::Span;
 
 /// A name and the place where it is declared.
@@ -58,6 +58,10 @@ ids! {
     PointId Point points add_point;
     /// An axis of a body or of the ground.
     AxisId Axis axes add_axis;
+    /// A circle of a body or of the ground.
+    CircleId Circle circles add_circle;
+    /// A curve of a body or of the ground.
+    CurveId Curve curves add_curve;
     /// A joint.
     JointId Joint joints add_joint;
     /// What a `Symbol::Named` of the graph stands for.
@@ -84,6 +88,10 @@ pub struct Mechanism {
     /// In order of declaration.
     pub axes: Vec<Axis>,
     /// In order of declaration.
+    pub circles: Vec<Circle>,
+    /// In order of declaration.
+    pub curves: Vec<Curve>,
+    /// In order of declaration.
     pub joints: Vec<Joint>,
     /// Constraints and drivers, in order of declaration.
     pub equations: Vec<Equation>,
@@ -108,6 +116,8 @@ impl Mechanism {
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
+            circles: Vec::new(),
+            curves: Vec::new(),
             joints: Vec::new(),
             equations: Vec::new(),
             measures: Vec::new(),
@@ -192,6 +202,78 @@ pub struct Axis {
     pub direction: [ExprId; 2],
 }
 
+/// A circle fixed in a frame.
+#[derive(Clone, Debug)]
+pub struct Circle {
+    /// What it is fixed to.
+    pub frame: Frame,
+    /// Its name.
+    pub name: String,
+    /// Where it is written.
+    pub span: Span,
+    /// Its centre.
+    pub center: PointId,
+    /// Its radius (m), positive.
+    pub radius: ExprId,
+}
+
+/// A curve fixed in a frame.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// What it is fixed to.
+    pub frame: Frame,
+    /// Its name.
+    pub name: String,
+    /// Where it is written.
+    pub span: Span,
+    /// The name of its argument, a pure number.
+    pub argument: String,
+    /// Its points in the frame (m), with [`Named::Argument`] for the argument.
+    pub at: [ExprId; 2],
+    /// First estimate of the argument at a contact.
+    pub estimate: Option<ExprId>,
+    /// Formulas of the argument that must stay positive for the points to have a meaning.
+    pub conditions: Vec<Condition>,
+}
+
+/// A line that a contact runs along.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Profile {
+    /// A curve, by its argument.
+    Curve(CurveId),
+    /// A circle, by the angle from the x axis of its body.
+    Circle(CircleId),
+}
+
+impl Profile {
+    /// What it is fixed to.
+    #[must_use]
+    pub fn frame(self, mechanism: &Mechanism) -> Frame {
+        match self {
+            Profile::Curve(curve) => mechanism[curve].frame,
+            Profile::Circle(circle) => mechanism[circle].frame,
+        }
+    }
+
+    /// Its own name.
+    #[must_use]
+    pub fn name(self, mechanism: &Mechanism) -> &str {
+        match self {
+            Profile::Curve(curve) => &mechanism[curve].name,
+            Profile::Circle(circle) => &mechanism[circle].name,
+        }
+    }
+}
+
+/// On which side of a rack its pinion lies.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Side {
+    /// Left of the axis' direction.
+    Left,
+    /// Right of it.
+    Right,
+}
+
 /// A joint.
 #[derive(Clone, Debug)]
 pub struct Joint {
@@ -214,6 +296,32 @@ pub enum JointKind {
     RevoluteRevolute(PointId, PointId, ExprId),
     /// A point stays on an axis, or at an offset (m) to its left.
     RevoluteTranslational(PointId, AxisId, ExprId),
+    /// Two circles roll on each other, with a phase (m) that the drawing gives if nothing else does.
+    Gear {
+        /// Of the first and of the second body.
+        circles: [CircleId; 2],
+        /// One is a ring around the other.
+        internal: bool,
+        /// `κ`
+        phase: Option<ExprId>,
+    },
+    /// A circle rolls on an axis.
+    RackPinion {
+        /// Of the first body.
+        pinion: CircleId,
+        /// Of the second body.
+        rack: AxisId,
+        /// `κ` (m)
+        phase: Option<ExprId>,
+        /// Where the pinion lies, if the drawing is not to say it.
+        side: Option<Side>,
+    },
+    /// A point stays on a line.
+    PointFollower(PointId, Profile),
+    /// Two lines touch.
+    Cam(Profile, Profile),
+    /// A line touches a straight face.
+    FlatFollower(Profile, AxisId),
 }
 
 impl JointKind {
@@ -226,6 +334,23 @@ impl JointKind {
             JointKind::Weld(..) => "weld",
             JointKind::RevoluteRevolute(..) => "revolute_revolute",
             JointKind::RevoluteTranslational(..) => "revolute_translational",
+            JointKind::Gear { internal: false, .. } => "gear",
+            JointKind::Gear { internal: true, .. } => "internal_gear",
+            JointKind::RackPinion { .. } => "rack_pinion",
+            JointKind::PointFollower(..) => "point_follower",
+            JointKind::Cam(..) => "cam",
+            JointKind::FlatFollower(..) => "flat_follower",
+        }
+    }
+
+    /// The names of the coordinates that it brings along.
+    #[must_use]
+    pub fn own_coordinates(self) -> &'static [&'static str] {
+        match self {
+            JointKind::Gear { .. } => &["theta"],
+            JointKind::PointFollower(..) | JointKind::FlatFollower(..) => &["u"],
+            JointKind::Cam(..) => &["u", "w"],
+            _ => &[],
         }
     }
 
@@ -238,6 +363,11 @@ impl JointKind {
             }
             JointKind::Translational(a, b) => [mechanism[a].frame, mechanism[b].frame],
             JointKind::RevoluteTranslational(p, a, _) => [mechanism[p].frame, mechanism[a].frame],
+            JointKind::Gear { circles: [c, d], .. } => [mechanism[c].frame, mechanism[d].frame],
+            JointKind::RackPinion { pinion, rack, .. } => [mechanism[pinion].frame, mechanism[rack].frame],
+            JointKind::PointFollower(p, profile) => [mechanism[p].frame, profile.frame(mechanism)],
+            JointKind::Cam(k, m) => [k.frame(mechanism), m.frame(mechanism)],
+            JointKind::FlatFollower(profile, a) => [profile.frame(mechanism), mechanism[a].frame],
         }
     }
 }
@@ -249,7 +379,7 @@ pub enum Named {
     Quantity(Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
-    /// The argument of a user's function, where its formula is read on its own.
+    /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }
 
@@ -328,6 +458,8 @@ pub enum ConditionKind {
     Distance,
     /// The interval of a motion function.
     Interval,
+    /// The range of a table.
+    Range(TableId),
 }
 
 /// Which times to compute.

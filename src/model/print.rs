@@ -1,6 +1,8 @@
 //! The model as readable text: names resolved, values in SI.
 
-use super::{AxisId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Quantity};
+use super::{
+    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity, Side,
+};
 use crate::expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;
 
@@ -22,6 +24,14 @@ impl Text<'_> {
 
     fn axis_text(&self, id: AxisId) -> String {
         format!("{}.{}", self.model.frame_name(self.model[id].frame), self.model[id].name)
+    }
+
+    fn circle_text(&self, id: CircleId) -> String {
+        format!("{}.{}", self.model.frame_name(self.model[id].frame), self.model[id].name)
+    }
+
+    fn profile_text(&self, profile: Profile) -> String {
+        format!("{}.{}", self.model.frame_name(profile.frame(self.model)), profile.name(self.model))
     }
 
     fn direction_text(&self, direction: Direction) -> String {
@@ -81,6 +91,17 @@ impl Text<'_> {
                 vec![point(p), point(q), text(value)]
             }
             JointKind::RevoluteTranslational(p, a, offset) => vec![point(p), self.axis_text(a), text(offset)],
+            JointKind::Gear { circles, phase, .. } => {
+                circles.map(|circle| self.circle_text(circle)).into_iter().chain(phase.map(text)).collect()
+            }
+            JointKind::RackPinion { pinion, rack, phase, side } => {
+                let side = side.map(|side| if side == Side::Left { "left".to_owned() } else { "right".to_owned() });
+                let wheels = [self.circle_text(pinion), self.axis_text(rack)];
+                wheels.into_iter().chain(phase.map(text)).chain(side).collect()
+            }
+            JointKind::PointFollower(p, profile) => vec![point(p), self.profile_text(profile)],
+            JointKind::Cam(k, m) => vec![self.profile_text(k), self.profile_text(m)],
+            JointKind::FlatFollower(profile, face) => vec![self.profile_text(profile), self.axis_text(face)],
         };
         format!("{}({})", kind.word(), arguments.join(", "))
     }
@@ -94,6 +115,35 @@ impl Text<'_> {
             let text = |id: ExprId| self.formula_text(id);
             let [dx, dy] = axis.direction.map(text);
             writeln!(f, "    axis {} = {} along ({dx}, {dy})", axis.name, self.point_text(axis.origin, &text))?;
+        }
+        self.write_profiles(f, frame)
+    }
+
+    fn write_tables(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        if !self.model.graph.tables().is_empty() {
+            writeln!(f, "\ntables, in SI")?;
+        }
+        for table in self.model.graph.tables() {
+            let text = |id: &ExprId| self.formula_text(*id);
+            let rows: Vec<String> =
+                table.knots.iter().zip(&table.values).map(|(x, y)| format!("({}, {})", text(x), text(y))).collect();
+            let periodic = if table.periodic { "periodic " } else { "" };
+            writeln!(f, "  {} = {periodic}spline [{}]", table.name, rows.join(", "))?;
+        }
+        Ok(())
+    }
+
+    fn write_profiles(&self, f: &mut std::fmt::Formatter<'_>, frame: Frame) -> std::fmt::Result {
+        let text = |id: ExprId| self.formula_text(id);
+        for circle in self.model.circles.iter().filter(|circle| circle.frame == frame) {
+            let center = self.point_text(circle.center, &text);
+            writeln!(f, "    circle {} = {center} radius {}", circle.name, text(circle.radius))?;
+        }
+        for curve in self.model.curves.iter().filter(|curve| curve.frame == frame) {
+            // in every curve the argument is called u here
+            let [x, y] = curve.at.map(text);
+            let estimate = curve.estimate.map_or(String::new(), |estimate| format!(" at {}", text(estimate)));
+            writeln!(f, "    curve {}(u) = ({x}, {y}){estimate}", curve.name)?;
         }
         Ok(())
     }
@@ -109,8 +159,12 @@ impl Mechanism {
             JointKind::Weld(_, _, value)
             | JointKind::RevoluteRevolute(_, _, value)
             | JointKind::RevoluteTranslational(_, _, value) => Some(value),
-            JointKind::Revolute(..) | JointKind::Translational(..) => None,
+            JointKind::Gear { phase, .. } | JointKind::RackPinion { phase, .. } => phase,
+            _ => None,
         }));
+        list.extend(self.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values)));
+        list.extend(self.circles.iter().map(|circle| circle.radius));
+        list.extend(self.curves.iter().flat_map(|curve| curve.at.into_iter().chain(curve.estimate)));
         for equation in &self.equations {
             match equation.form {
                 EquationForm::Difference(left, right) => list.extend([left, right]),
@@ -144,6 +198,7 @@ impl std::fmt::Display for Mechanism {
                 writeln!(f, "  {name} = {}", text.print(*id, true))?;
             }
         }
+        text.write_tables(f)?;
         writeln!(f, "\nground")?;
         text.write_features(f, Frame::Ground)?;
         for (id, body) in self.body_ids().zip(&self.bodies) {

@@ -1,9 +1,10 @@
 //! Laying a constraint system out as operations.
 
-use super::{Inputs, Op, Outputs, Program, Register, STAGES, Stage};
-use crate::expr::{Dependence, ExprId, Graph, Node, Symbol, Unary};
+use super::tables::{Place, Reached};
+use super::{Inputs, Op, Outputs, Program, Register, STAGES, Stage, Switch, TableLayout};
+use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TableId, Unary};
 use crate::ir::ConstraintSystem;
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
 
@@ -17,6 +18,7 @@ impl Program {
             phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
             phi_q: layout.place(Stage::Position, system.phi_q.entries().iter().map(|&(_, id)| id)),
             conditions: layout.place(Stage::Position, system.conditions.iter().map(|c| c.positive)),
+            watches: layout.place(Stage::Position, system.watches.iter().map(|w| w.value)),
             nu: layout.place(Stage::Velocity, system.nu.iter().copied()),
             gamma: layout.place(Stage::Acceleration, system.gamma.iter().copied()),
             jerk: layout.place(Stage::Jerk, system.jerk.iter().flatten().copied()),
@@ -31,13 +33,21 @@ impl Program {
     }
 }
 
-struct Layout<'s> {
-    graph: &'s Graph,
-    register_of: Vec<Register>,
+pub(super) struct Layout<'s> {
+    pub graph: &'s Graph,
+    pub register_of: Vec<Register>,
     /// Angles of which sine and cosine are both wanted somewhere.
     pairs: FxHashSet<ExprId>,
-    operations: Vec<Vec<Op>>,
-    constants: Vec<(Register, f64)>,
+    pub operations: Vec<Vec<Op>>,
+    pub constants: Vec<(Register, f64)>,
+    /// Comparisons already made, so that a function and its derivative share one.
+    comparisons: FxHashMap<(Comparison, Register, Register), Register>,
+    zero: Option<Register>,
+    /// The graph's tables that have been laid out.
+    pub tables: FxHashMap<TableId, Place>,
+    pub table_layouts: Vec<TableLayout>,
+    /// Where tables have been entered.
+    pub reached: FxHashMap<(TableId, ExprId), Reached>,
     inputs: Inputs,
     next: Register,
 }
@@ -53,13 +63,18 @@ impl<'s> Layout<'s> {
             pairs: pairs(&system.graph),
             operations: STAGES.map(|_| Vec::new()).to_vec(),
             constants: Vec::new(),
+            comparisons: FxHashMap::default(),
+            zero: None,
+            tables: FxHashMap::default(),
+            table_layouts: Vec::new(),
+            reached: FxHashMap::default(),
             inputs: Inputs { params: 0, time: params, coordinates, n },
             next: params + 1 + 4 * n,
         }
     }
 
     /// Emits what the roots need that is not there yet, and gives their registers.
-    fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
+    pub fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
         let roots: Vec<ExprId> = roots.into_iter().collect();
         let mut needed: Vec<ExprId> = Vec::new();
         let mut seen: FxHashSet<ExprId> = FxHashSet::default();
@@ -94,34 +109,90 @@ impl<'s> Layout<'s> {
 
     fn emit(&mut self, wanted: Stage, id: ExprId) {
         let stage = self.stage_of(wanted, id);
-        let r = |child: ExprId| self.register_of[child.index()];
-        let op = match self.graph.node(id) {
-            Node::Const(bits) => {
-                let to = self.fresh();
-                self.constants.push((to, f64::from_bits(bits)));
-                self.register_of[id.index()] = to;
-                return;
-            }
-            Node::Symbol(symbol) => {
-                self.register_of[id.index()] = self.input(symbol);
-                return;
-            }
+        let register = match self.graph.node(id) {
+            Node::Const(bits) => self.constant(f64::from_bits(bits)),
+            Node::Symbol(symbol) => self.input(symbol),
             Node::Power(a, n) => {
-                let base = r(a);
-                let register = self.power(stage, base, n.unsigned_abs());
-                self.register_of[id.index()] = if n < 0 {
-                    let to = self.fresh();
-                    self.operations[stage as usize].push(Op::Recip { to, a: register });
-                    to
-                } else {
-                    register
-                };
-                return;
+                let register = self.power(stage, self.register(a), n.unsigned_abs());
+                if n < 0 { self.push(stage, |to| Op::Recip { to, a: register }) } else { register }
             }
             Node::Unary(function @ (Unary::Sin | Unary::Cos), a) if self.pairs.contains(&a) => {
-                self.sine_and_cosine(stage, id, function, a);
-                return;
+                self.sine_and_cosine(stage, id, function, a)
             }
+            Node::Unary(Unary::Abs, a) if stage.can_switch() => self.absolute(stage, self.register(a)),
+            Node::Binary(Binary::Min, a, b) if stage.can_switch() => {
+                let (a, b) = (self.register(a), self.register(b));
+                let condition = self.comparison(stage, Comparison::Less, a, b);
+                self.push(stage, |to| Op::Either { to, condition, a, b })
+            }
+            Node::Binary(Binary::Max, a, b) if stage.can_switch() => {
+                let (a, b) = (self.register(a), self.register(b));
+                let condition = self.comparison(stage, Comparison::Less, b, a);
+                self.push(stage, |to| Op::Either { to, condition, a, b })
+            }
+            Node::Compare(comparison, a, b) => self.comparison(stage, comparison, self.register(a), self.register(b)),
+            Node::Table(table, order, x) => self.table(stage, table, order, x),
+            node => self.operation(stage, node),
+        };
+        self.register_of[id.index()] = register;
+    }
+
+    /// Where a node's value is, which has been laid out.
+    pub fn register(&self, id: ExprId) -> Register {
+        self.register_of[id.index()]
+    }
+
+    /// Adds an operation that writes a register of its own.
+    pub fn push(&mut self, stage: Stage, op: impl FnOnce(Register) -> Op) -> Register {
+        let to = self.fresh();
+        self.operations[stage as usize].push(op(to));
+        to
+    }
+
+    pub fn constant(&mut self, value: f64) -> Register {
+        let to = self.fresh();
+        self.constants.push((to, value));
+        to
+    }
+
+    /// `|a|` as a choice, so that it can be frozen.
+    fn absolute(&mut self, stage: Stage, a: Register) -> Register {
+        let zero = if let Some(zero) = self.zero {
+            zero
+        } else {
+            let zero = self.constant(0.0);
+            self.zero = Some(zero);
+            zero
+        };
+        let condition = self.comparison(stage, Comparison::Less, a, zero);
+        let turned = self.push(stage, |to| Op::Neg { to, a });
+        self.push(stage, |to| Op::Select { to, condition, a: turned, b: a })
+    }
+
+    fn comparison(&mut self, stage: Stage, comparison: Comparison, a: Register, b: Register) -> Register {
+        // any zero is the same here
+        let b = self.zero.filter(|_| self.is_zero(b)).unwrap_or(b);
+        if self.is_zero(b) {
+            self.zero.get_or_insert(b);
+        }
+        if let Some(&known) = self.comparisons.get(&(comparison, a, b)) {
+            return known;
+        }
+        let register = self.push(stage, |to| Op::Compare { comparison, to, a, b });
+        self.comparisons.insert((comparison, a, b), register);
+        register
+    }
+
+    fn is_zero(&self, register: Register) -> bool {
+        // constants are laid out in the order of their registers
+        let found = self.constants.binary_search_by_key(&register, |&(register, _)| register);
+        found.is_ok_and(|at| self.constants[at].1 == 0.0)
+    }
+
+    /// An operation that is one of the graph's.
+    fn operation(&mut self, stage: Stage, node: Node) -> Register {
+        let r = |child: ExprId| self.register_of[child.index()];
+        let op = match node {
             Node::Add(a, b) => Op::Add { to: self.next, a: r(a), b: r(b) },
             Node::Sub(a, b) => Op::Sub { to: self.next, a: r(a), b: r(b) },
             Node::Mul(a, b) => Op::Mul { to: self.next, a: r(a), b: r(b) },
@@ -129,18 +200,20 @@ impl<'s> Layout<'s> {
             Node::Neg(a) => Op::Neg { to: self.next, a: r(a) },
             Node::Unary(function, a) => Op::Unary { function, to: self.next, a: r(a) },
             Node::Binary(function, a, b) => Op::Binary { function, to: self.next, a: r(a), b: r(b) },
-            Node::Compare(comparison, a, b) => Op::Compare { comparison, to: self.next, a: r(a), b: r(b) },
             Node::And(a, b) => Op::And { to: self.next, a: r(a), b: r(b) },
             Node::Or(a, b) => Op::Or { to: self.next, a: r(a), b: r(b) },
             Node::Not(a) => Op::Not { to: self.next, a: r(a) },
             Node::Select(c, a, b) => Op::Select { to: self.next, condition: r(c), a: r(a), b: r(b) },
+            Node::Const(_) | Node::Symbol(_) | Node::Power(..) | Node::Compare(..) | Node::Table(..) => {
+                unreachable!("these have layouts of their own")
+            }
         };
-        self.register_of[id.index()] = self.fresh();
         self.operations[stage as usize].push(op);
+        self.fresh()
     }
 
     /// Both at once, at the first need of either.
-    fn sine_and_cosine(&mut self, stage: Stage, id: ExprId, function: Unary, angle: ExprId) {
+    fn sine_and_cosine(&mut self, stage: Stage, id: ExprId, function: Unary, angle: ExprId) -> Register {
         let (sin, cos) = (self.fresh(), self.fresh());
         let a = self.register_of[angle.index()];
         self.operations[stage as usize].push(Op::SinCos { sin, cos, a });
@@ -150,6 +223,7 @@ impl<'s> Layout<'s> {
         if let Some(partner) = self.graph.find_unary(other, angle) {
             self.register_of[partner.index()] = other_register;
         }
+        this_register
     }
 
     /// `baseⁿ` for n ≥ 1, by the products of `math::whole_power`.
@@ -168,7 +242,7 @@ impl<'s> Layout<'s> {
         to
     }
 
-    fn fresh(&mut self) -> Register {
+    pub fn fresh(&mut self) -> Register {
         self.next += 1;
         self.next - 1
     }
@@ -183,7 +257,19 @@ impl<'s> Layout<'s> {
     }
 
     fn finish(self, outputs: Outputs) -> Program {
+        let switches = self
+            .operations
+            .iter()
+            .zip(STAGES)
+            .filter(|(_, stage)| stage.can_switch())
+            .flat_map(|(operations, stage)| {
+                let switches = operations.iter().filter_map(move |&op| Some((op, op.switched()?)));
+                switches.map(move |(op, to)| Switch { op, to, on_time: stage == Stage::Time })
+            })
+            .collect();
         Program {
+            switches,
+            tables: self.table_layouts,
             operations: self.operations,
             constants: self.constants,
             registers: self.next as usize,

@@ -1,13 +1,24 @@
 //! Running a program. Allocates nothing but the registers, once.
 
-use super::{Op, Program, Stage};
-use crate::expr::{binary_value, compare, unary_value};
+use super::{Column, Op, Program, Stage, Switch};
+use crate::expr::{Unary, binary_value, compare, piece, unary_value};
 use crate::math;
 
 /// A program's registers.
 #[derive(Clone, Debug)]
 pub struct Registers {
     values: Vec<f64>,
+    /// Which switches stay as they are.
+    frozen: Frozen,
+}
+
+/// Which switches stay as they are, instead of following their formulas.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Frozen {
+    /// Those that depend on time alone.
+    pub time: bool,
+    /// All others.
+    pub motion: bool,
 }
 
 impl Registers {
@@ -15,6 +26,11 @@ impl Registers {
     #[must_use]
     pub fn get(&self, register: super::Register) -> f64 {
         self.values[register as usize]
+    }
+
+    /// From now on these switches stay as they are, and the others follow their formulas.
+    pub fn freeze(&mut self, frozen: Frozen) {
+        self.frozen = frozen;
     }
 
     /// Sets an input.
@@ -32,7 +48,7 @@ impl Program {
     /// Registers with the constants and parameters in place, and the prologue run.
     #[must_use]
     pub fn start(&self, params: &[f64]) -> Registers {
-        let mut registers = Registers { values: vec![0.0; self.registers()] };
+        let mut registers = Registers { values: vec![0.0; self.registers()], frozen: Frozen::default() };
         for &(register, value) in &self.constants {
             registers.set(register, value);
         }
@@ -41,8 +57,45 @@ impl Program {
         registers
     }
 
-    /// Runs the operations of one stage.
+    /// The result that a switch would have now, frozen or not.
+    #[must_use]
+    pub fn live(&self, switch: &Switch, registers: &Registers) -> f64 {
+        let v = registers.values.as_slice();
+        match switch.op {
+            Op::Compare { comparison, a, b, .. } => compare(comparison, v[a as usize], v[b as usize]),
+            Op::Unary { function, a, .. } => unary_value(function, v[a as usize]),
+            Op::Piece { table, a, .. } => self.piece(table, v[a as usize], v),
+            _ => v[switch.to as usize],
+        }
+    }
+
+    /// The number of the piece that an argument lies in; what is no number lies nowhere.
+    fn piece(&self, table: u32, x: f64, v: &[f64]) -> f64 {
+        let layout = &self.tables[table as usize];
+        if x.is_nan() {
+            return x;
+        }
+        piece(layout.pieces as usize, |k| v[layout.knots as usize + k], x) as f64
+    }
+
+    fn pick(&self, table: u32, column: Column, piece: f64, v: &[f64]) -> f64 {
+        if piece.is_nan() {
+            return piece;
+        }
+        let range = self.tables[table as usize].column(column);
+        // a piece is a small whole number
+        #[allow(clippy::cast_sign_loss)]
+        let at = range.start as usize + piece as usize;
+        v[at.min(range.end as usize - 1)]
+    }
+
+    /// Runs the operations of one stage; where registers are frozen, all but the switches.
     pub fn run(&self, stage: Stage, registers: &mut Registers) {
+        let frozen = match stage {
+            Stage::Prologue | Stage::Measures => false,
+            Stage::Time => registers.frozen.time,
+            _ => registers.frozen.motion,
+        };
         let v = registers.values.as_mut_slice();
         for op in self.stage(stage) {
             match *op {
@@ -53,6 +106,8 @@ impl Program {
                 Op::Neg { to, a } => v[to as usize] = -v[a as usize],
                 Op::Recip { to, a } => v[to as usize] = 1.0 / v[a as usize],
                 Op::SinCos { sin, cos, a } => (v[sin as usize], v[cos as usize]) = math::sin_cos(v[a as usize]),
+                Op::Compare { .. } | Op::Piece { .. } | Op::Unary { function: Unary::Sign | Unary::Floor, .. }
+                    if frozen => {}
                 Op::Unary { function, to, a } => v[to as usize] = unary_value(function, v[a as usize]),
                 Op::Binary { function, to, a, b } => {
                     v[to as usize] = binary_value(function, v[a as usize], v[b as usize]);
@@ -66,7 +121,26 @@ impl Program {
                 Op::Select { to, condition, a, b } => {
                     v[to as usize] = if v[condition as usize] == 0.0 { v[b as usize] } else { v[a as usize] };
                 }
+                Op::Either { to, condition, a, b } => {
+                    v[to as usize] = either(v[condition as usize], v[a as usize], v[b as usize]);
+                }
+                Op::Copy { to, a } => v[to as usize] = v[a as usize],
+                Op::Piece { to, table, a } => v[to as usize] = self.piece(table, v[a as usize], v),
+                Op::Pick { to, table, column, piece } => {
+                    v[to as usize] = self.pick(table, column, v[piece as usize], v);
+                }
             }
         }
+    }
+}
+
+/// `a` if the condition holds, else `b`; not a number if either is not.
+fn either(condition: f64, a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if condition == 0.0 {
+        b
+    } else {
+        a
     }
 }

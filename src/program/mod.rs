@@ -4,18 +4,46 @@
 //! that what the position needed is not computed again for the acceleration. Common subexpressions are computed once
 //! (the graph has them once), sine and cosine of an angle together.
 //!
+//! Where a formula has branches, the program has a [`Switch`]: its result can be frozen while a step is tried, and looked
+//! at when the step is done.
+//!
 //! What depends on parameters alone is computed once, in the prologue; what depends on time alone, once per time and
 //! not once per iteration.
 
 mod compile;
+mod enclose;
 mod evaluate;
+mod tables;
 
-pub use evaluate::Registers;
+pub use enclose::Enclosure;
+pub use evaluate::{Frozen, Registers};
 
 use crate::expr::{Binary, Comparison, Unary};
 
 /// A place for one number.
 pub type Register = u32;
+
+impl Stage {
+    /// Whether what is computed here enters the equations as the motion goes on, so that it must be smooth within a step.
+    /// A measure takes the branch it is on.
+    #[must_use]
+    pub fn can_switch(self) -> bool {
+        !matches!(self, Stage::Prologue | Stage::Measures)
+    }
+}
+
+impl Op {
+    /// Where an operation leaves its result that goes in jumps, if it does.
+    #[must_use]
+    pub fn switched(self) -> Option<Register> {
+        match self {
+            Op::Compare { to, .. }
+            | Op::Piece { to, .. }
+            | Op::Unary { function: Unary::Sign | Unary::Floor, to, .. } => Some(to),
+            _ => None,
+        }
+    }
+}
 
 /// When operations are run.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -24,7 +52,7 @@ pub enum Stage {
     Prologue,
     /// Once per time: what depends on time alone.
     Time,
-    /// Once per iteration: `Φ`, `Φ_q`, the conditions.
+    /// Once per iteration: `Φ`, `Φ_q`, the conditions, what is watched.
     Position,
     /// `ν`.
     Velocity,
@@ -115,6 +143,66 @@ pub enum Op {
         a: Register,
         b: Register,
     },
+    /// As `Select`, but not a number if either operand is not.
+    Either {
+        to: Register,
+        condition: Register,
+        a: Register,
+        b: Register,
+    },
+    Copy {
+        to: Register,
+        a: Register,
+    },
+    /// The piece of a table that `a` lies in, counted from 0.
+    Piece {
+        to: Register,
+        table: u32,
+        a: Register,
+    },
+    /// An entry of a table's column.
+    Pick {
+        to: Register,
+        table: u32,
+        column: Column,
+        piece: Register,
+    },
+}
+
+/// A column of a table.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+pub enum Column {
+    /// Where each piece begins, and where the last one ends.
+    Knots,
+    /// A coefficient of each piece, 0 to 3.
+    Coefficient(u8),
+}
+
+/// Where a table's columns stand: each is a run of registers.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct TableLayout {
+    /// Its name.
+    pub name: String,
+    /// One less than there are knots.
+    pub pieces: u32,
+    /// First knot.
+    pub knots: Register,
+    /// First of each coefficient.
+    pub coefficients: [Register; 4],
+}
+
+impl TableLayout {
+    /// The registers of a column.
+    #[must_use]
+    pub fn column(&self, column: Column) -> std::ops::Range<Register> {
+        match column {
+            Column::Knots => self.knots..self.knots + self.pieces + 1,
+            Column::Coefficient(order) => {
+                let first = self.coefficients[usize::from(order)];
+                first..first + self.pieces
+            }
+        }
+    }
 }
 
 /// Where a program finds its inputs; each is a run of registers.
@@ -153,6 +241,8 @@ pub struct Outputs {
     pub measures_dd: Vec<Register>,
     /// Formulas that must be positive.
     pub conditions: Vec<Register>,
+    /// Quantities that keep their signs.
+    pub watches: Vec<Register>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
 }
@@ -161,6 +251,9 @@ pub struct Outputs {
 #[derive(Clone, Debug)]
 pub struct Program {
     operations: Vec<Vec<Op>>,
+    tables: Vec<TableLayout>,
+    /// Where the right side of an equation may have an edge, in order of evaluation.
+    switches: Vec<Switch>,
     constants: Vec<(Register, f64)>,
     registers: usize,
     /// Where the inputs go.
@@ -169,7 +262,32 @@ pub struct Program {
     pub outputs: Outputs,
 }
 
+/// An operation whose result goes in jumps: a comparison, a rounding, the piece of a table.
+///
+/// While registers are frozen its result stays, so that what is computed from it goes on smoothly beyond its edge.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Switch {
+    /// The operation.
+    pub op: Op,
+    /// Where its result stands.
+    pub to: Register,
+    /// Whether it depends on time alone.
+    pub on_time: bool,
+}
+
 impl Program {
+    /// The tables, by their number.
+    #[must_use]
+    pub fn tables(&self) -> &[TableLayout] {
+        &self.tables
+    }
+
+    /// Where the equations may have edges.
+    #[must_use]
+    pub fn switches(&self) -> &[Switch] {
+        &self.switches
+    }
+
     /// The operations of a stage.
     #[must_use]
     pub fn stage(&self, stage: Stage) -> &[Op] {
@@ -186,5 +304,37 @@ impl Program {
     #[must_use]
     pub fn registers(&self) -> usize {
         self.registers
+    }
+
+    /// The registers that an operation reads, and those that it writes.
+    #[must_use]
+    pub fn operands(&self, op: Op) -> (Vec<Register>, Vec<Register>) {
+        match op {
+            Op::Neg { to, a }
+            | Op::Recip { to, a }
+            | Op::Not { to, a }
+            | Op::Copy { to, a }
+            | Op::Unary { to, a, .. } => (vec![a], vec![to]),
+            Op::Piece { to, table, a } => {
+                let knots = self.tables[table as usize].column(Column::Knots);
+                (knots.chain([a]).collect(), vec![to])
+            }
+            Op::Pick { to, table, column, piece } => {
+                let cells = self.tables[table as usize].column(column);
+                (cells.chain([piece]).collect(), vec![to])
+            }
+            Op::SinCos { sin, cos, a } => (vec![a], vec![sin, cos]),
+            Op::Add { to, a, b }
+            | Op::Sub { to, a, b }
+            | Op::Mul { to, a, b }
+            | Op::Div { to, a, b }
+            | Op::Binary { to, a, b, .. }
+            | Op::Compare { to, a, b, .. }
+            | Op::And { to, a, b }
+            | Op::Or { to, a, b } => (vec![a, b], vec![to]),
+            Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
+                (vec![condition, a, b], vec![to])
+            }
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! The count: coordinates minus equations, and the table of both.
 
-use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::ir::{ConstraintSystem, Declaration, DeclarationKind, Owner};
 
 /// Longer lists are cut in the middle.
 const LONGEST: usize = 40;
@@ -8,22 +8,26 @@ const LONGEST: usize = 40;
 /// Coordinates and equations by body, joint, constraint and driver, and their difference.
 #[must_use]
 pub fn table(system: &ConstraintSystem) -> String {
-    let bodies: Vec<[String; 3]> =
+    let kind_of = |declaration: &Declaration| match declaration.kind {
+        DeclarationKind::Joint(word) => word.to_owned(),
+        other => other.noun().to_owned(),
+    };
+    let mut owners: Vec<[String; 3]> =
         system.bodies.iter().map(|body| ["body".to_owned(), body.name.clone(), "3".to_owned()]).collect();
+    for owned in system.coordinates.chunk_by(|a, b| a.owner == b.owner) {
+        if let Owner::Joint(joint) = owned[0].owner {
+            let declaration = &system.declarations[joint];
+            owners.push([kind_of(declaration), declaration.name.clone(), owned.len().to_string()]);
+        }
+    }
     let equations: Vec<[String; 3]> = system
         .declarations
         .iter()
-        .map(|declaration| {
-            let kind = match declaration.kind {
-                DeclarationKind::Joint(word) => word.to_owned(),
-                other => other.noun().to_owned(),
-            };
-            [kind, declaration.name.clone(), declaration.rows.to_string()]
-        })
+        .map(|declaration| [kind_of(declaration), declaration.name.clone(), declaration.rows.to_string()])
         .collect();
     let (n, m) = (system.coordinates.len(), system.rows.len());
     let mut rows = vec![["coordinates".to_owned(), String::new(), n.to_string()]];
-    rows.extend(cut(bodies));
+    rows.extend(cut(owners));
     rows.push(["equations".to_owned(), String::new(), m.to_string()]);
     rows.extend(cut(equations));
     rows.push(["NDOF".to_owned(), format!("{n} - {m}"), system.ndof().to_string()]);

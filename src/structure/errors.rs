@@ -54,7 +54,7 @@ fn what_to_take_away(system: &ConstraintSystem) -> String {
 pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     let columns = matching.free_columns(&system.phi_q);
     let competing = competing(system, matching);
-    let mut free: Vec<usize> = columns.iter().map(|&column| system.coordinates[column as usize].body).collect();
+    let mut free: Vec<_> = columns.iter().map(|&column| system.owner_span(column as usize)).collect();
     free.dedup();
     let mut diagnostic =
         Diagnostic::new(Code::E0503, "one part of the mechanism has too many equations, another one too few");
@@ -62,8 +62,8 @@ pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
         let text = "one of too many equations for the same bodies";
         diagnostic = if k == 0 { diagnostic.at(declaration.span, text) } else { diagnostic.also(declaration.span, "") };
     }
-    for &body in free.iter().take(LISTED) {
-        diagnostic = diagnostic.also(system.bodies[body].span, "not fixed by enough equations");
+    for &span in free.iter().take(LISTED) {
+        diagnostic = diagnostic.also(span, "not fixed by enough equations");
     }
     let shown: Vec<String> =
         columns.iter().take(LISTED).map(|&column| format!("`{}`", system.coordinates[column as usize].name)).collect();

@@ -194,7 +194,7 @@ pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
 
 /// The residual of the equations (m, m^2 or rad).
 ///
-/// 254 operations.
+/// 259 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let a = p.a;
     let n = p.n;
@@ -439,41 +439,46 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v217 = v216 + -0.1;
     let v218 = rocker_phi / 2.0;
     let v219 = q14 - v218;
-    let v220 = f64::abs(v165);
-    let v221 = v220 / 10.0;
-    let v222 = q13 + v221;
-    let v223 = v222 + -0.6;
-    let v224 = lesser(a, v171);
-    let v225 = greater(v158, v159);
-    let v226 = greater(v225, 0.2);
-    let v227 = v224 + v226;
-    let v228 = v163 - v227;
-    let v229 = libm::hypot(v173, v174);
-    let v230 = libm::tanh(q2);
-    let v231 = v230 / 10.0;
-    let v232 = v231 + 1.2;
-    let v233 = v229 - v232;
-    let v234 = libm::atan2(v174, v173);
-    let v235 = c155 / 3.0;
-    let v236 = libm::acos(v235);
-    let v237 = v236 / 4.0;
-    let v238 = s155 / 2.0;
-    let v239 = libm::asin(v238);
-    let v240 = v237 + v239;
-    let v241 = v234 - v240;
-    let v242 = q2 / 9.0;
-    let v243 = libm::tan(v242);
-    let v244 = libm::atan(q2);
-    let v245 = sign(v173);
-    let v246 = v244 * v245;
-    let v247 = v246 / 5.0;
-    let v248 = 1.0 + v247;
-    let v249 = v243 + v248;
-    let v250 = gauge_phi - v249;
-    let v251 = v175 - v11;
-    let v252 = v147 - v37;
-    let v253 = v164 - v72;
-    let v254 = v176 - v143;
+    let v220 = f64::from(v165 < 0.0);
+    let v221 = -v165;
+    let v222 = select(v220, v221, v165);
+    let v223 = v222 / 10.0;
+    let v224 = q13 + v223;
+    let v225 = v224 + -0.6;
+    let v226 = f64::from(a < v171);
+    let v227 = either(v226, a, v171);
+    let v228 = f64::from(v159 < v158);
+    let v229 = either(v228, v158, v159);
+    let v230 = f64::from(0.2 < v229);
+    let v231 = either(v230, v229, 0.2);
+    let v232 = v227 + v231;
+    let v233 = v163 - v232;
+    let v234 = libm::hypot(v173, v174);
+    let v235 = libm::tanh(q2);
+    let v236 = v235 / 10.0;
+    let v237 = v236 + 1.2;
+    let v238 = v234 - v237;
+    let v239 = libm::atan2(v174, v173);
+    let v240 = c155 / 3.0;
+    let v241 = libm::acos(v240);
+    let v242 = v241 / 4.0;
+    let v243 = s155 / 2.0;
+    let v244 = libm::asin(v243);
+    let v245 = v242 + v244;
+    let v246 = v239 - v245;
+    let v247 = q2 / 9.0;
+    let v248 = libm::tan(v247);
+    let v249 = libm::atan(q2);
+    let v250 = sign(v173);
+    let v251 = v249 * v250;
+    let v252 = v251 / 5.0;
+    let v253 = 1.0 + v252;
+    let v254 = v248 + v253;
+    let v255 = gauge_phi - v254;
+    let v256 = v175 - v11;
+    let v257 = v147 - v37;
+    let v258 = v164 - v72;
+    let v259 = v176 - v143;
     let mut out = [0.0; N];
     out[0] = v177;
     out[1] = v178;
@@ -487,15 +492,15 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out[9] = v211;
     out[10] = v217;
     out[11] = v219;
-    out[12] = v223;
-    out[13] = v228;
-    out[14] = v233;
-    out[15] = v241;
-    out[16] = v250;
-    out[17] = v251;
-    out[18] = v252;
-    out[19] = v253;
-    out[20] = v254;
+    out[12] = v225;
+    out[13] = v233;
+    out[14] = v238;
+    out[15] = v246;
+    out[16] = v255;
+    out[17] = v256;
+    out[18] = v257;
+    out[19] = v258;
+    out[20] = v259;
     out
 }
 
@@ -560,95 +565,95 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let v36 = v8 - v34;
     let v37 = v9 - v35;
     let v38 = q13 - rocker_y;
-    let v39 = greater(v13, v14);
-    let v40 = libm::hypot(v25, v26);
-    let v41 = libm::tanh(q2);
-    let v42 = c10 / 3.0;
-    let v43 = s10 / 2.0;
-    let v44 = q2 / 9.0;
-    let v45 = libm::tan(v44);
-    let v46 = sign(v25);
-    let v47 = -v12;
-    let v48 = 2.0 * v37;
-    let v49 = 2.0 * v36;
-    let v50 = -2.0 * v37;
-    let v51 = -2.0 * v36;
-    let v52 = -0.2 * v37;
-    let v53 = v1 * v37;
-    let v54 = -2.0 * v53;
-    let v55 = 0.2 * v36;
-    let v56 = v54 + v55;
-    let v57 = v1 * v36;
+    let v39 = f64::from(v17 < 0.0);
+    let v40 = f64::from(a < v23);
+    let v41 = f64::from(v14 < v13);
+    let v42 = either(v41, v13, v14);
+    let v43 = f64::from(0.2 < v42);
+    let v44 = libm::hypot(v25, v26);
+    let v45 = libm::tanh(q2);
+    let v46 = c10 / 3.0;
+    let v47 = s10 / 2.0;
+    let v48 = q2 / 9.0;
+    let v49 = libm::tan(v48);
+    let v50 = sign(v25);
+    let v51 = -v12;
+    let v52 = 2.0 * v37;
+    let v53 = 2.0 * v36;
+    let v54 = -2.0 * v37;
+    let v55 = -2.0 * v36;
+    let v56 = -0.2 * v37;
+    let v57 = v1 * v37;
     let v58 = -2.0 * v57;
-    let v59 = v52 + v58;
-    let v60 = c27 * v56;
-    let v61 = s27 * v59;
-    let v62 = v60 - v61;
-    let v63 = a * v37;
-    let v64 = a * v36;
-    let v65 = c3 * v63;
-    let v66 = 4.0 * v65;
-    let v67 = s3 * v64;
-    let v68 = -4.0 * v67;
-    let v69 = v66 + v68;
-    let v70 = rocker_x - q12;
-    let v71 = -s3;
-    let v72 = -c3;
-    let v73 = c3 * v70;
-    let v74 = s3 * v38;
-    let v75 = v73 - v74;
-    let v76 = f64::from(v17 < 0.0);
-    let v77 = select(v76, -0.1, 0.1);
-    let v78 = -v77;
-    let v79 = a * v77;
-    let v80 = s10 * v79;
+    let v59 = 0.2 * v36;
+    let v60 = v58 + v59;
+    let v61 = v1 * v36;
+    let v62 = -2.0 * v61;
+    let v63 = v56 + v62;
+    let v64 = c27 * v60;
+    let v65 = s27 * v63;
+    let v66 = v64 - v65;
+    let v67 = a * v37;
+    let v68 = a * v36;
+    let v69 = c3 * v67;
+    let v70 = 4.0 * v69;
+    let v71 = s3 * v68;
+    let v72 = -4.0 * v71;
+    let v73 = v70 + v72;
+    let v74 = rocker_x - q12;
+    let v75 = -s3;
+    let v76 = -c3;
+    let v77 = c3 * v74;
+    let v78 = s3 * v38;
+    let v79 = v77 - v78;
+    let v80 = select(v39, -0.1, 0.1);
     let v81 = -v80;
-    let v82 = 2.0 * v18;
-    let v83 = -2.0 * v18;
-    let v84 = 2.0 * v23;
-    let v85 = v83 / v84;
-    let v86 = f64::from(a < v23);
-    let v87 = select(v86, 0.0, v85);
-    let v88 = f64::from(v14 < v13);
-    let v89 = select(v88, 1.0, 0.0);
-    let v90 = f64::from(0.2 < v39);
-    let v91 = select(v90, v89, 0.0);
-    let v92 = v87 + v91;
+    let v82 = a * v80;
+    let v83 = s10 * v82;
+    let v84 = -v83;
+    let v85 = 2.0 * v18;
+    let v86 = -2.0 * v18;
+    let v87 = 2.0 * v23;
+    let v88 = v86 / v87;
+    let v89 = select(v40, 0.0, v88);
+    let v90 = select(v41, 1.0, 0.0);
+    let v91 = select(v43, v90, 0.0);
+    let v92 = v89 + v91;
     let v93 = -v92;
     let v94 = 2.0 * v19;
     let v95 = -2.0 * v19;
-    let v96 = v95 / v84;
-    let v97 = select(v86, 0.0, v96);
-    let v98 = select(v88, 0.0, 1.0);
-    let v99 = select(v90, v98, 0.0);
+    let v96 = v95 / v87;
+    let v97 = select(v40, 0.0, v96);
+    let v98 = select(v41, 0.0, 1.0);
+    let v99 = select(v43, v98, 0.0);
     let v100 = v97 + v99;
     let v101 = -v100;
-    let v102 = select(v88, v47, 0.0);
-    let v103 = select(v88, 0.0, v11);
+    let v102 = select(v41, v51, 0.0);
+    let v103 = select(v41, 0.0, v11);
     let v104 = v102 + v103;
-    let v105 = select(v90, v104, 0.0);
+    let v105 = select(v43, v104, 0.0);
     let v106 = -v105;
-    let v107 = v82 / v84;
-    let v108 = select(v86, 0.0, v107);
+    let v107 = v85 / v87;
+    let v108 = select(v40, 0.0, v107);
     let v109 = -v108;
-    let v110 = v94 / v84;
-    let v111 = select(v86, 0.0, v110);
+    let v110 = v94 / v87;
+    let v111 = select(v40, 0.0, v110);
     let v112 = -v111;
     let v113 = -0.1 * s15;
-    let v114 = v41 * v41;
+    let v114 = v45 * v45;
     let v115 = 1.0 - v114;
     let v116 = -0.1 * v115;
-    let v117 = v25 / v40;
-    let v118 = v26 / v40;
+    let v117 = v25 / v44;
+    let v118 = v26 / v44;
     let v119 = c24 * v118;
     let v120 = s24 * v117;
     let v121 = v119 - v120;
-    let v122 = v43 * v43;
+    let v122 = v47 * v47;
     let v123 = 1.0 - v122;
     let v124 = f64::sqrt(v123);
     let v125 = -1.0 / v124;
     let v126 = v125 / 2.0;
-    let v127 = v42 * v42;
+    let v127 = v46 * v46;
     let v128 = 1.0 - v127;
     let v129 = f64::sqrt(v128);
     let v130 = -0.25 / v129;
@@ -665,11 +670,11 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let v141 = c10 * v126;
     let v142 = s10 * v131;
     let v143 = v141 + v142;
-    let v144 = -0.2 * v46;
+    let v144 = -0.2 * v50;
     let v145 = q2 * q2;
     let v146 = 1.0 + v145;
     let v147 = v144 / v146;
-    let v148 = v45 * v45;
+    let v148 = v49 * v49;
     let v149 = 1.0 + v148;
     let v150 = v149 / 9.0;
     let v151 = v147 - v150;
@@ -677,7 +682,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
-    out[3] = v47;
+    out[3] = v51;
     out[4] = -1.0;
     out[5] = 1.0;
     out[6] = v11;
@@ -686,25 +691,25 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     out[9] = 1.0;
     out[10] = -1.0;
     out[11] = -1.0;
-    out[12] = v51;
-    out[13] = v50;
-    out[14] = v62;
-    out[15] = v49;
-    out[16] = v48;
-    out[17] = v69;
+    out[12] = v55;
+    out[13] = v54;
+    out[14] = v66;
+    out[15] = v53;
+    out[16] = v52;
+    out[17] = v73;
     out[18] = -0.8;
     out[19] = 0.6;
     out[20] = c2;
     out[21] = s3;
-    out[22] = v72;
-    out[23] = v75;
-    out[24] = v71;
+    out[22] = v76;
+    out[23] = v79;
+    out[24] = v75;
     out[25] = c3;
     out[26] = -0.5;
     out[27] = 1.0;
-    out[28] = v77;
-    out[29] = v81;
-    out[30] = v78;
+    out[28] = v80;
+    out[29] = v84;
+    out[30] = v81;
     out[31] = 1.0;
     out[32] = v93;
     out[33] = v101;
@@ -1246,27 +1251,27 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v99 = v72 - v97;
     let v100 = q12 - rocker_x;
     let v101 = q13 - rocker_y;
-    let v102 = greater(v76, v77);
-    let v103 = libm::hypot(v87, v88);
-    let v104 = libm::tanh(q2);
-    let v105 = c73 / 3.0;
-    let v106 = s73 / 2.0;
-    let v107 = q2 / 9.0;
-    let v108 = libm::tan(v107);
-    let v109 = sign(v87);
-    let v110 = f64::from(v79 < 0.0);
-    let v111 = 2.0 * v85;
-    let v112 = f64::from(a < v85);
-    let v113 = f64::from(v77 < v76);
-    let v114 = f64::from(0.2 < v102);
-    let v115 = v104 * v104;
+    let v102 = f64::from(v79 < 0.0);
+    let v103 = f64::from(a < v85);
+    let v104 = f64::from(v77 < v76);
+    let v105 = either(v104, v76, v77);
+    let v106 = f64::from(0.2 < v105);
+    let v107 = libm::hypot(v87, v88);
+    let v108 = libm::tanh(q2);
+    let v109 = c73 / 3.0;
+    let v110 = s73 / 2.0;
+    let v111 = q2 / 9.0;
+    let v112 = libm::tan(v111);
+    let v113 = sign(v87);
+    let v114 = 2.0 * v85;
+    let v115 = v108 * v108;
     let v116 = 1.0 - v115;
-    let v117 = v87 / v103;
-    let v118 = v88 / v103;
-    let v119 = v106 * v106;
+    let v117 = v87 / v107;
+    let v118 = v88 / v107;
+    let v119 = v110 * v110;
     let v120 = 1.0 - v119;
     let v121 = f64::sqrt(v120);
-    let v122 = v105 * v105;
+    let v122 = v109 * v109;
     let v123 = 1.0 - v122;
     let v124 = f64::sqrt(v123);
     let v125 = v88 * v88;
@@ -1276,7 +1281,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v129 = v88 / v127;
     let v130 = q2 * q2;
     let v131 = 1.0 + v130;
-    let v132 = v108 * v108;
+    let v132 = v112 * v112;
     let v133 = 1.0 + v132;
     let v134 = 0.5 * v12;
     let v135 = 3.0 * v10;
@@ -1339,7 +1344,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v192 = v81 * v189;
     let v193 = 2.0 * v192;
     let v194 = v191 + v193;
-    let v195 = v194 / v111;
+    let v195 = v194 / v114;
     let v196 = s86 * gauge_phi_d;
     let v197 = c86 * gauge_phi_d;
     let v198 = gauge_x_d - v196;
@@ -1375,20 +1380,20 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v228 = -v227;
     let v229 = -0.1 * v181;
     let v230 = -0.1 * v182;
-    let v231 = v104 * v217;
-    let v232 = v198 / v103;
-    let v233 = v117 / v103;
+    let v231 = v108 * v217;
+    let v232 = v198 / v107;
+    let v233 = v117 / v107;
     let v234 = v216 * v233;
     let v235 = v232 - v234;
-    let v236 = v199 / v103;
-    let v237 = v118 / v103;
+    let v236 = v199 / v107;
+    let v237 = v118 / v107;
     let v238 = v216 * v237;
     let v239 = v236 - v238;
-    let v240 = v106 * v220;
+    let v240 = v110 * v220;
     let v241 = -2.0 * v240;
     let v242 = 2.0 * v121;
     let v243 = v241 / v242;
-    let v244 = v105 * v218;
+    let v244 = v109 * v218;
     let v245 = 2.0 * v244;
     let v246 = 2.0 * v124;
     let v247 = v245 / v246;
@@ -1406,7 +1411,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v259 = v252 * v258;
     let v260 = v257 - v259;
     let v261 = q2 * qd2;
-    let v262 = v108 * v223;
+    let v262 = v112 * v223;
     let v263 = -16.0 * c7;
     let v264 = v263 / n;
     let v265 = -4.0 * s9;
@@ -1524,8 +1529,8 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v377 = v189 * v189;
     let v378 = 2.0 * v377;
     let v379 = v376 + v378;
-    let v380 = v379 / v111;
-    let v381 = v195 / v111;
+    let v380 = v379 / v114;
+    let v381 = v195 / v114;
     let v382 = v195 * v381;
     let v383 = -2.0 * v382;
     let v384 = v380 + v383;
@@ -1568,13 +1573,13 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v421 = v419 + v420;
     let v422 = v420 + v421;
     let v423 = v418 + v422;
-    let v424 = select(v110, v373, v374);
+    let v424 = select(v102, v373, v374);
     let v425 = v424 / 10.0;
-    let v426 = select(v112, 0.0, v384);
-    let v427 = select(v113, v374, 0.0);
-    let v428 = select(v113, 0.0, v228);
+    let v426 = select(v103, 0.0, v384);
+    let v427 = select(v104, v374, 0.0);
+    let v428 = select(v104, 0.0, v228);
     let v429 = v427 + v428;
-    let v430 = select(v114, v429, 0.0);
+    let v430 = select(v106, v429, 0.0);
     let v431 = v426 + v430;
     let v432 = v198 * v235;
     let v433 = v117 * v385;
@@ -1610,7 +1615,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v463 = 2.0 * v462;
     let v464 = v224 / v131;
     let v465 = v261 * v464;
-    let v466 = v109 * v465;
+    let v466 = v113 * v465;
     let v467 = -2.0 * v466;
     let v468 = v467 / 5.0;
     let v469 = v463 + v468;
@@ -1654,6 +1659,17 @@ fn select(condition: f64, a: f64, b: f64) -> f64 {
     if condition == 0.0 { b } else { a }
 }
 
+/// As `select`, but not a number if either is not.
+fn either(condition: f64, a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if condition == 0.0 {
+        b
+    } else {
+        a
+    }
+}
+
 /// -1, 0 or 1; 0 at 0.
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
@@ -1663,16 +1679,6 @@ fn sign(x: f64) -> f64 {
     } else {
         x
     }
-}
-
-/// The smaller one; not a number if either is not.
-fn lesser(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a < b { a } else { b }
-}
-
-/// The larger one; not a number if either is not.
-fn greater(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
 }
 
 use sine_and_cosine::sin_cos;

@@ -101,7 +101,7 @@ pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
 
 /// The residual of the equations (m, m^2 or rad).
 ///
-/// 24 operations.
+/// 25 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let fn_ = p.fn_;
     let p1 = p.self_;
@@ -121,33 +121,34 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v2 = v1 - greater_2;
     let v3 = t * p1;
     let v4 = u00e9 + v3;
-    let v5 = greater(v4, v2);
-    let v6 = sign(t);
-    let v7 = f64::from(t < 1.0);
-    let v8 = select(v7, 0.0, v6);
-    let v9 = loop_phi_2 - loop_phi;
-    let (s10, c10) = sin_cos(loop_phi);
-    let v11 = -loop_x;
-    let v12 = -loop_y;
-    let v13 = c10 * r;
-    let v14 = s10 * r;
-    let v15 = loop_x + v13;
-    let v16 = loop_y + v14;
-    let v17 = v15 - loop_x_2;
-    let v18 = v16 - loop_y_2;
-    let v19 = loop_phi - v5;
-    let v20 = loop_phi * fn_;
-    let v21 = v20 * r_2;
-    let v22 = v21 / r;
-    let v23 = v8 + v22;
-    let v24 = v9 - v23;
+    let v5 = f64::from(v2 < v4);
+    let v6 = either(v5, v4, v2);
+    let v7 = sign(t);
+    let v8 = f64::from(t < 1.0);
+    let v9 = select(v8, 0.0, v7);
+    let v10 = loop_phi_2 - loop_phi;
+    let (s11, c11) = sin_cos(loop_phi);
+    let v12 = -loop_x;
+    let v13 = -loop_y;
+    let v14 = c11 * r;
+    let v15 = s11 * r;
+    let v16 = loop_x + v14;
+    let v17 = loop_y + v15;
+    let v18 = v16 - loop_x_2;
+    let v19 = v17 - loop_y_2;
+    let v20 = loop_phi - v6;
+    let v21 = loop_phi * fn_;
+    let v22 = v21 * r_2;
+    let v23 = v22 / r;
+    let v24 = v9 + v23;
+    let v25 = v10 - v24;
     let mut out = [0.0; N];
-    out[0] = v11;
-    out[1] = v12;
-    out[2] = v17;
-    out[3] = v18;
-    out[4] = v19;
-    out[5] = v24;
+    out[0] = v12;
+    out[1] = v13;
+    out[2] = v18;
+    out[3] = v19;
+    out[4] = v20;
+    out[5] = v25;
     out
 }
 
@@ -256,6 +257,17 @@ fn select(condition: f64, a: f64, b: f64) -> f64 {
     if condition == 0.0 { b } else { a }
 }
 
+/// As `select`, but not a number if either is not.
+fn either(condition: f64, a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if condition == 0.0 {
+        b
+    } else {
+        a
+    }
+}
+
 /// -1, 0 or 1; 0 at 0.
 fn sign(x: f64) -> f64 {
     if x > 0.0 {
@@ -265,11 +277,6 @@ fn sign(x: f64) -> f64 {
     } else {
         x
     }
-}
-
-/// The larger one; not a number if either is not.
-fn greater(a: f64, b: f64) -> f64 {
-    if a.is_nan() || a > b { a } else { b }
 }
 
 use sine_and_cosine::sin_cos;

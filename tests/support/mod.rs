@@ -3,10 +3,12 @@
 #![allow(dead_code)] // each test file uses its part
 
 use mechc::analysis::{self, Times};
+use mechc::check::Surroundings;
 use mechc::diag::{Color, Diagnostic, Diagnostics, Format, Severity, render};
 use mechc::program::Program;
 use mechc::source::Sources;
 use mechc::structure::Determined;
+use mechc::syntax::ast::{ItemKind, Mechanism, TableRows};
 use mechc::{check, syntax};
 use std::path::{Path, PathBuf};
 
@@ -57,6 +59,17 @@ impl Outcome {
 
 /// Checks and proves the first mechanism of a text.
 pub fn compile(sources: &mut Sources, name: &str, text: &str) -> (Option<Determined>, Diagnostics) {
+    compile_at(sources, name, text, Path::new(name), 0)
+}
+
+/// Checks and proves a mechanism of a text that is in a file, by its number.
+pub fn compile_at(
+    sources: &mut Sources,
+    name: &str,
+    text: &str,
+    path: &Path,
+    number: usize,
+) -> (Option<Determined>, Diagnostics) {
     let file = sources.add(name, text);
     let tree = match syntax::parse(sources, file) {
         Ok(tree) => tree,
@@ -66,13 +79,50 @@ pub fn compile(sources: &mut Sources, name: &str, text: &str) -> (Option<Determi
     if diagnostics.has_errors() {
         return (None, diagnostics);
     }
-    mechc::compile(&tree.mechanisms[0], &[], sources)
+    let surroundings = surroundings(&tree.mechanisms[number], path, sources);
+    mechc::compile(&tree.mechanisms[number], &surroundings, sources)
 }
 
-/// Runs the first mechanism of a text over its analysis.
+/// The files that a mechanism's tables name, beside the file it is in.
+pub fn surroundings(mechanism: &Mechanism, beside: &Path, sources: &mut Sources) -> Surroundings {
+    let mut surroundings = Surroundings::default();
+    for item in &mechanism.items {
+        if let ItemKind::Table { rows: TableRows::File { path, .. }, .. } = &item.kind {
+            let at = beside.parent().unwrap_or(Path::new("")).join(&path.text);
+            if let Ok(text) = std::fs::read_to_string(at) {
+                surroundings.files.insert(path.text.clone(), Ok(sources.add(path.text.clone(), text)));
+            }
+        }
+    }
+    surroundings
+}
+
+/// Runs the first mechanism of a text over its analysis; its tables' files are beside the file that it is named after.
 pub fn run(name: &str, text: &str, span: Span) -> Outcome {
     let mut sources = Sources::default();
     let compiled = compile(&mut sources, name, text);
+    analyse(sources, compiled, span)
+}
+
+/// Runs one of the mechanisms of a file.
+pub fn run_number(path: &Path, text: &str, number: usize, span: Span) -> Outcome {
+    let mut sources = Sources::default();
+    let compiled = compile_at(&mut sources, &path.display().to_string(), text, path, number);
+    analyse(sources, compiled, span)
+}
+
+/// The names of the mechanisms in a text.
+pub fn mechanisms(text: &str) -> Vec<String> {
+    let mut sources = Sources::default();
+    let file = sources.add("text", text);
+    let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+    tree.mechanisms.iter().map(|mechanism| mechanism.name.text.clone()).collect()
+}
+
+/// As [`run`], the tables' files being in a folder.
+pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
+    let mut sources = Sources::default();
+    let compiled = compile_at(&mut sources, name, text, &folder.join(name), 0);
     analyse(sources, compiled, span)
 }
 
@@ -103,10 +153,9 @@ fn follow(
     diagnostics.extend(started.remarks());
     *columns = started.columns();
     let mut motion = started.motion(times.span());
-    for t in times.iter() {
-        rows.push(motion.row_at(t)?.to_vec());
-    }
-    Ok(())
+    let result = times.iter().try_for_each(|t| motion.row_at(t).map(|row| rows.push(row.to_vec())));
+    diagnostics.extend(motion.take_remarks());
+    result
 }
 
 /// All files below a folder with an ending, in order.

@@ -1,0 +1,260 @@
+//! Joints: what each is called with, and whether the drawing says what it must.
+
+use super::{Checker, declared, errors};
+use crate::expr::ExprId;
+use crate::model::{CircleId, Dimension, Frame, Joint, JointKind, PointId, Side};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
+
+/// The joints of the language, each with what it is called with.
+const JOINTS: &[(&str, &str)] = &[
+    ("revolute", "two points"),
+    ("translational", "two axes"),
+    ("weld", "two points, and an angle if it is not 0"),
+    ("revolute_revolute", "two points and a length"),
+    ("revolute_translational", "a point and an axis, and an offset if it is not 0"),
+    ("gear", "two circles, and a phase if the drawing does not give it"),
+    ("internal_gear", "two circles, and a phase if the drawing does not give it"),
+    ("rack_pinion", "a circle and an axis, and a phase and a side if the drawing does not give them"),
+    ("point_follower", "a point and a curve"),
+    ("cam", "two curves"),
+    ("flat_follower", "a curve and an axis"),
+];
+
+impl Checker<'_> {
+    pub(super) fn joints(&mut self) {
+        for item in self.items() {
+            if let ItemKind::Joint { name, kind, arguments, call_span } = &item.kind {
+                let joint = self.joint(name, kind, arguments, *call_span);
+                let id = joint.map(|kind| self.model.add_joint(Joint { declared: declared(name), kind }));
+                self.joints.push(id);
+            }
+        }
+    }
+
+    fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        let joint = match kind.text.as_str() {
+            "revolute" | "weld" | "revolute_revolute" => self.joint_of_points(kind, arguments, span),
+            "translational" | "revolute_translational" => self.joint_of_axes(kind, arguments, span),
+            "gear" | "internal_gear" => self.gear(kind, arguments, span),
+            "rack_pinion" => self.rack_pinion(kind, arguments, span),
+            "point_follower" | "cam" | "flat_follower" => self.contact(kind, arguments, span),
+            _ => self.unknown_joint(kind),
+        }?;
+        let frames = joint.frames(&self.model);
+        if frames[0] == frames[1] {
+            let frame = self.model.frame_name(frames[0]).to_owned();
+            self.report(errors::joint_with_itself(name, &frame, [arguments[0].span, arguments[1].span]));
+            return None;
+        }
+        self.is_drawn_apart(joint, arguments).then_some(joint)
+    }
+
+    fn unknown_joint(&mut self, kind: &Name) -> Option<JointKind> {
+        let known: Vec<&str> = JOINTS.iter().map(|&(word, _)| word).collect();
+        let listed = format!("the joints are {}", errors::list(&known));
+        let mut diagnostic = errors::unknown("kind of joint", kind, &known);
+        if diagnostic.help.is_empty() {
+            diagnostic = diagnostic.help(listed);
+        }
+        self.report(diagnostic);
+        None
+    }
+
+    fn wrong_count(&mut self, kind: &Name, span: Span, found: usize) -> Option<JointKind> {
+        let wanted = JOINTS.iter().find(|&&(word, _)| word == kind.text).map_or("", |&(_, wanted)| wanted);
+        self.report(errors::argument_count(&kind.text, span, wanted, found));
+        None
+    }
+
+    fn joint_of_points(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        Some(match (kind.text.as_str(), arguments) {
+            ("revolute", [p, q]) => {
+                let (p, q) = self.two_points(p, q)?;
+                JointKind::Revolute(p, q)
+            }
+            ("weld", [p, q]) => {
+                let (p, q) = self.two_points(p, q)?;
+                JointKind::Weld(p, q, self.model.graph.constant(0.0))
+            }
+            ("weld", [p, q, angle]) => {
+                let points = self.two_points(p, q);
+                let angle = self.angle(angle, "the angle of a weld");
+                let (p, q) = points?;
+                JointKind::Weld(p, q, angle?)
+            }
+            ("revolute_revolute", [p, q, length]) => {
+                let points = self.two_points(p, q);
+                let length = self.positive_length(length, "the length of the link");
+                let (p, q) = points?;
+                JointKind::RevoluteRevolute(p, q, length?)
+            }
+            _ => return self.wrong_count(kind, span, arguments.len()),
+        })
+    }
+
+    fn joint_of_axes(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        Some(match (kind.text.as_str(), arguments) {
+            ("translational", [a, b]) => {
+                let (a, b) = (self.axis(a), self.axis(b));
+                JointKind::Translational(a?, b?)
+            }
+            ("revolute_translational", [p, a]) => {
+                let (p, a) = (self.point(p), self.axis(a));
+                JointKind::RevoluteTranslational(p?, a?, self.model.graph.constant(0.0))
+            }
+            ("revolute_translational", [p, a, offset]) => {
+                let (p, a) = (self.point(p), self.axis(a));
+                let offset = self.constant(offset, "the offset from the axis", Dimension::LENGTH);
+                JointKind::RevoluteTranslational(p?, a?, offset?.0)
+            }
+            _ => return self.wrong_count(kind, span, arguments.len()),
+        })
+    }
+
+    fn gear(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        let ([c, d] | [c, d, _]) = arguments else {
+            return self.wrong_count(kind, span, arguments.len());
+        };
+        let circles = (self.circle(c), self.circle(d));
+        let phase = arguments.get(2).map(|phase| self.phase(phase));
+        let circles = [circles.0?, circles.1?];
+        Some(JointKind::Gear { circles, internal: kind.text == "internal_gear", phase: settled(phase)? })
+    }
+
+    fn rack_pinion(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        let ([c, a] | [c, a, _] | [c, a, _, _]) = arguments else {
+            return self.wrong_count(kind, span, arguments.len());
+        };
+        let (pinion, rack) = (self.circle(c), self.axis(a));
+        let phase = arguments.get(2).map(|phase| self.phase(phase));
+        let side = arguments.get(3).map(|side| self.side(side));
+        Some(JointKind::RackPinion { pinion: pinion?, rack: rack?, phase: settled(phase)?, side: settled(side)? })
+    }
+
+    fn contact(&mut self, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        let [first, second] = arguments else {
+            return self.wrong_count(kind, span, arguments.len());
+        };
+        Some(match kind.text.as_str() {
+            "point_follower" => {
+                let (point, profile) = (self.point(first), self.profile(second));
+                JointKind::PointFollower(point?, profile?)
+            }
+            "cam" => {
+                let (k, m) = (self.profile(first), self.profile(second));
+                JointKind::Cam(k?, m?)
+            }
+            _ => {
+                let (profile, face) = (self.profile(first), self.axis(second));
+                JointKind::FlatFollower(profile?, face?)
+            }
+        })
+    }
+
+    fn positive_length(&mut self, e: &Expr, what: &str) -> Option<ExprId> {
+        let (id, value) = self.constant(e, what, Dimension::LENGTH)?;
+        if value <= 0.0 {
+            self.report(errors::not_positive_length(what, e.span, value));
+            return None;
+        }
+        Some(id)
+    }
+
+    pub(super) fn radius(&mut self, e: &Expr) -> Option<ExprId> {
+        self.positive_length(e, "the radius of a circle")
+    }
+
+    /// `κ`, a length.
+    fn phase(&mut self, e: &Expr) -> Option<ExprId> {
+        if let ExprKind::Name(name) = &e.bare().kind
+            && side_named(&name.text).is_some()
+            && self.space.get(&name.text).is_none()
+        {
+            self.report(errors::side_without_phase(&name.text, e.span));
+            return None;
+        }
+        self.constant(e, "the phase", Dimension::LENGTH).map(|(id, _)| id)
+    }
+
+    fn side(&mut self, e: &Expr) -> Option<Side> {
+        let side = match &e.kind {
+            ExprKind::Name(name) => side_named(&name.text),
+            _ => None,
+        };
+        if side.is_none() {
+            self.report(errors::no_side(e.span));
+        }
+        side
+    }
+
+    /// Whether the poses as written say on which side, or in which direction, one of two wheels lies from the other.
+    fn is_drawn_apart(&mut self, joint: JointKind, arguments: &[Expr]) -> bool {
+        // a pose that is broken says nothing
+        if self.diagnostics.has_errors() {
+            return true;
+        }
+        match joint {
+            JointKind::Gear { circles, .. } => {
+                let [c, d] = circles.map(|circle| self.drawn_center(circle));
+                let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
+                if !apart {
+                    self.report(errors::centers_coincide([arguments[0].span, arguments[1].span]));
+                }
+                apart
+            }
+            JointKind::RackPinion { pinion, rack, side: None, .. } => {
+                let (origin, direction) = (self.model[rack].origin, self.model[rack].direction);
+                let turned = self.drawn(self.model[rack].frame, direction, false);
+                let apart = match (self.drawn_center(pinion), self.drawn_point(origin), turned) {
+                    (Some(c), Some(o), Some([vx, vy])) => vx * (c[1] - o[1]) - vy * (c[0] - o[0]) != 0.0,
+                    _ => true,
+                };
+                if !apart {
+                    self.report(errors::center_on_the_rack([arguments[0].span, arguments[1].span]));
+                }
+                apart
+            }
+            _ => true,
+        }
+    }
+
+    fn drawn_center(&mut self, circle: CircleId) -> Option<[f64; 2]> {
+        self.drawn_point(self.model[circle].center)
+    }
+
+    fn drawn_point(&mut self, point: PointId) -> Option<[f64; 2]> {
+        let (frame, at) = (self.model[point].frame, self.model[point].at);
+        self.drawn(frame, at, true)
+    }
+
+    /// A point or direction of a frame in the global one, in the poses as written.
+    fn drawn(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
+        let [x, y] = local.map(|id| self.constant_value(id));
+        let (x, y) = (x?, y?);
+        let Frame::Body(body) = frame else {
+            return Some([x, y]);
+        };
+        let pose = self.model[body].pose.map(|id| self.constant_value(id));
+        let (sin, cos) = crate::math::sin_cos(pose[2]?);
+        let origin = if is_point { [pose[0]?, pose[1]?] } else { [0.0, 0.0] };
+        Some([origin[0] + x * cos - y * sin, origin[1] + x * sin + y * cos])
+    }
+}
+
+fn side_named(word: &str) -> Option<Side> {
+    match word {
+        "left" => Some(Side::Left),
+        "right" => Some(Side::Right),
+        _ => None,
+    }
+}
+
+/// What an argument that may be left out is; `None` where it is broken.
+#[allow(clippy::option_option)] // left out, or broken
+fn settled<T>(argument: Option<Option<T>>) -> Option<Option<T>> {
+    match argument {
+        None => Some(None),
+        Some(value) => value.map(Some),
+    }
+}

@@ -1,0 +1,142 @@
+//! Circles and curves: the lines that wheels roll on and contacts run along.
+
+use super::features::Feature;
+use super::formula::{Context, Dim, Value};
+use super::{Checker, errors};
+use crate::expr::Dependence;
+use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
+use crate::source::Span;
+use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
+
+impl Checker<'_> {
+    pub(super) fn profiles_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+        for feature in features {
+            let settled = match &feature.kind {
+                FeatureKind::Circle { center, radius } => {
+                    Feature::Circle(self.circle_feature(frame, &feature.name, center, radius))
+                }
+                FeatureKind::Curve { argument, at, estimate } => {
+                    Feature::Curve(self.curve_feature(frame, &feature.name, argument, at, estimate.as_ref()))
+                }
+                _ => continue,
+            };
+            self.settle(frame, &feature.name, settled);
+        }
+    }
+
+    fn circle_feature(&mut self, frame: Frame, name: &Name, center: &Expr, radius: &Expr) -> Option<CircleId> {
+        let (center, radius) = (self.place(frame, center), self.radius(radius));
+        let (center, radius) = (center?, radius?);
+        Some(self.model.add_circle(Circle { frame, name: name.text.clone(), span: name.span, center, radius }))
+    }
+
+    fn curve_feature(
+        &mut self,
+        frame: Frame,
+        name: &Name,
+        argument: &Name,
+        at: &Expr,
+        estimate: Option<&Expr>,
+    ) -> Option<CurveId> {
+        let id = self.name_symbol(Named::Argument, 0);
+        let value = Value { id, dim: Dim::Of(Dimension::PURE) };
+        let known = self.model.conditions.len();
+        let pair = self.pair_of(at, "curve", "a curve", Some((&argument.text, value)));
+        // what must be positive along the curve must be so at a contact only
+        let mut conditions = self.model.conditions.split_off(known);
+        for condition in &mut conditions {
+            condition.owner.clone_from(&name.text);
+        }
+        let estimate = match estimate {
+            None => None,
+            Some(estimate) => Some(self.angle(estimate, "the estimate of a curve's argument")?),
+        };
+        let pair = pair?;
+        if !pair.iter().any(|&id| self.model.graph.dependence(id).on(Dependence::NAMED)) {
+            self.report(errors::curve_is_a_point(name, &argument.text, at.span));
+            return None;
+        }
+        let curve = Curve {
+            frame,
+            name: name.text.clone(),
+            span: name.span,
+            argument: argument.text.clone(),
+            at: pair,
+            estimate,
+            conditions,
+        };
+        Some(self.model.add_curve(curve))
+    }
+
+    /// A circle of a body or of the ground.
+    pub(super) fn circle(&mut self, e: &Expr) -> Option<CircleId> {
+        match self.feature_at(e, "circle", |feature| matches!(feature, Feature::Circle(_)))? {
+            (Feature::Circle(circle), _) => circle,
+            (other, span) => {
+                self.wrong_kind(span, "a circle", other.noun());
+                None
+            }
+        }
+    }
+
+    /// A curve of a body or of the ground, or a circle in its place.
+    pub(super) fn profile(&mut self, e: &Expr) -> Option<Profile> {
+        let is_profile = |feature| matches!(feature, Feature::Circle(_) | Feature::Curve(_));
+        match self.feature_at(e, "curve", is_profile)? {
+            (Feature::Circle(circle), _) => circle.map(Profile::Circle),
+            (Feature::Curve(curve), _) => curve.map(Profile::Curve),
+            (other, span) => {
+                self.wrong_kind(span, "a curve or a circle", other.noun());
+                None
+            }
+        }
+    }
+
+    /// The feature that `body.feature` names, with the place of its name.
+    fn feature_at(&mut self, e: &Expr, what: &str, wanted: impl Fn(Feature) -> bool) -> Option<(Feature, Span)> {
+        match &e.kind {
+            ExprKind::Member { owner, feature } => {
+                let frame = self.body(owner)?;
+                self.feature(frame, feature, what, wanted).map(|found| (found, feature.span))
+            }
+            ExprKind::Name(name) => {
+                self.bare_name(name, what);
+                None
+            }
+            _ => {
+                let wanted = format!("a {what}");
+                self.wrong_kind(e.span, &wanted, Self::describe(e));
+                None
+            }
+        }
+    }
+
+    /// `(x, y)`, two lengths that are judged together; over an argument, if there is one.
+    pub(super) fn pair_of(
+        &mut self,
+        e: &Expr,
+        what: &str,
+        place: &'static str,
+        argument: Option<(&str, Value)>,
+    ) -> Option<[crate::expr::ExprId; 2]> {
+        match &e.kind {
+            ExprKind::Tuple(parts) => {
+                if let [x, y] = parts.as_slice() {
+                    let context = Context { argument, ..self.pair_context([x, y], place) };
+                    self.lengths_in([x, y], &context)
+                } else {
+                    self.report(errors::argument_count(what, e.span, "two lengths", parts.len()));
+                    None
+                }
+            }
+            ExprKind::Paren(_) => {
+                self.report(errors::argument_count(what, e.span, "two lengths", 1));
+                None
+            }
+            _ => {
+                self.wrong_kind(e.span, "a point `(x, y)`", Self::describe(e));
+                None
+            }
+        }
+    }
+}

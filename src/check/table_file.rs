@@ -1,0 +1,68 @@
+//! A table's file: two columns of numbers separated by commas, each fault with its place in the file.
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Source, Span};
+
+/// Faults of one file that are told; the others are likely of the same kind.
+const MOST_FAULTS: usize = 5;
+
+/// The rows with their places, and what is wrong with the others. A header line and blank lines are passed over.
+pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec<Diagnostic>) {
+    let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    let mut at = 0;
+    let mut may_be_header = true;
+    for line in source.text.split('\n') {
+        let span = Span { file, start: at as u32, end: (at + line.trim_end().len()) as u32 };
+        at += line.len() + 1;
+        if line.trim().is_empty() {
+            continue;
+        }
+        match numbers(line) {
+            Some(row) => rows.push((row, span)),
+            None if may_be_header && is_header(line) => {}
+            None if faults.len() < MOST_FAULTS => faults.push(not_two_numbers(line, span)),
+            None => {}
+        }
+        may_be_header = false;
+    }
+    (rows, faults)
+}
+
+fn numbers(line: &str) -> Option<[f64; 2]> {
+    let mut cells = line.split(',').map(|cell| number(cell.trim()));
+    let (first, second) = (cells.next()??, cells.next()??);
+    cells.next().is_none().then_some([first, second])
+}
+
+/// A finite number as programs write it: `inf`, `nan` and the like are none.
+fn number(cell: &str) -> Option<f64> {
+    let plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
+    cell.parse().ok().filter(|value: &f64| plain && value.is_finite())
+}
+
+/// A line none of whose parts is a number.
+fn is_header(line: &str) -> bool {
+    let parts = line.split([',', ';', '\t']).map(str::trim).filter(|part| !part.is_empty());
+    !parts.clone().any(|part| part.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)))
+}
+
+fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
+    let cells: Vec<&str> = line.split(',').map(str::trim).collect();
+    let help = if line.contains(';') || line.contains('\t') {
+        "columns are separated by commas, and decimals written with a point"
+    } else if cells.len() > 2 && cells.iter().all(|cell| cell.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
+    {
+        "write numbers without separators between their thousands, and decimals with a point"
+    } else if cells.len() == 1 {
+        "a row is an argument and a value, separated by a comma"
+    } else {
+        "a row is two numbers, as in `0.5,12.25`; units go behind the file's name: `spline \"lift.csv\" (deg, mm)`"
+    };
+    Diagnostic::new(Code::E0416, "this row of a table is not two numbers")
+        .at(span, format!("found {}", if cells.len() == 2 { "something else".to_owned() } else { parts(cells.len()) }))
+        .help(help)
+}
+
+fn parts(count: usize) -> String {
+    if count == 1 { "one part".to_owned() } else { format!("{count} parts") }
+}

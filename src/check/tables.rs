@@ -1,0 +1,268 @@
+//! Tables: their rows from a list or a file, and their calls.
+
+use super::formula::{Context, Dim, Value};
+use super::units::Unit;
+use super::{Checker, errors, table_file};
+use crate::diag::Diagnostic;
+use crate::expr::{ExprId, TableId};
+use crate::model::{Condition, ConditionKind, Dimension};
+use crate::source::{FileId, Span};
+use crate::syntax::ast::{Expr, ExprKind, Name, TableRows};
+use rustc_hash::FxHashMap;
+
+/// How far beyond its range an argument may lie and still count as the end, as a part of the range: rounding.
+const AT_THE_END: f64 = 1e-12;
+
+/// How much the ends of a periodic table may differ, as a part of its largest value: rounding.
+const SAME: f64 = 1e-12;
+
+/// The texts of the files that tables name, by the path as written; or why one cannot be read.
+pub type TableFiles = FxHashMap<String, Result<FileId, Box<Diagnostic>>>;
+
+/// What is known of a table.
+pub(super) struct TableState<'a> {
+    pub name: &'a Name,
+    pub periodic: bool,
+    pub rows: &'a TableRows,
+    /// Holds a unit, or something that does.
+    pub dimensional: bool,
+    /// Where it went, if it is sound.
+    pub made: Option<Made>,
+}
+
+/// A table in the graph.
+#[derive(Clone, Copy)]
+pub(super) struct Made {
+    id: TableId,
+    /// Of the argument and of the value.
+    columns: [Dim; 2],
+    /// First and last argument.
+    range: [ExprId; 2],
+    periodic: bool,
+}
+
+/// A row with its place.
+struct Row {
+    cells: [ExprId; 2],
+    span: Span,
+}
+
+impl<'a> Checker<'a> {
+    pub(super) fn table(&mut self, k: usize) {
+        let (name, periodic, rows_written) = (self.tables[k].name, self.tables[k].periodic, self.tables[k].rows);
+        let read = match rows_written {
+            TableRows::Listed(rows) => self.listed_rows(rows),
+            TableRows::File { path, units } => self.file_rows(path, units.as_ref()),
+        };
+        let Some((rows, columns)) = read else {
+            return;
+        };
+        self.tables[k].dimensional = columns.iter().any(|dim| matches!(dim, Dim::Of(d) if !d.is(Dimension::PURE)));
+        let file = match rows_written {
+            TableRows::File { path, .. } => Some(path.span),
+            TableRows::Listed(_) => None,
+        };
+        if !self.rows_are_sound(name, periodic, &rows, file) {
+            return;
+        }
+        let points: Vec<[ExprId; 2]> = rows.iter().map(|row| row.cells).collect();
+        let (Some(first), Some(last)) = (points.first(), points.last()) else {
+            return;
+        };
+        let range = [first[0], last[0]];
+        let id = self.model.graph.spline(&name.text, periodic, &points);
+        self.tables[k].made = Some(Made { id, columns, range, periodic });
+    }
+
+    /// `[(a, b), …]`: each column is judged as a whole.
+    fn listed_rows(&mut self, rows: &'a [Expr]) -> Option<(Vec<Row>, [Dim; 2])> {
+        let mut pairs = Vec::new();
+        for row in rows {
+            match &row.kind {
+                ExprKind::Tuple(parts) if parts.len() == 2 => pairs.push([&parts[0], &parts[1]]),
+                ExprKind::Tuple(parts) => {
+                    self.report(errors::row_of(row.span, parts.len()));
+                }
+                _ => self.wrong_kind(row.span, "a row `(argument, value)`", Self::describe(row)),
+            }
+        }
+        if pairs.len() < rows.len() {
+            return None;
+        }
+        let first = self.listed_column(pairs.iter().map(|pair| pair[0]), "the arguments of a table");
+        let second = self.listed_column(pairs.iter().map(|pair| pair[1]), "the values of a table");
+        let ((first, a), (second, b)) = (first?, second?);
+        let cells = first.into_iter().zip(second).zip(rows);
+        Some((cells.map(|((x, y), row)| Row { cells: [x, y], span: row.span }).collect(), [a, b]))
+    }
+
+    fn listed_column<'e>(
+        &mut self,
+        cells: impl Iterator<Item = &'e Expr> + Clone,
+        what: &'static str,
+    ) -> Option<(Vec<ExprId>, Dim)> {
+        let judged = cells.clone().any(|cell| self.is_dimensional(cell));
+        let context = Context { judged, ..Context::constant("a table") };
+        let mut column = Some(Vec::new());
+        let mut dim: Option<(Span, Dim)> = None;
+        for cell in cells {
+            let Some(value) = self.formula(cell, &context) else {
+                column = None;
+                continue;
+            };
+            let own = if judged { value.dim } else { Dim::PURE };
+            match dim {
+                Some((span, known)) if known != Dim::Any => {
+                    if self.alike(&format!("{what} are"), (span, known), (cell.span, own), &context).is_none() {
+                        column = None;
+                    }
+                }
+                _ => dim = Some((cell.span, own)),
+            }
+            if let Some(column) = &mut column {
+                column.push(value.id);
+            }
+        }
+        Some((column?, dim.map_or(Dim::PURE, |(_, dim)| dim)))
+    }
+
+    /// `"file.csv" (unit, unit)`
+    fn file_rows(&mut self, path: &Name, units: Option<&[Name; 2]>) -> Option<(Vec<Row>, [Dim; 2])> {
+        let units = match units {
+            None => [None, None],
+            Some(names) => {
+                let units = [0, 1].map(|k: usize| {
+                    let unit = Unit::named(&names[k].text);
+                    if unit.is_none() {
+                        self.report(errors::not_a_unit_of_a_column(&names[k]));
+                    }
+                    unit
+                });
+                units.iter().all(Option::is_some).then_some(units)?
+            }
+        };
+        let file = match self.files.get(&path.text) {
+            Some(Ok(file)) => *file,
+            Some(Err(diagnostic)) => {
+                let named = "named here";
+                let diagnostic = diagnostic.as_ref().clone();
+                self.report(if diagnostic.labels.is_empty() {
+                    diagnostic.at(path.span, named)
+                } else {
+                    diagnostic.also(path.span, named)
+                });
+                return None;
+            }
+            None => {
+                self.report(errors::no_table_file(path));
+                return None;
+            }
+        };
+        let (rows, faults) = table_file::read(self.sources.get(file), file);
+        if !faults.is_empty() {
+            for fault in faults {
+                self.report(fault.also(path.span, "named here"));
+            }
+            return None;
+        }
+        let mut cell = |unit: Option<&Unit>, value: f64| {
+            let si = unit.map_or(value, |unit| unit.to_si(value, 1));
+            self.model.graph.constant(si)
+        };
+        let rows: Vec<Row> = rows
+            .into_iter()
+            .map(|(values, span)| Row { cells: [0, 1].map(|k: usize| cell(units[k], values[k])), span })
+            .collect();
+        if rows.is_empty() {
+            self.report(errors::empty_table_file(path));
+            return None;
+        }
+        let dims = units.map(|unit| Dim::Of(unit.map_or(Dimension::PURE, |unit| unit.dimension)));
+        Some((rows, dims))
+    }
+
+    /// Enough rows, arguments that rise, and, where it repeats, an end like the start.
+    fn rows_are_sound(&mut self, name: &Name, periodic: bool, rows: &[Row], file: Option<Span>) -> bool {
+        let named = |diagnostic: Diagnostic| match file {
+            Some(span) => diagnostic.also(span, "named here"),
+            None => diagnostic,
+        };
+        let least = if periodic { 3 } else { 2 };
+        if rows.len() < least {
+            self.report(errors::too_few_rows(name, periodic, least, rows.len()));
+            return false;
+        }
+        let values: Vec<[f64; 2]> =
+            rows.iter().map(|row| row.cells.map(|id| self.constant_value(id).unwrap_or(f64::NAN))).collect();
+        for k in 1..rows.len() {
+            let (before, here) = (values[k - 1][0], values[k][0]);
+            if here.is_nan() || here <= before {
+                self.report(named(errors::not_rising(name, here, before, [rows[k].span, rows[k - 1].span])));
+                return false;
+            }
+        }
+        let (first, last) = (values[0][1], values[values.len() - 1][1]);
+        let largest = values.iter().fold(0.0, |m: f64, v| m.max(v[1].abs()));
+        if periodic && (last - first).abs() > SAME * largest {
+            let ends = [rows[rows.len() - 1].span, rows[0].span];
+            self.report(named(errors::ends_differ(name, ends, last, first)));
+            return false;
+        }
+        true
+    }
+
+    /// `lift(e)`
+    pub(super) fn table_call(
+        &mut self,
+        k: usize,
+        e: &Expr,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        let name = self.tables[k].name;
+        let [written] = arguments else {
+            self.report(errors::argument_count(&name.text, e.span, "one argument", arguments.len()));
+            return None;
+        };
+        let argument = self.number(written, context)?;
+        let made = self.tables[k].made?;
+        if let Dim::Of(wanted) = made.columns[0] {
+            self.demand(&format!("the argument of `{}`", name.text), wanted, written.span, argument.dim, context)?;
+        }
+        if !made.periodic {
+            self.within(name, made, argument.id, written.span, context)?;
+        }
+        Some(Value { id: self.model.graph.table(made.id, 0, argument.id), dim: made.columns[1] })
+    }
+
+    /// Demands that an argument lies in a table's range: now, if it is constant, else on the way.
+    fn within(&mut self, name: &Name, made: Made, x: ExprId, span: Span, context: &Context<'_>) -> Option<()> {
+        let [first, last] = made.range;
+        let ends = [self.constant_value(first)?, self.constant_value(last)?];
+        if let Some(value) = self.constant_value(x) {
+            let slack = AT_THE_END * (ends[1] - ends[0]);
+            if !self.untaken && (value < ends[0] - slack || value > ends[1] + slack) {
+                self.report(errors::out_of_table(name, value, ends, span));
+                return None;
+            }
+        }
+        if self.model.graph.dependence(x).is_constant() {
+            return Some(());
+        }
+        let graph = &mut self.model.graph;
+        let length = graph.sub(last, first);
+        let slack = graph.constant(AT_THE_END);
+        let slack = graph.mul(slack, length);
+        let ways = [graph.sub(x, first), graph.sub(last, x)];
+        for way in ways {
+            let room = self.model.graph.add(way, slack);
+            let one = self.model.graph.constant(1.0);
+            let positive = self.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
+            if self.model.conditions.iter().all(|known| known.positive != positive) {
+                let owner = context.place.to_owned();
+                self.model.conditions.push(Condition { positive, kind: ConditionKind::Range(made.id), span, owner });
+            }
+        }
+        Some(())
+    }
+}

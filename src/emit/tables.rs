@@ -1,0 +1,60 @@
+//! Tables in emitted code: columns of numbers as statics, columns of parameters as local arrays.
+
+use super::names::Namer;
+use crate::program::{Column, Program, Register};
+use rustc_hash::FxHashMap;
+
+/// Numbers on a line of a static.
+const ON_A_LINE: usize = 4;
+
+/// All columns of a table.
+pub(super) const COLUMNS: [Column; 5] =
+    [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
+
+/// Names for the columns of a program's tables.
+pub(super) struct Names {
+    names: FxHashMap<(u32, Column), String>,
+}
+
+impl Names {
+    pub fn new(program: &Program) -> Names {
+        let mut namer = Namer::default();
+        let mut names = FxHashMap::default();
+        for (number, table) in program.tables().iter().enumerate() {
+            for column in COLUMNS {
+                let what = match column {
+                    Column::Knots => "knots".to_owned(),
+                    Column::Coefficient(order) => format!("c{order}"),
+                };
+                names.insert((number as u32, column), namer.constant(&format!("{} {what}", table.name)));
+            }
+        }
+        Names { names }
+    }
+
+    /// `LIFT_KNOTS`
+    pub fn of(&self, table: u32, column: Column) -> &str {
+        self.names.get(&(table, column)).map_or("", String::as_str)
+    }
+}
+
+/// The numbers of a column; `None` where it holds parameters.
+pub(super) fn numbers(
+    program: &Program,
+    constants: &FxHashMap<Register, f64>,
+    table: u32,
+    column: Column,
+) -> Option<Vec<f64>> {
+    let mut cells = program.tables()[table as usize].column(column);
+    cells.all(|register| constants.contains_key(&register)).then(|| {
+        let cells = program.tables()[table as usize].column(column);
+        cells.filter_map(|register| constants.get(&register).copied()).collect()
+    })
+}
+
+/// A list of values, some on each line.
+pub(super) fn lines(values: &[String], indent: &str) -> String {
+    let lines: Vec<String> =
+        values.chunks(ON_A_LINE).map(|line| format!("{indent}    {},\n", line.join(", "))).collect();
+    lines.concat()
+}
