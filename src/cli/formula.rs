@@ -74,6 +74,12 @@ impl Derived {
         };
         let first = derivative(value);
         let second = derivative(first);
+        for (order, id) in [value, first, second].into_iter().enumerate() {
+            // a number that is none, as the derivative of `t / 0`
+            if graph.dependence(id).is_constant() && !graph.value(id, |_| 0.0).is_finite() {
+                return Err(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into());
+            }
+        }
         Ok(Derived { graph, roots: [value, first, second], dimension, conditions, span: tree.span })
     }
 
@@ -90,7 +96,7 @@ impl Derived {
         }
         let values = self.roots.map(value);
         match values.iter().position(|value| !value.is_finite()) {
-            Some(order) => Err(Box::new(not_finite(self.span, order, values[order], t))),
+            Some(order) => Err(Box::new(not_finite(self.span, order, values[order], Some(t)))),
             None => Ok(values),
         }
     }
@@ -102,19 +108,20 @@ impl Derived {
             roots = roots.map(|root| self.graph.tidied(root));
         }
         let mut printer = Printer::new(&self.graph, name_of);
-        let mut lines: Vec<(String, String)> = Vec::new();
-        let mut parts: Vec<(String, String)> = Vec::new();
+        let mut parts = Vec::new();
         if self.graph.written_size(&roots) > LARGEST_WHOLE {
-            let shared = printer.name_shared(&roots, |k| format!("k{}", k + 1));
-            let (names, ids) = with_the_formula_itself(&shared, roots[0]);
+            parts = named(printer.name_shared(&roots, |_| String::new()), roots[0]);
+            let names: FxHashMap<ExprId, String> = parts.iter().map(|(name, id)| (*id, name.clone())).collect();
             printer = Printer::new(&self.graph, name_of).with_names(&names);
-            parts.extend(ids.iter().map(|id| (names[id].clone(), printer.definition(*id))));
         }
-        lines.push((NAMES[0].to_owned(), printer.definition(roots[0])));
-        lines.extend(NAMES.iter().zip(roots).skip(1).map(|(name, root)| ((*name).to_owned(), printer.text(root))));
-        let mut text = definitions(&lines);
+        // the formula itself is no part of itself
+        let mut texts = vec![printer.definition(roots[0])];
+        texts.extend(roots.iter().skip(1).map(|root| printer.text(*root)));
+        let mut text = definitions(NAMES.iter().copied().zip(texts));
+        parts.retain(|(_, id)| *id != roots[0]);
         if !parts.is_empty() {
-            text += &format!("\nwith the parts that stand in several places\n\n{}", definitions(&parts));
+            let parts = parts.iter().map(|(name, id)| (name.as_str(), printer.definition(*id)));
+            text += &format!("\nwith the parts that stand in several places\n\n{}", definitions(parts));
         }
         text
     }
@@ -125,19 +132,24 @@ fn name_of(_: Symbol) -> String {
     "t".to_owned()
 }
 
-/// Names for the shared parts, where the formula itself is `C`; and the parts other than it, in order.
-fn with_the_formula_itself(shared: &[(String, ExprId)], formula: ExprId) -> (FxHashMap<ExprId, String>, Vec<ExprId>) {
-    let ids: Vec<ExprId> = shared.iter().map(|(_, id)| *id).filter(|id| *id != formula).collect();
-    let mut names: FxHashMap<ExprId, String> =
-        ids.iter().enumerate().map(|(k, id)| (*id, format!("k{}", k + 1))).collect();
-    names.insert(formula, NAMES[0].to_owned());
-    (names, ids)
+/// Names for the shared parts in their order; the formula itself is `C` if it is among them.
+fn named(shared: Vec<(String, ExprId)>, formula: ExprId) -> Vec<(String, ExprId)> {
+    let mut count = 0;
+    let mut name = |id: ExprId| {
+        if id == formula {
+            return NAMES[0].to_owned();
+        }
+        count += 1;
+        format!("k{count}")
+    };
+    shared.into_iter().map(|(_, id)| (name(id), id)).collect()
 }
 
 /// `C   = …`, a line each.
-fn definitions(lines: &[(String, String)]) -> String {
+fn definitions<'n>(lines: impl Iterator<Item = (&'n str, String)>) -> String {
+    let lines: Vec<(&str, String)> = lines.collect();
     let width = lines.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
-    lines.iter().map(|(name, text)| format!("{name:<width$} = {text}\n")).collect()
+    lines.iter().fold(String::new(), |all, (name, text)| all + &format!("{name:<width$} = {text}\n"))
 }
 
 /// What the formula is, and the units of its values.
@@ -186,13 +198,18 @@ fn at_the_point(value: f64) -> (String, String) {
     (before.to_owned(), after.to_owned())
 }
 
-fn not_finite(span: Span, order: usize, value: f64, t: f64) -> Diagnostic {
+/// At a time, or at any.
+fn not_finite(span: Span, order: usize, value: f64, t: Option<f64>) -> Diagnostic {
     let what = ["the formula", "the first derivative of the formula", "the second derivative of the formula"];
     let (what, name) = (what[order], NAMES[order]);
     let found = if value.is_nan() { "not a number" } else { "infinite" };
-    Diagnostic::new(Code::E0605, format!("{what} is not finite at t = {} s", number(t)))
-        .at(span, format!("{name} is {found} there"))
-        .datum("t", t)
+    let when = t.map_or("at any time".to_owned(), |t| format!("at t = {} s", number(t)));
+    let diagnostic = Diagnostic::new(Code::E0605, format!("{what} is not finite {when}"));
+    let diagnostic = diagnostic.at(span, format!("{name} is {found}"));
+    match t {
+        Some(t) => diagnostic.datum("t", t),
+        None => diagnostic,
+    }
 }
 
 fn empty_interval(span: Span, t: f64) -> Diagnostic {

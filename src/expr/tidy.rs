@@ -2,7 +2,7 @@
 //!
 //! The constructors see one operation at a time; this looks at whole sums and whole products: equal terms are gathered,
 //! numbers stand in front, equal factors are powers, a sum begins with a term that is added. Nothing is cancelled against
-//! a denominator, and nothing is multiplied out. Only what is printed goes through here: what is computed stays as it is.
+//! a denominator, and nothing is multiplied out but numbers and what Horner's rule left. Only what is printed goes through here: what is computed stays as it is.
 
 use super::{ExprId, Graph, Node, number};
 use rustc_hash::FxHashMap;
@@ -42,6 +42,7 @@ struct Tidying<'g> {
 #[derive(Default)]
 struct Sum {
     terms: Vec<(f64, ExprId)>,
+    places: FxHashMap<ExprId, usize>,
     number: f64,
 }
 
@@ -93,10 +94,26 @@ impl Tidying<'_> {
     }
 
     fn sum(&mut self, root: ExprId) -> Sum {
+        let mut sum = self.terms_of(root);
+        // a number is multiplied into a sum where that brings equal terms together
+        while let Some(at) = self.worth_multiplying_out(&sum) {
+            let (c, term) = sum.take(at);
+            let (scale, inner) = self.scaled_sum(term).unwrap_or((1.0, term));
+            let parts = self.terms_of(inner);
+            sum.number += c * scale * parts.number;
+            for (part, id) in parts.terms {
+                sum.put(c * scale * part, id);
+            }
+        }
+        sum.terms.retain(|&(c, _)| c != 0.0);
+        sum
+    }
+
+    /// The terms of the outermost sum, tidied.
+    fn terms_of(&mut self, root: ExprId) -> Sum {
         let mut sum = Sum::default();
-        let mut places: FxHashMap<ExprId, usize> = FxHashMap::default();
         // with its coefficient, and whether it has been tidied
-        let mut open = vec![(root, 1.0, false)];
+        let mut open = vec![(root, 1.0, self.known.get(&root) == Some(&root))];
         while let Some((id, c, is_tidy)) = open.pop() {
             let whole = self.graph.as_modulo(id).is_some();
             match self.graph.node(id) {
@@ -107,16 +124,45 @@ impl Tidying<'_> {
                 _ if !is_tidy => open.push((self.tidy(id), c, true)),
                 _ => {
                     let (scale, term) = self.split(id);
-                    let place = *places.entry(term).or_insert(sum.terms.len());
-                    match sum.terms.get_mut(place) {
-                        Some((coefficient, _)) => *coefficient += c * scale,
-                        None => sum.terms.push((c * scale, term)),
-                    }
+                    sum.put(c * scale, term);
                 }
             }
         }
-        sum.terms.retain(|&(c, _)| c != 0.0);
         sum
+    }
+
+    /// A sum as a term of another one, with the number that divides it where its inverse is exact.
+    fn scaled_sum(&self, term: ExprId) -> Option<(f64, ExprId)> {
+        let (scale, sum) = match self.graph.node(term) {
+            Node::Div(a, b) => (1.0 / self.graph.as_const(b)?, a),
+            _ => (1.0, term),
+        };
+        // a power of two has no fraction bits
+        let is_exact = scale.is_normal() && scale.to_bits().trailing_zeros() >= 52;
+        let is_sum =
+            matches!(self.graph.node(sum), Node::Add(..) | Node::Sub(..)) && self.graph.as_modulo(sum).is_none();
+        (is_exact && is_sum).then_some((scale, sum))
+    }
+
+    /// A term that is a sum and shares a term of it with another one.
+    fn worth_multiplying_out(&mut self, sum: &Sum) -> Option<usize> {
+        let parts: Vec<Vec<ExprId>> = sum
+            .terms
+            .iter()
+            .map(|&(_, term)| match self.scaled_sum(term) {
+                Some((_, inner)) => self.terms_of(inner).terms.into_iter().map(|(_, id)| id).collect(),
+                None => vec![term],
+            })
+            .collect();
+        let mut uses: FxHashMap<ExprId, u32> = FxHashMap::default();
+        for &part in parts.iter().flatten() {
+            *uses.entry(part).or_default() += 1;
+        }
+        let shares = |part: &ExprId| uses.get(part).is_some_and(|&uses| uses > 1);
+        sum.terms
+            .iter()
+            .zip(&parts)
+            .position(|(&(_, term), parts)| self.scaled_sum(term).is_some() && parts.iter().any(shares))
     }
 
     /// A term as a number and the rest; of a quotient only the sign is taken out.
@@ -147,6 +193,9 @@ impl Tidying<'_> {
         if !sum.number.is_finite() || sum.terms.iter().any(|(c, _)| !c.is_finite()) {
             return None;
         }
+        if let Some(quotient) = self.over_one_line(&sum) {
+            return Some(quotient);
+        }
         let first = sum.terms.iter().position(|&(c, _)| c > 0.0);
         if let Some(first) = first {
             sum.terms[..=first].rotate_right(1);
@@ -157,10 +206,52 @@ impl Tidying<'_> {
         let mut total = if leads { number } else { self.graph.constant(0.0) };
         for (c, term) in sum.terms {
             let size = self.graph.constant(c.abs());
-            let term = self.graph.mul(size, term);
-            total = if c < 0.0 { self.graph.sub(total, term) } else { self.graph.add(total, term) };
+            let mut term = self.graph.mul(size, term);
+            if matches!(self.graph.node(term), Node::Mul(_, b) if matches!(self.graph.node(b), Node::Div(..))) {
+                // `2 * t / 3` rather than `2 * (t / 3)`
+                term = self.tidy(term);
+            }
+            total = match (c < 0.0, self.graph.as_const(total)) {
+                (false, _) => self.graph.add(total, term),
+                (true, Some(0.0)) => self.negated(term),
+                (true, _) => self.graph.sub(total, term),
+            };
         }
         Some(if leads { total } else { self.graph.add(total, number) })
+    }
+
+    /// The terms as one quotient, where all are quotients with one divisor.
+    fn over_one_line(&mut self, sum: &Sum) -> Option<ExprId> {
+        let divisor = |id: ExprId| match self.graph.node(id) {
+            Node::Div(_, b) => Some(b),
+            _ => None,
+        };
+        let below = divisor(sum.terms.first()?.1)?;
+        if sum.terms.len() < 2 || sum.number != 0.0 || sum.terms.iter().any(|&(_, id)| divisor(id) != Some(below)) {
+            return None;
+        }
+        let mut above = self.graph.constant(0.0);
+        for &(c, id) in &sum.terms {
+            let Node::Div(term, _) = self.graph.node(id) else { return None };
+            let c = self.graph.constant(c);
+            let term = self.graph.mul(c, term);
+            above = self.graph.add(above, term);
+        }
+        let above = self.tidy(above);
+        let quotient = self.graph.div(above, below);
+        // a number may have come out of the sum
+        Some(self.tidy(quotient))
+    }
+
+    /// `-1 / t` rather than `-(1 / t)`.
+    fn negated(&mut self, id: ExprId) -> ExprId {
+        match self.graph.node(id) {
+            Node::Div(a, b) if self.graph.as_const(a).is_some() || self.split(a).1 != a => {
+                let above = self.graph.neg(a);
+                self.graph.div(above, b)
+            }
+            _ => self.graph.neg(id),
+        }
     }
 
     /// `None` where it is better left as it is.
@@ -173,7 +264,7 @@ impl Tidying<'_> {
                 Node::Mul(a, b) if e.abs() == 1 || self.has_whole_number(id) => {
                     open.extend([(b, e, is_tidy), (a, e, is_tidy)]);
                 }
-                Node::Div(a, b) if e == 1 => open.extend([(b, -e, is_tidy), (a, e, is_tidy)]),
+                Node::Div(a, b) if e > 0 => open.extend([(b, -e, is_tidy), (a, e, is_tidy)]),
                 Node::Neg(a) => {
                     product.above *= if e % 2 == 0 { 1.0 } else { -1.0 };
                     open.push((a, e, is_tidy));
@@ -201,8 +292,38 @@ impl Tidying<'_> {
         }
     }
 
+    /// A power times a polynomial of the same, as Horner's rule leaves it: multiplied out.
+    fn build_polynomial(&mut self, product: &Product) -> Option<ExprId> {
+        let &[(x, e), (y, f)] = product.factors.as_slice() else { return None };
+        let is_sum = |id: ExprId| matches!(self.graph.node(id), Node::Add(..) | Node::Sub(..));
+        let (base, e, sum) = match (e, f) {
+            (e, 1) if e > 0 && is_sum(y) => (x, e, y),
+            (1, f) if f > 0 && is_sum(x) => (y, f, x),
+            _ => return None,
+        };
+        let terms = self.terms_of(sum);
+        let is_power =
+            |id: ExprId| id == base || matches!(self.graph.node(id), Node::Power(x, n) if x == base && n > 0);
+        let is_whole = product.below.to_bits() == 1.0_f64.to_bits();
+        if !is_whole || terms.terms.is_empty() || !terms.terms.iter().all(|&(_, id)| is_power(id)) {
+            return None;
+        }
+        let power = self.graph.power(base, e);
+        let mut raised = Sum::default();
+        for (c, id) in terms.terms {
+            let id = self.graph.mul(id, power);
+            raised.put(c * product.above, id);
+        }
+        raised.put(terms.number * product.above, power);
+        raised.terms.retain(|&(c, _)| c != 0.0);
+        self.build_sum(raised)
+    }
+
     fn build_product(&mut self, mut product: Product) -> Option<ExprId> {
         product.reduce();
+        if let Some(polynomial) = self.build_polynomial(&product) {
+            return Some(polynomial);
+        }
         let graph = &*self.graph;
         // what is long stands last
         product.factors.sort_by_key(|&(id, _)| match graph.node(id) {
@@ -229,6 +350,25 @@ impl Tidying<'_> {
             row = self.graph.mul(row, power);
         }
         Some(row)
+    }
+}
+
+impl Sum {
+    fn put(&mut self, c: f64, term: ExprId) {
+        let known = self.places.get(&term).and_then(|&place| self.terms.get_mut(place));
+        if let Some((coefficient, _)) = known {
+            *coefficient += c;
+        } else {
+            self.places.insert(term, self.terms.len());
+            self.terms.push((c, term));
+        }
+    }
+
+    /// Takes a term out.
+    fn take(&mut self, at: usize) -> (f64, ExprId) {
+        let taken = self.terms.remove(at);
+        self.places = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
+        taken
     }
 }
 
