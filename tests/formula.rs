@@ -205,7 +205,7 @@ fn large_formulas_end_soon() {
     let deep = format!("{}t{}", "sin(2*".repeat(190), ")".repeat(190));
     let nested = (0..60).fold("t".to_owned(), |inner, _| format!("sin({inner})*cos(t)+t"));
     for text in
-        [sum.join("+"), product.join("*"), deep, nested, format!("t{}", "*t".repeat(40_000)), "-".repeat(190) + "t"]
+        [sum.join("+"), product.join("*"), deep, nested, format!("t{}", "*t".repeat(20_000)), "-".repeat(190) + "t"]
     {
         let started = std::time::Instant::now();
         let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
