@@ -176,6 +176,18 @@ proptest! {
     }
 
     #[test]
+    fn what_is_put_in_order_reads_back(steps in prop::collection::vec((any::<u8>(), any::<u8>(), any::<i8>()), 1..24)) {
+        let mut graph = Graph::new();
+        let built = build(&mut graph, &steps);
+        prop_assume!(!holds_no_value(&graph, built) && graph.written_size(&[built]) < 5_000);
+        let root = graph.tidied(built);
+        prop_assume!(!holds_no_value(&graph, root));
+        let text = Printer::new(&graph, name).text(root);
+        let back = read(&mut graph, &parse(&text), &HashMap::new());
+        prop_assert_eq!(back, root, "{} became {}", &text, Printer::new(&graph, name).text(back));
+    }
+
+    #[test]
     fn shared_parts_read_back(steps in prop::collection::vec((any::<u8>(), any::<u8>(), any::<i8>()), 10..60)) {
         let mut graph = Graph::new();
         let root = build(&mut graph, &steps);

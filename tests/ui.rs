@@ -26,7 +26,7 @@ fn places(outcome: &Outcome) -> Vec<(usize, String)> {
         .iter()
         .filter(|diagnostic| diagnostic.severity() != mechc::diag::Severity::Note)
         .filter_map(|diagnostic| {
-            let here = |span: Span| outcome.sources.get(span.file).name.ends_with(".mech");
+            let here = |span: Span| outcome.sources.get(span.file).name.contains(".mech");
             let span = diagnostic.labels.iter().map(|label| label.span).find(|span| here(*span))?;
             let (line, _) = outcome.sources.get(span.file).position(span.start);
             Some((line, diagnostic.code.to_string()))

@@ -26,6 +26,18 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
         .help("write it out in numbers and units")
 }
 
+/// A name in a formula of time that stands alone.
+pub fn names_in_formula(name: &Name) -> Diagnostic {
+    let nearest = meant(&name.text, &["t", "pi", "tau"]).filter(|_| name.text.chars().count() > 1);
+    Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
+        .at(name.span, "not known here")
+        .help_if(
+            nearest.or_else(|| {
+                Some("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it".to_owned())
+            }),
+        )
+}
+
 pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let listed = match known {
         [] => format!("`{owner}` has none"),

@@ -274,12 +274,13 @@ impl Checker<'_> {
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
-        if !context.names {
-            self.report(errors::names_in_option(name));
-            return;
-        }
         if name.text == "min" {
             self.report(errors::not_a_unit(name, "", false));
+            return;
+        }
+        let is_quantity = names::QUANTITIES.contains(&name.text.as_str());
+        if !context.names && (is_quantity || !names::is_builtin(&name.text)) {
+            self.report(if context.time { errors::names_in_formula(name) } else { errors::names_in_option(name) });
             return;
         }
         if names::is_builtin(&name.text) {

@@ -21,8 +21,8 @@ mod units;
 pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::expr::{ExprId, Symbol};
-use crate::model::{BodyId, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
 use calls::Call;
@@ -86,14 +86,56 @@ pub fn check(
 /// # Errors
 /// What is wrong with it.
 pub fn constant(formula: &Expr, place: &str, wanted: Dimension, sources: &Sources) -> Result<f64, Diagnostics> {
-    let nobody = Name { text: String::new(), span: formula.span };
-    let tree = ast::Mechanism { docs: Vec::new(), name: nobody, span: formula.span, items: Vec::new() };
-    let nothing = Surroundings::default();
-    let mut checker = Checker::new(&tree, &nothing, sources);
+    let tree = nothing(formula.span);
+    let surroundings = Surroundings::default();
+    let mut checker = Checker::new(&tree, &surroundings, sources);
     match checker.constant(formula, place, wanted) {
         Some((_, value)) if !checker.diagnostics.has_errors() => Ok(value),
         _ => Err(checker.diagnostics),
     }
+}
+
+/// A formula of time that names nothing of any file.
+#[derive(Clone, Debug)]
+pub struct FormulaOfTime {
+    /// Holds the formula; its only symbol is time.
+    pub graph: Graph,
+    /// The formula, in SI.
+    pub value: ExprId,
+    /// Of its value; `None` for a plain formula, whose dimension says nothing.
+    pub dimension: Option<Dimension>,
+    /// What must be positive at a time, for the formula to have a meaning there.
+    pub conditions: Vec<Condition>,
+}
+
+/// A formula alone, over time and the constants and functions of the language.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTime, Diagnostics> {
+    let tree = nothing(formula.span);
+    let surroundings = Surroundings::default();
+    let mut checker = Checker::new(&tree, &surroundings, sources);
+    let judged = checker.is_dimensional(formula);
+    let context = Context { judged, time: true, names: false, ..Context::constant("a formula of time") };
+    let value = checker.formula(formula, &context);
+    let Checker { mut diagnostics, model, .. } = checker;
+    diagnostics.sort_by_place();
+    match value {
+        Some(value) if !diagnostics.has_errors() => Ok(FormulaOfTime {
+            graph: model.graph,
+            value: value.id,
+            dimension: judged.then(|| value.dim.settled()),
+            conditions: model.conditions,
+        }),
+        _ => Err(diagnostics),
+    }
+}
+
+/// A mechanism without any declaration, as the surroundings of a formula of the command line.
+fn nothing(span: Span) -> ast::Mechanism {
+    let name = Name { text: String::new(), span };
+    ast::Mechanism { docs: Vec::new(), name, span, items: Vec::new() }
 }
 
 /// What is known of a user's function.

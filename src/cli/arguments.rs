@@ -7,6 +7,7 @@ Examples:
   mechc check examples/slider_crank.mech
   mechc run examples/slider_crank.mech -o slider_crank.csv
   mechc run examples/slider_crank.mech --set rod_length=200mm --every 0.5ms
+  mechc formula '(1.5 * sin(t) + 3 * t^2)^2' --at 0 --at 1.5
 
 Exit codes:
   0  done (warnings may have been printed)
@@ -52,6 +53,17 @@ pub(super) enum Command {
         The tree is the file as it would be written; the model has its names resolved and its values in SI; the IR has \
         every coordinate, every row of Φ with the declaration that wrote it, the entries of Φ_q, ν and γ.")]
     Dump(DumpArguments),
+    /// A formula of time and its first two derivatives, as text and as numbers
+    #[command(
+        long_about = "A formula of time and its first two derivatives, as text and as numbers.\n\n\
+        Prints the formula C simplified, its time derivatives C' and C'', and their values at the times asked for. \
+        Inside, all is SI: `50 mm` becomes 0.05, an angle is in radians. A formula with units of length, time or rate \
+        says its dimension.",
+        after_help = "Examples:\n  mechc formula '(1.5 * sin(t) + 3 * t^2)^2' --at 0 --at 1.5\n  \
+        mechc formula '20 mm * sin(60 rpm * t)' --at '250 ms'\n  \
+        mechc formula 'if t < 1 then t^2 else 2 * t - 1'"
+    )]
+    Formula(FormulaArguments),
 }
 
 /// What all commands that read a file share.
@@ -69,6 +81,13 @@ pub(super) struct Input {
     #[arg(long, value_name = "NAME=EXPR", allow_hyphen_values = true)]
     pub set: Vec<String>,
 
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+/// How a command speaks to its user.
+#[derive(Args, Debug)]
+pub(super) struct Messages {
     /// How diagnostics are written
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]
     pub message_format: MessageFormat,
@@ -174,6 +193,20 @@ pub(super) struct RunArguments {
     /// Print to standard error where the time went
     #[arg(long)]
     pub timings: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct FormulaArguments {
+    /// A formula of the time `t`, as a driver takes it; it may hold units and functions of the language
+    #[arg(value_name = "EXPR", allow_hyphen_values = true)]
+    pub formula: String,
+
+    /// A time to evaluate it at, in seconds or with a unit. Repeatable; sorted, and each printed once
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]

@@ -44,8 +44,9 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
     let Some(first) = diagnostics.iter().find(|d| d.severity() == crate::diag::Severity::Error) else {
         return 0;
     };
-    // what is wrong with an option is wrong usage, whatever it is
-    if first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
+    // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time
+    let on_the_way = first.code >= Code::E0601 && first.code <= Code::E0606;
+    if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
         return USAGE;
     }
     match first.code {

@@ -321,6 +321,22 @@ impl Graph {
         self.sub(a, multiple)
     }
 
+    /// `a − b·⌊a/b⌋` as `mod(a, b)`.
+    pub(super) fn as_modulo(&self, id: ExprId) -> Option<(ExprId, ExprId)> {
+        let Node::Sub(a, multiple) = self.node(id) else { return None };
+        let (b, floor) = match self.node(multiple) {
+            Node::Mul(x, y) if self.is_floor(y) => (x, y),
+            Node::Mul(x, y) if self.is_floor(x) => (y, x),
+            _ => return None,
+        };
+        let Node::Unary(Unary::Floor, quotient) = self.node(floor) else { return None };
+        (self.node(quotient) == Node::Div(a, b)).then_some((a, b))
+    }
+
+    fn is_floor(&self, id: ExprId) -> bool {
+        matches!(self.node(id), Node::Unary(Unary::Floor, _))
+    }
+
     /// The same operation on other operands.
     pub(super) fn rebuild(&mut self, node: Node, mut operand: impl FnMut(ExprId) -> ExprId) -> ExprId {
         match node {

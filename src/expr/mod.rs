@@ -2,8 +2,8 @@
 //!
 //! Nodes are hash-consed, so that equal formulas are one node and sharing costs nothing; children have smaller ids
 //! than their parents, so that a walk by id needs no recursion. Constructors simplify (`build`), derivatives come
-//! from one set of rules (`derive`), values from one evaluator (`evaluate`). What a symbol stands for is the business
-//! of the room that owns the graph.
+//! from one set of rules (`derive`), values from one evaluator (`evaluate`); what is to be read is put in order first
+//! (`tidy`). What a symbol stands for is the business of the room that owns the graph.
 
 mod build;
 mod derive;
@@ -11,6 +11,7 @@ mod evaluate;
 mod motion;
 mod print;
 mod table;
+mod tidy;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;

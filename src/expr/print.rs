@@ -151,7 +151,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     }
 
     fn tightness(&self, id: ExprId) -> Tightness {
-        if self.as_modulo(id).is_some() {
+        if self.graph.as_modulo(id).is_some() {
             return Tightness::Atom;
         }
         match self.graph.node(id) {
@@ -172,7 +172,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     }
 
     fn write_bare(&self, id: ExprId, out: &mut String) {
-        if let Some((a, b)) = self.as_modulo(id) {
+        if let Some((a, b)) = self.graph.as_modulo(id) {
             return self.write_call("mod", &[a, b], out);
         }
         match self.graph.node(id) {
@@ -304,22 +304,6 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     /// Whether an operand is a row of factors itself.
     fn is_chain(&self, id: ExprId) -> bool {
         self.tightness(id) == Tightness::Product && !self.names.contains_key(&id)
-    }
-
-    /// `a − b·⌊a/b⌋` as `mod(a, b)`.
-    fn as_modulo(&self, id: ExprId) -> Option<(ExprId, ExprId)> {
-        let Node::Sub(a, multiple) = self.graph.node(id) else { return None };
-        let (b, floor) = match self.graph.node(multiple) {
-            Node::Mul(x, y) if self.is_floor(y) => (x, y),
-            Node::Mul(x, y) if self.is_floor(x) => (y, x),
-            _ => return None,
-        };
-        let Node::Unary(Unary::Floor, quotient) = self.graph.node(floor) else { return None };
-        (self.graph.node(quotient) == Node::Div(a, b)).then_some((a, b))
-    }
-
-    fn is_floor(&self, id: ExprId) -> bool {
-        matches!(self.graph.node(id), Node::Unary(Unary::Floor, _))
     }
 }
 

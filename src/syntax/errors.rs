@@ -3,7 +3,7 @@
 use super::parse::Rule;
 use super::{DECLARATIONS, DEEPEST};
 use crate::diag::{Code, Diagnostic, nearest};
-use crate::source::{FileId, Span};
+use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
 
 /// Nesting beyond the cap.
@@ -44,7 +44,9 @@ pub fn chained_comparison(span: Span) -> Diagnostic {
 }
 
 /// A syntax error as the parser found it, in human words.
-pub fn from_pest(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
+pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId) -> Diagnostic {
+    let text = source.text.as_str();
+    let end = if source.is_option { "the end of the formula" } else { "the end of the file" };
     let offset = match error.location {
         pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
     };
@@ -55,11 +57,11 @@ pub fn from_pest(error: &Error<Rule>, text: &str, file: FileId) -> Diagnostic {
     let span = Span { file, start: found.start as u32, end: found.end as u32 };
     let word = &text[found.clone()];
     let expected = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => expectation(positives, word),
+        ErrorVariant::ParsingError { positives, .. } => expectation(positives, word, end),
         ErrorVariant::CustomError { message } => message.clone(),
     };
     let shown = match word.chars().next() {
-        None => "the end of the file".to_owned(),
+        None => end.to_owned(),
         Some('"') if word.len() == 1 => "an unclosed string".to_owned(),
         Some(_) => format!("`{word}`"),
     };
@@ -109,11 +111,11 @@ fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
 }
 
 /// The rules the parser would have liked, as a person would say it.
-fn expectation(rules: &[Rule], found: &str) -> String {
+fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
     for rule in rules {
-        let word = human(*rule, goes_on);
+        let word = human(*rule, goes_on, end);
         let is_found = word.trim_matches('`') == found;
         if !word.is_empty() && !is_found && !words.contains(&word) {
             words.push(word);
@@ -127,11 +129,11 @@ fn expectation(rules: &[Rule], found: &str) -> String {
 }
 
 /// A rule in the user's words; empty for what is said by another one.
-fn human(rule: Rule, after_operand: bool) -> &'static str {
+fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
     match rule {
         Rule::file | Rule::mechanism | Rule::kw_mechanism => "`mechanism`",
         Rule::EOI if after_operand => "",
-        Rule::EOI => "the end of the file",
+        Rule::EOI => end,
         Rule::param
         | Rule::function
         | Rule::table

@@ -79,7 +79,7 @@ impl<'a> Reader<'a> {
     /// The pairs inside one rule that matches the whole text.
     fn read(&self, rule: Rule) -> Built<Pairs<'a, Rule>> {
         let pairs = grammar::Grammar::parse(rule, &self.source.text)
-            .map_err(|error| Box::new(errors::from_pest(&error, &self.source.text, self.file)))?;
+            .map_err(|error| Box::new(errors::from_pest(&error, self.source, self.file)))?;
         match pairs.into_iter().next() {
             Some(pair) => Ok(pair.into_inner()),
             None => Err(self.truncated()),

@@ -1,0 +1,415 @@
+//! Formulas as a person would write them down.
+//!
+//! The constructors see one operation at a time; this looks at whole sums and whole products: equal terms are gathered,
+//! numbers stand in front, equal factors are powers, a sum begins with a term that is added. Nothing is cancelled against
+//! a denominator, and nothing is multiplied out but numbers and what Horner's rule left. Only what is printed goes through here: what is computed stays as it is.
+
+use super::{ExprId, Graph, Node, number};
+use rustc_hash::FxHashMap;
+
+/// Exponents beyond this are left as they stand.
+const LARGEST_EXPONENT: i32 = 64;
+
+/// Whole numbers beyond this are no longer exact.
+const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
+
+impl Graph {
+    /// How many parts formulas have, written out one by one.
+    #[must_use]
+    pub fn written_size(&self, roots: &[ExprId]) -> u64 {
+        let mut sizes: FxHashMap<ExprId, u64> = FxHashMap::default();
+        for id in self.reachable(roots) {
+            let children = self.node(id).children();
+            let size = children.as_slice().iter().map(|child| sizes[child]).fold(1, u64::saturating_add);
+            sizes.insert(id, size);
+        }
+        roots.iter().map(|root| sizes[root]).fold(0, u64::saturating_add)
+    }
+
+    /// The same formula with its sums and products in order. Recurses by nesting and takes time by the size that is
+    /// written, so it is for formulas that somebody will read.
+    pub fn tidied(&mut self, root: ExprId) -> ExprId {
+        Tidying { graph: self, known: FxHashMap::default() }.tidy(root)
+    }
+}
+
+struct Tidying<'g> {
+    graph: &'g mut Graph,
+    known: FxHashMap<ExprId, ExprId>,
+}
+
+/// Terms with their coefficients in the order in which they were met, and the numbers among them in one.
+#[derive(Default)]
+struct Sum {
+    terms: Vec<(f64, ExprId)>,
+    places: FxHashMap<ExprId, usize>,
+    number: f64,
+}
+
+/// Factors with their exponents in the order in which they were met, and the numbers among them as one fraction. What is
+/// above and what is below the line stays apart.
+struct Product {
+    factors: Vec<(ExprId, i32)>,
+    above: f64,
+    below: f64,
+}
+
+impl Tidying<'_> {
+    fn tidy(&mut self, id: ExprId) -> ExprId {
+        if let Some(&known) = self.known.get(&id) {
+            return known;
+        }
+        let tidied = stacker::maybe_grow(64 << 10, 1 << 20, || self.tidy_node(id));
+        self.known.insert(id, tidied);
+        tidied
+    }
+
+    fn tidy_node(&mut self, id: ExprId) -> ExprId {
+        let gathered = match self.graph.node(id) {
+            _ if self.graph.as_modulo(id).is_some() => None,
+            Node::Add(..) | Node::Sub(..) | Node::Neg(_) => {
+                let sum = self.sum(id);
+                self.build_sum(sum)
+            }
+            Node::Mul(..) | Node::Div(..) | Node::Power(..) => {
+                self.product(id).and_then(|product| self.build_product(product))
+            }
+            _ => None,
+        };
+        gathered.unwrap_or_else(|| self.rebuilt(id))
+    }
+
+    /// The same operation on tidied operands.
+    fn rebuilt(&mut self, id: ExprId) -> ExprId {
+        if let Some((a, b)) = self.graph.as_modulo(id) {
+            let (a, b) = (self.tidy(a), self.tidy(b));
+            return self.graph.modulo(a, b);
+        }
+        let node = self.graph.node(id);
+        for &child in node.children().as_slice() {
+            self.tidy(child);
+        }
+        let known = &self.known;
+        self.graph.rebuild(node, |child| known.get(&child).copied().unwrap_or(child))
+    }
+
+    fn sum(&mut self, root: ExprId) -> Sum {
+        let mut sum = self.terms_of(root);
+        // a number is multiplied into a sum where that brings equal terms together
+        while let Some(at) = self.worth_multiplying_out(&sum) {
+            let (c, term) = sum.take(at);
+            let (scale, inner) = self.scaled_sum(term).unwrap_or((1.0, term));
+            let parts = self.terms_of(inner);
+            sum.number += c * scale * parts.number;
+            for (part, id) in parts.terms {
+                sum.put(c * scale * part, id);
+            }
+        }
+        sum.terms.retain(|&(c, _)| c != 0.0);
+        sum
+    }
+
+    /// The terms of the outermost sum, tidied.
+    fn terms_of(&mut self, root: ExprId) -> Sum {
+        let mut sum = Sum::default();
+        // with its coefficient, and whether it has been tidied
+        let mut open = vec![(root, 1.0, self.known.get(&root) == Some(&root))];
+        while let Some((id, c, is_tidy)) = open.pop() {
+            let whole = self.graph.as_modulo(id).is_some();
+            match self.graph.node(id) {
+                Node::Add(a, b) if !whole => open.extend([(b, c, is_tidy), (a, c, is_tidy)]),
+                Node::Sub(a, b) if !whole => open.extend([(b, -c, is_tidy), (a, c, is_tidy)]),
+                Node::Neg(a) => open.push((a, -c, is_tidy)),
+                Node::Const(bits) => sum.number += c * f64::from_bits(bits),
+                _ if !is_tidy => open.push((self.tidy(id), c, true)),
+                _ => {
+                    let (scale, term) = self.split(id);
+                    sum.put(c * scale, term);
+                }
+            }
+        }
+        sum
+    }
+
+    /// A sum as a term of another one, with the number that divides it where its inverse is exact.
+    fn scaled_sum(&self, term: ExprId) -> Option<(f64, ExprId)> {
+        let (scale, sum) = match self.graph.node(term) {
+            Node::Div(a, b) => (1.0 / self.graph.as_const(b)?, a),
+            _ => (1.0, term),
+        };
+        // a power of two has no fraction bits
+        let is_exact = scale.is_normal() && scale.to_bits().trailing_zeros() >= 52;
+        let is_sum =
+            matches!(self.graph.node(sum), Node::Add(..) | Node::Sub(..)) && self.graph.as_modulo(sum).is_none();
+        (is_exact && is_sum).then_some((scale, sum))
+    }
+
+    /// A term that is a sum and shares a term of it with another one.
+    fn worth_multiplying_out(&mut self, sum: &Sum) -> Option<usize> {
+        let parts: Vec<Vec<ExprId>> = sum
+            .terms
+            .iter()
+            .map(|&(_, term)| match self.scaled_sum(term) {
+                Some((_, inner)) => self.terms_of(inner).terms.into_iter().map(|(_, id)| id).collect(),
+                None => vec![term],
+            })
+            .collect();
+        let mut uses: FxHashMap<ExprId, u32> = FxHashMap::default();
+        for &part in parts.iter().flatten() {
+            *uses.entry(part).or_default() += 1;
+        }
+        let shares = |part: &ExprId| uses.get(part).is_some_and(|&uses| uses > 1);
+        sum.terms
+            .iter()
+            .zip(&parts)
+            .position(|(&(_, term), parts)| self.scaled_sum(term).is_some() && parts.iter().any(shares))
+    }
+
+    /// A term as a number and the rest; of a quotient only the sign is taken out.
+    fn split(&mut self, id: ExprId) -> (f64, ExprId) {
+        match self.graph.node(id) {
+            Node::Mul(a, b) => match self.graph.as_const(a) {
+                Some(c) => (c, b),
+                None => (1.0, id),
+            },
+            Node::Div(a, b) => {
+                let (c, _) = match self.graph.as_const(a) {
+                    Some(c) => (c, a),
+                    None => self.split(a),
+                };
+                if c < 0.0 {
+                    let above = self.graph.neg(a);
+                    (-1.0, self.graph.div(above, b))
+                } else {
+                    (1.0, id)
+                }
+            }
+            _ => (1.0, id),
+        }
+    }
+
+    /// `None` where a number has left the range of numbers.
+    fn build_sum(&mut self, mut sum: Sum) -> Option<ExprId> {
+        if !sum.number.is_finite() || sum.terms.iter().any(|(c, _)| !c.is_finite()) {
+            return None;
+        }
+        if let Some(quotient) = self.over_one_line(&sum) {
+            return Some(quotient);
+        }
+        let first = sum.terms.iter().position(|&(c, _)| c > 0.0);
+        if let Some(first) = first {
+            sum.terms[..=first].rotate_right(1);
+        }
+        let number = self.graph.constant(sum.number);
+        // `6 - t` rather than `-t + 6`
+        let leads = first.is_none() && sum.number > 0.0;
+        let mut total = if leads { number } else { self.graph.constant(0.0) };
+        for (c, term) in sum.terms {
+            let size = self.graph.constant(c.abs());
+            let mut term = self.graph.mul(size, term);
+            if matches!(self.graph.node(term), Node::Mul(_, b) if matches!(self.graph.node(b), Node::Div(..))) {
+                // `2 * t / 3` rather than `2 * (t / 3)`
+                term = self.tidy(term);
+            }
+            total = match (c < 0.0, self.graph.as_const(total)) {
+                (false, _) => self.graph.add(total, term),
+                (true, Some(0.0)) => self.negated(term),
+                (true, _) => self.graph.sub(total, term),
+            };
+        }
+        Some(if leads { total } else { self.graph.add(total, number) })
+    }
+
+    /// The terms as one quotient, where all are quotients with one divisor.
+    fn over_one_line(&mut self, sum: &Sum) -> Option<ExprId> {
+        let divisor = |id: ExprId| match self.graph.node(id) {
+            Node::Div(_, b) => Some(b),
+            _ => None,
+        };
+        let below = divisor(sum.terms.first()?.1)?;
+        if sum.terms.len() < 2 || sum.number != 0.0 || sum.terms.iter().any(|&(_, id)| divisor(id) != Some(below)) {
+            return None;
+        }
+        let mut above = self.graph.constant(0.0);
+        for &(c, id) in &sum.terms {
+            let Node::Div(term, _) = self.graph.node(id) else { return None };
+            let c = self.graph.constant(c);
+            let term = self.graph.mul(c, term);
+            above = self.graph.add(above, term);
+        }
+        let above = self.tidy(above);
+        let quotient = self.graph.div(above, below);
+        // a number may have come out of the sum
+        Some(self.tidy(quotient))
+    }
+
+    /// `-1 / t` rather than `-(1 / t)`.
+    fn negated(&mut self, id: ExprId) -> ExprId {
+        match self.graph.node(id) {
+            Node::Div(a, b) if self.graph.as_const(a).is_some() || self.split(a).1 != a => {
+                let above = self.graph.neg(a);
+                self.graph.div(above, b)
+            }
+            _ => self.graph.neg(id),
+        }
+    }
+
+    /// `None` where it is better left as it is.
+    fn product(&mut self, root: ExprId) -> Option<Product> {
+        let mut product = Product { factors: Vec::new(), above: 1.0, below: 1.0 };
+        // with its exponent, and whether it has been tidied
+        let mut open = vec![(root, 1_i32, false)];
+        while let Some((id, e, is_tidy)) = open.pop() {
+            match self.graph.node(id) {
+                Node::Mul(a, b) if e.abs() == 1 || self.has_whole_number(id) => {
+                    open.extend([(b, e, is_tidy), (a, e, is_tidy)]);
+                }
+                Node::Div(a, b) if e > 0 => open.extend([(b, -e, is_tidy), (a, e, is_tidy)]),
+                Node::Neg(a) => {
+                    product.above *= if e % 2 == 0 { 1.0 } else { -1.0 };
+                    open.push((a, e, is_tidy));
+                }
+                Node::Power(a, n) if e == 1 || n > 0 => open.push((a, e * n, is_tidy)),
+                Node::Const(bits) => {
+                    let size = crate::math::whole_power(f64::from_bits(bits), e.unsigned_abs());
+                    *(if e > 0 { &mut product.above } else { &mut product.below }) *= size;
+                }
+                _ if !is_tidy => open.push((self.tidy(id), e, true)),
+                _ => product.put(id, e),
+            }
+            if open.iter().any(|&(_, e, _)| e.abs() > LARGEST_EXPONENT) {
+                return None;
+            }
+        }
+        product.is_sound().then_some(product)
+    }
+
+    /// Whether a product holds a number whose powers are easy to read.
+    fn has_whole_number(&self, id: ExprId) -> bool {
+        match self.graph.node(id) {
+            Node::Mul(a, _) => self.graph.as_const(a).is_some_and(|c| c.fract() == 0.0 && c.abs() < 1e3),
+            _ => false,
+        }
+    }
+
+    /// A power times a polynomial of the same, as Horner's rule leaves it: multiplied out.
+    fn build_polynomial(&mut self, product: &Product) -> Option<ExprId> {
+        let &[(x, e), (y, f)] = product.factors.as_slice() else { return None };
+        let is_sum = |id: ExprId| matches!(self.graph.node(id), Node::Add(..) | Node::Sub(..));
+        let (base, e, sum) = match (e, f) {
+            (e, 1) if e > 0 && is_sum(y) => (x, e, y),
+            (1, f) if f > 0 && is_sum(x) => (y, f, x),
+            _ => return None,
+        };
+        let terms = self.terms_of(sum);
+        let is_power =
+            |id: ExprId| id == base || matches!(self.graph.node(id), Node::Power(x, n) if x == base && n > 0);
+        let is_whole = product.below.to_bits() == 1.0_f64.to_bits();
+        if !is_whole || terms.terms.is_empty() || !terms.terms.iter().all(|&(_, id)| is_power(id)) {
+            return None;
+        }
+        let power = self.graph.power(base, e);
+        let mut raised = Sum::default();
+        for (c, id) in terms.terms {
+            let id = self.graph.mul(id, power);
+            raised.put(c * product.above, id);
+        }
+        raised.put(terms.number * product.above, power);
+        raised.terms.retain(|&(c, _)| c != 0.0);
+        self.build_sum(raised)
+    }
+
+    fn build_product(&mut self, mut product: Product) -> Option<ExprId> {
+        product.reduce();
+        if let Some(polynomial) = self.build_polynomial(&product) {
+            return Some(polynomial);
+        }
+        let graph = &*self.graph;
+        // what is long stands last
+        product.factors.sort_by_key(|&(id, _)| match graph.node(id) {
+            Node::Symbol(_) => 0,
+            Node::Add(..) | Node::Sub(..) | Node::Select(..) => 2,
+            _ => 1,
+        });
+        let above = self.row(&product, true)?;
+        let below = self.row(&product, false)?;
+        let (number, divisor) = (self.graph.constant(product.above), self.graph.constant(product.below));
+        let above = self.graph.mul(number, above);
+        let below = self.graph.mul(divisor, below);
+        Some(self.graph.div(above, below))
+    }
+
+    /// The factors above or below the line.
+    fn row(&mut self, product: &Product, above: bool) -> Option<ExprId> {
+        let mut row = self.graph.constant(1.0);
+        for &(id, e) in product.factors.iter().filter(|(_, e)| (*e > 0) == above) {
+            if e.abs() > LARGEST_EXPONENT {
+                return None;
+            }
+            let power = self.graph.power(id, e.abs());
+            row = self.graph.mul(row, power);
+        }
+        Some(row)
+    }
+}
+
+impl Sum {
+    fn put(&mut self, c: f64, term: ExprId) {
+        let known = self.places.get(&term).and_then(|&place| self.terms.get_mut(place));
+        if let Some((coefficient, _)) = known {
+            *coefficient += c;
+        } else {
+            self.places.insert(term, self.terms.len());
+            self.terms.push((c, term));
+        }
+    }
+
+    /// Takes a term out.
+    fn take(&mut self, at: usize) -> (f64, ExprId) {
+        let taken = self.terms.remove(at);
+        self.places = self.terms.iter().enumerate().map(|(k, &(_, term))| (term, k)).collect();
+        taken
+    }
+}
+
+impl Product {
+    fn put(&mut self, id: ExprId, exponent: i32) {
+        // what is above the line may be zero where what is below it is, and is not cancelled
+        let same = |&&mut (known, e): &&mut (ExprId, i32)| known == id && (e > 0) == (exponent > 0);
+        match self.factors.iter_mut().find(same) {
+            Some((_, e)) => *e += exponent,
+            None => self.factors.push((id, exponent)),
+        }
+    }
+
+    fn is_sound(&self) -> bool {
+        let is_number = |x: f64| x.is_finite() && x != 0.0;
+        is_number(self.above) && is_number(self.below)
+    }
+
+    /// One number above the line where that is as short, and exact.
+    fn reduce(&mut self) {
+        if self.below < 0.0 {
+            (self.above, self.below) = (-self.above, -self.below);
+        }
+        self.reduce_whole();
+        let quotient = self.above / self.below;
+        let as_short = number(quotient).len() <= number(self.above).len() + number(self.below).len();
+        if (quotient * self.below).to_bits() == self.above.to_bits() && as_short && quotient.is_normal() {
+            (self.above, self.below) = (quotient, 1.0);
+        }
+    }
+
+    /// `2 / 6` as `1 / 3`.
+    fn reduce_whole(&mut self) {
+        let is_whole = |x: f64| x.fract() == 0.0 && x.abs() < LARGEST_WHOLE;
+        if !is_whole(self.above) || !is_whole(self.below) {
+            return;
+        }
+        let (mut a, mut b) = (self.above.abs(), self.below);
+        while b != 0.0 {
+            (a, b) = (b, a % b);
+        }
+        (self.above, self.below) = (self.above / a, self.below / a);
+    }
+}
