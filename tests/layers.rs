@@ -14,6 +14,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("diag", &["source"]),
     ("expr", &["math"]),
     ("syntax", &["source", "diag"]),
+    ("import", &["source", "diag", "syntax"]),
     ("model", &["source", "expr"]),
     ("check", &["source", "diag", "expr", "syntax", "model"]),
     ("ir", &["source", "expr"]),

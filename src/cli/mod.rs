@@ -8,13 +8,14 @@ mod dump;
 mod emit;
 mod failure;
 mod files;
+mod import;
 mod input;
 mod progress;
 mod report;
 mod run;
 mod timings;
 
-use arguments::{Arguments, Command, Input};
+use arguments::{Arguments, Command, Messages};
 use clap::Parser;
 use failure::Failure;
 use report::Reporter;
@@ -24,16 +25,17 @@ use std::process::ExitCode;
 #[must_use]
 pub fn main() -> ExitCode {
     ExitCode::from(match Arguments::parse().command {
-        Command::Check(check) => reported(&check.input, |reporter| check::check(&check, reporter)),
-        Command::Emit(emit) => reported(&emit.input, |reporter| emit::emit(&emit, reporter)),
-        Command::Dump(dump) => reported(&dump.input, |reporter| dump::dump(&dump, reporter)),
-        Command::Run(run) => reported(&run.input, |reporter| run::run(&run, reporter)),
+        Command::Check(check) => reported(&check.input.messages, |reporter| check::check(&check, reporter)),
+        Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),
+        Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
+        Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
+        Command::Import(import) => reported(&import.messages, |reporter| import::import(&import, reporter)),
     })
 }
 
 /// Does a command's work and says why it ended; gives the exit code.
-fn reported(input: &Input, work: impl FnOnce(&mut Reporter) -> Result<(), Failure>) -> u8 {
-    let mut reporter = Reporter::new(input);
+fn reported(messages: &Messages, work: impl FnOnce(&mut Reporter) -> Result<(), Failure>) -> u8 {
+    let mut reporter = Reporter::new(messages);
     let result = work(&mut reporter);
     reporter.finish(result)
 }

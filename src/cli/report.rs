@@ -1,6 +1,6 @@
 //! Diagnostics to standard error.
 
-use super::arguments::{Input, MessageFormat, When};
+use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use crate::diag::{Color, Diagnostics, Format, Severity, render};
 use crate::source::Sources;
@@ -14,13 +14,13 @@ pub(super) struct Reporter {
 }
 
 impl Reporter {
-    pub fn new(input: &Input) -> Reporter {
-        let format = match input.message_format {
+    pub fn new(messages: &Messages) -> Reporter {
+        let format = match messages.message_format {
             MessageFormat::Human => Format::Human,
             MessageFormat::Short => Format::Short,
             MessageFormat::Json => Format::Json,
         };
-        let colored = match input.color {
+        let colored = match messages.color {
             When::Always => true,
             When::Never => false,
             When::Auto => {

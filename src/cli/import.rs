@@ -1,0 +1,24 @@
+//! `mechc import`: the model files of the course's planar engine, translated.
+
+use super::arguments::ImportArguments;
+use super::failure::Failure;
+use super::files::{self, Output};
+use super::report::Reporter;
+use crate::diag::{Code, Diagnostic};
+use crate::{import, syntax};
+
+pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    if arguments.model == "-" && arguments.acf.as_deref() == Some("-") {
+        return Err(Diagnostic::new(Code::E0706, "standard input cannot be both the model and the settings")
+            .help("give one of them as a file")
+            .into());
+    }
+    let model = files::read(&arguments.model, &mut reporter.sources)?;
+    let settings = arguments.acf.as_ref().map(|acf| files::read(acf, &mut reporter.sources)).transpose()?;
+    let (file, said) = import::import(model, settings, &reporter.sources);
+    let Some(file) = file else {
+        return Err(said.into());
+    };
+    reporter.print(&said);
+    Output::write(&arguments.output, &syntax::format(&file))
+}
