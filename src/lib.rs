@@ -20,8 +20,6 @@ pub mod diag;
 
 pub mod syntax;
 
-pub mod import;
-
 pub mod expr;
 
 pub mod model;
@@ -41,6 +39,8 @@ pub mod analysis;
 pub mod emit;
 
 pub mod output;
+
+pub mod import;
 
 pub mod cli;
 

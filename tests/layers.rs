@@ -14,7 +14,6 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("diag", &["source"]),
     ("expr", &["math"]),
     ("syntax", &["source", "diag"]),
-    ("import", &["source", "diag", "syntax"]),
     ("model", &["source", "expr"]),
     ("check", &["source", "diag", "expr", "syntax", "model"]),
     ("ir", &["source", "expr"]),
@@ -24,6 +23,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["program", "structure", "ir", "diag", "math"]),
     ("emit", &["program", "structure", "ir", "expr"]),
     ("output", &[]),
+    ("import", &["source", "diag", "syntax"]),
 ];
 
 #[test]

@@ -68,7 +68,7 @@ fn short_step(end: f64, steps: i128) -> Option<(f64, &'static str)> {
     let (mantissa, exponent) = scientific.split_once('e')?;
     let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let mut digits: i128 = format!("{whole}{fraction}").parse().ok()?;
-    let mut exponent = exponent.parse::<i32>().ok()? - fraction.len() as i32;
+    let mut exponent = exponent.parse::<i32>().ok()? - i32::try_from(fraction.len()).ok()?;
     for _ in 0..=STEP_DIGITS {
         if digits % steps == 0 {
             break;
@@ -89,7 +89,7 @@ fn short_step(end: f64, steps: i128) -> Option<(f64, &'static str)> {
         return None;
     }
     // the power of ten of its first digit
-    let size = exponent + written.len() as i32 - 1;
+    let size = exponent + i32::try_from(written.len()).ok()? - 1;
     let (shift, unit) = match size {
         0.. => (0, "s"),
         -3..0 => (3, "ms"),

@@ -3,14 +3,14 @@
 
 use super::errors;
 use super::fields::{Fields, Number, Vector, name_of, objects, place_of};
-use super::json::{Kind as Json, Text, Value};
+use super::json::{Kind as Json, Quoted, Value};
 use super::matlab::{self, Formula};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
 /// A model.
 pub(super) struct Model<'a> {
-    pub name: Option<&'a Text>,
+    pub name: Option<&'a Quoted>,
     pub place: Span,
     pub bodies: Vec<Body<'a>>,
     pub constraints: Vec<Constraint<'a>>,
@@ -18,14 +18,14 @@ pub(super) struct Model<'a> {
 
 /// A body with its estimated pose: x, y, φ.
 pub(super) struct Body<'a> {
-    pub name: Option<&'a Text>,
+    pub name: Option<&'a Quoted>,
     pub place: Span,
     pub pose: Vector<3>,
 }
 
 /// A constraint.
 pub(super) struct Constraint<'a> {
-    pub name: Option<&'a Text>,
+    pub name: Option<&'a Quoted>,
     pub place: Span,
     pub kind: Kind,
 }
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
         let radius = self.fields.number_with("R2", (|r| r > 0.0, "positive"), said);
         let (theta1, theta2) = (self.fields.number("theta1", said), self.fields.number("theta2", said));
         if let (Some(p), Some(q)) = (p, q)
-            && p.values == q.values
+            && p.values.iter().zip(q.values).all(|(&p, q)| same(p, q))
         {
             let message = "the pitch line needs two points, and `sP1` and `sQ1` are one";
             said.push(errors::fault(q.span, message, "the same point").also(p.span, "this point"));
@@ -174,7 +174,7 @@ impl<'a> Reader<'a> {
 
     fn direction(&self, key: &str, said: &mut Diagnostics) -> Option<Vector<2>> {
         let direction: Vector<2> = self.fields.vector(key, "[1, 0]", said)?;
-        if direction.values == [0.0, 0.0] {
+        if direction.values.iter().all(|&x| same(x, 0.0)) {
             said.push(errors::fault(direction.span, format!("`{key}` is a direction of length zero"), "no direction"));
             return None;
         }

@@ -91,9 +91,9 @@ fn expectation(rules: &[Rule]) -> String {
     for rule in rules {
         let word = match rule {
             Rule::document | Rule::object | Rule::list | Rule::word | Rule::arithmetic => "a value",
-            Rule::string if rules.contains(&Rule::list) => "a value",
+            // any value may stand there
+            Rule::string | Rule::number | Rule::paren | Rule::sign if rules.contains(&Rule::list) => "",
             Rule::string | Rule::member => "a name in quotes",
-            Rule::number | Rule::paren | Rule::sign if rules.contains(&Rule::list) => "a value",
             Rule::number | Rule::paren | Rule::sign => "a number",
             Rule::comma => "`,`",
             Rule::colon => "`:`",

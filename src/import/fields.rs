@@ -2,7 +2,7 @@
 //! place, and the reading goes on.
 
 use super::errors;
-use super::json::{Kind, Text, Value};
+use super::json::{Kind, Quoted, Value};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::Span;
 
@@ -78,13 +78,12 @@ impl<'a> Fields<'a> {
         let mut sound = true;
         let mut numbers = Vec::new();
         for item in list {
-            match item.kind {
+            if let Kind::Number(number) = item.kind {
                 // −0 and 0 are one place
-                Kind::Number(number) => numbers.push(number + 0.0),
-                _ => {
-                    said.push(errors::wrong_type(key, &wanted, item));
-                    sound = false;
-                }
+                numbers.push(number + 0.0);
+            } else {
+                said.push(errors::wrong_type(key, &wanted, item));
+                sound = false;
             }
         }
         if !sound {
@@ -98,7 +97,7 @@ impl<'a> Fields<'a> {
         Some(Vector { values: values?, span: value.span })
     }
 
-    pub fn text(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Text> {
+    pub fn text(&self, key: &str, help: &str, said: &mut Diagnostics) -> Option<&'a Quoted> {
         let value = self.required(key, help, said)?;
         if let Kind::Text(text) = &value.kind {
             return Some(text);
@@ -123,7 +122,7 @@ impl<'a> Fields<'a> {
 }
 
 /// A `name` that may be missing but not of another type.
-pub(super) fn name_of<'a>(object: &'a Value, said: &mut Diagnostics) -> Option<&'a Text> {
+pub(super) fn name_of<'a>(object: &'a Value, said: &mut Diagnostics) -> Option<&'a Quoted> {
     let value = object.get("name")?;
     if let Kind::Text(text) = &value.kind {
         return Some(text);

@@ -31,14 +31,14 @@ pub(super) enum Kind {
     Null,
     Truth,
     Number(f64),
-    Text(Text),
+    Text(Quoted),
     List(Vec<Value>),
-    Object(Vec<(Text, Value)>),
+    Object(Vec<(Quoted, Value)>),
 }
 
 /// A string as it is meant, and where each of its bytes stands in the file.
 #[derive(Clone, Debug)]
-pub(super) struct Text {
+pub(super) struct Quoted {
     pub text: String,
     /// With its quotes.
     pub span: Span,
@@ -46,7 +46,7 @@ pub(super) struct Text {
     places: Vec<u32>,
 }
 
-impl Text {
+impl Quoted {
     /// The place of a stretch of the text.
     pub fn place(&self, start: usize, end: usize) -> Span {
         let offset = |at: usize| match self.places.get(at) {
@@ -64,7 +64,7 @@ impl Value {
     }
 
     /// A key with its value.
-    pub fn member(&self, key: &str) -> Option<&(Text, Value)> {
+    pub fn member(&self, key: &str) -> Option<&(Quoted, Value)> {
         match &self.kind {
             Kind::Object(members) => members.iter().rev().find(|(name, _)| name.text == key),
             _ => None,
@@ -158,7 +158,7 @@ fn is_mark(rule: Rule) -> bool {
     matches!(rule, Rule::comma | Rule::colon | Rule::close | Rule::right | Rule::right_paren | Rule::EOI)
 }
 
-fn member(pair: Pair<'_, Rule>, file: FileId) -> Result<Option<(Text, Value)>, Box<Diagnostic>> {
+fn member(pair: Pair<'_, Rule>, file: FileId) -> Result<Option<(Quoted, Value)>, Box<Diagnostic>> {
     let mut parts = pair.into_inner().filter(|part| !is_mark(part.as_rule()));
     match (parts.next(), parts.next()) {
         (Some(key), Some(value)) => Ok(Some((text(&key, file), build(&value, file)?))),
@@ -200,13 +200,13 @@ fn operand(pair: Pair<'_, Rule>) -> f64 {
 }
 
 /// Decodes the escapes.
-fn text(pair: &Pair<'_, Rule>, file: FileId) -> Text {
+fn text(pair: &Pair<'_, Rule>, file: FileId) -> Quoted {
     let span = span_of(pair, file);
     let written = pair.as_str().get(1..pair.as_str().len().saturating_sub(1)).unwrap_or("");
     if !written.contains('\\') {
-        return Text { text: written.to_owned(), span, places: Vec::new() };
+        return Quoted { text: written.to_owned(), span, places: Vec::new() };
     }
-    let mut decoded = Text { text: String::new(), span, places: Vec::new() };
+    let mut decoded = Quoted { text: String::new(), span, places: Vec::new() };
     let mut rest = written;
     while let Some((character, length)) = next_character(rest) {
         let place = span.start + 1 + (written.len() - rest.len()) as u32;

@@ -9,7 +9,7 @@ mod parser;
 mod tokens;
 
 use super::errors;
-use super::json::Text;
+use super::json::Quoted;
 use crate::diag::Diagnostic;
 use crate::source::Sources;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Sign};
@@ -29,7 +29,7 @@ type Built<T> = Result<T, Box<Diagnostic>>;
 const LARGEST: usize = 100_000;
 
 /// Translates a formula.
-pub(super) fn translate(text: &Text) -> Built<Formula> {
+pub(super) fn translate(text: &Quoted) -> Built<Formula> {
     let tokens = tokens::tokens(text)?;
     let place = text.place(0, text.text.len());
     if tokens.is_empty() {

@@ -1,7 +1,7 @@
 //! Names that the language takes, unique, and as near to the model's own as can be.
 
 use super::errors;
-use super::json::Text;
+use super::json::Quoted;
 use crate::diag::Diagnostics;
 use crate::source::Span;
 use crate::syntax::{self, format};
@@ -23,7 +23,7 @@ pub(super) struct Wanted<'a> {
     /// What it is: "body".
     pub what: &'static str,
     /// What it is called in the model.
-    pub name: Option<&'a Text>,
+    pub name: Option<&'a Quoted>,
     /// Where to say that it has no name.
     pub place: Span,
 }
@@ -78,7 +78,7 @@ impl Names {
 }
 
 /// The name of the mechanism, which shares its space with nothing.
-pub(super) fn of_the_mechanism(name: Option<&Text>, place: Span, file: &str, said: &mut Diagnostics) -> String {
+pub(super) fn of_the_mechanism(name: Option<&Quoted>, place: Span, file: &str, said: &mut Diagnostics) -> String {
     let Some(old) = name else {
         let new = valid(file, "imported");
         said.push(errors::named("model", &new, place));

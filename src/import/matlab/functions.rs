@@ -111,7 +111,7 @@ fn no_constant(name: &str, span: Span) -> Diagnostic {
 }
 
 /// A call in the language's words.
-pub(super) fn call(name: &str, name_span: Span, arguments: Vec<Expr>, span: Span) -> Built<Expr> {
+pub(super) fn call(name: &str, name_span: Span, arguments: &[Expr], span: Span) -> Built<Expr> {
     let Some(&(_, count, formula)) = FUNCTIONS.iter().find(|(function, ..)| *function == name) else {
         let near = nearest(name, FUNCTIONS.iter().map(|(function, ..)| *function));
         let known = matches!(name, "t" | "pi");
@@ -132,7 +132,7 @@ pub(super) fn call(name: &str, name_span: Span, arguments: Vec<Expr>, span: Span
     let file = sources.add("function", formula);
     let meaning = parse_expression(&sources, file);
     // the table's formulas are of the language, as its tests show
-    meaning.map(|meaning| with_arguments(&meaning, &arguments, span)).map_err(|_| {
+    meaning.map(|meaning| with_arguments(&meaning, arguments, span)).map_err(|_| {
         Box::new(errors::fault(name_span, format!("the function `{name}` cannot be translated"), "no counterpart"))
     })
 }

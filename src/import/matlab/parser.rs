@@ -8,7 +8,7 @@ use super::tokens::{Token, TokenKind};
 use super::{Built, LARGEST, measure};
 use crate::import::build;
 use crate::import::errors;
-use crate::import::json::Text;
+use crate::import::json::Quoted;
 use crate::source::Span;
 use crate::syntax::DEEPEST;
 use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
@@ -99,7 +99,7 @@ fn against_zero(e: Expr, comparison: Comparison) -> Expr {
 }
 
 /// The formula that a text's tokens write.
-pub(super) fn parse(tokens: &[Token<'_>], text: &Text) -> Built<Expr> {
+pub(super) fn parse(tokens: &[Token<'_>], text: &Quoted) -> Built<Expr> {
     let end = text.place(text.text.len(), text.text.len());
     let mut parser = Parser { tokens, at: 0, end };
     let term = parser.term(0, 0)?;
@@ -209,7 +209,7 @@ impl<'a> Parser<'a> {
                 Some(open) => {
                     let (arguments, close) = self.arguments(open, depth + 1)?;
                     let span = token.span.to(close);
-                    let call = functions::call(token.text, token.span, arguments, span)?;
+                    let call = functions::call(token.text, token.span, &arguments, span)?;
                     if measure(&call).parts > LARGEST {
                         return Err(Box::new(errors::formula_too_large(token.span)));
                     }

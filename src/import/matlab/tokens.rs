@@ -2,7 +2,7 @@
 
 use super::Built;
 use crate::import::errors;
-use crate::import::json::Text;
+use crate::import::json::Quoted;
 use crate::source::Span;
 
 /// What a token is.
@@ -42,7 +42,7 @@ const REFUSED: &[(&str, &str)] = &[
 ];
 
 /// The tokens of a formula.
-pub(super) fn tokens(text: &Text) -> Built<Vec<Token<'_>>> {
+pub(super) fn tokens(text: &Quoted) -> Built<Vec<Token<'_>>> {
     let written = text.text.as_str();
     let mut tokens = Vec::new();
     let mut at = 0;
@@ -60,7 +60,7 @@ pub(super) fn tokens(text: &Text) -> Built<Vec<Token<'_>>> {
     Ok(tokens)
 }
 
-fn next<'a>(rest: &'a str, text: &Text, at: usize) -> Built<(TokenKind<'a>, usize)> {
+fn next<'a>(rest: &'a str, text: &Quoted, at: usize) -> Built<(TokenKind<'a>, usize)> {
     let digit = |byte: Option<&u8>| byte.is_some_and(u8::is_ascii_digit);
     let bytes = rest.as_bytes();
     if digit(bytes.first()) || bytes.first() == Some(&b'.') && digit(bytes.get(1)) {
@@ -82,7 +82,7 @@ fn next<'a>(rest: &'a str, text: &Text, at: usize) -> Built<(TokenKind<'a>, usiz
 }
 
 /// `3`, `3.`, `.5`, `1e-3`, `1d3`; the point of `1.*t` belongs to the `*`.
-fn number<'a>(rest: &'a str, text: &Text, at: usize) -> Built<(TokenKind<'a>, usize)> {
+fn number<'a>(rest: &'a str, text: &Quoted, at: usize) -> Built<(TokenKind<'a>, usize)> {
     let digits = |from: usize| {
         let tail = rest.get(from..).unwrap_or("");
         from + tail.find(|c: char| !c.is_ascii_digit()).unwrap_or(tail.len())
