@@ -1,5 +1,6 @@
 //! What is said of a model file that cannot be translated, and of what its translation changed or left behind.
 
+use super::build;
 use super::json::{Rule, Value};
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::source::{FileId, Span};
@@ -152,7 +153,7 @@ pub(super) fn no_such_body(key: &str, number: f64, span: Span, count: usize) -> 
         1 => "there is 1 body".to_owned(),
         _ => format!("there are {count} bodies"),
     };
-    fault(span, format!("`{key}` is {number}, and {there}"), "no such body")
+    fault(span, format!("`{key}` is {}, and {there}", build::in_short(number)), "no such body")
         .help("a body is named by its position in the list of bodies, from 1")
 }
 

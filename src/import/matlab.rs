@@ -2,7 +2,8 @@
 //!
 //! All values are real scalars, so that `.*` is `*`, and a transposing `'` does nothing. Where MATLAB groups otherwise
 //! than the language (`2^3^2` is `(2^3)^2`), the tree says what MATLAB means; the parentheses come with its printing.
-//! What has no counterpart is refused with its place.
+//! What has no counterpart is refused with its place. Values are not computed here: that a constant is infinite is for
+//! `check` to find.
 
 mod functions;
 mod parser;
@@ -12,7 +13,7 @@ use super::errors;
 use super::json::Quoted;
 use crate::diag::Diagnostic;
 use crate::source::Sources;
-use crate::syntax::ast::{Expr, ExprKind, Factor, Sign};
+use crate::syntax::ast::{Expr, ExprKind};
 use crate::syntax::{DEEPEST, format, parse_expression};
 
 /// A formula of the language, with the places of the MATLAB text that it comes from.
@@ -46,11 +47,6 @@ pub(super) fn translate(text: &Quoted) -> Built<Formula> {
     if size.height > DEEPEST || !reads_back(&expression) {
         return Err(Box::new(errors::formula_too_deep(place)));
     }
-    if let Some(value) = arithmetic(&expression)
-        && !value.is_finite()
-    {
-        return Err(Box::new(errors::fault(place, "this constant is not finite", "not finite")));
-    }
     Ok(Formula { expression, uses_time: size.uses_time })
 }
 
@@ -77,22 +73,4 @@ fn measure(e: &Expr) -> Size {
         open.extend(e.children().into_iter().map(|child| (child, height + 1)));
     }
     size
-}
-
-/// The value of a formula that holds numbers and the four operations alone.
-fn arithmetic(e: &Expr) -> Option<f64> {
-    Some(match &e.kind {
-        ExprKind::Literal { value, unit: None } => *value,
-        ExprKind::Name(name) if name.text == "pi" => std::f64::consts::PI,
-        ExprKind::Negate(inner) => -arithmetic(inner)?,
-        ExprKind::Sum(first, rest) => rest.iter().try_fold(arithmetic(first)?, |sum, (sign, e)| {
-            let value = arithmetic(e)?;
-            Some(if *sign == Sign::Plus { sum + value } else { sum - value })
-        })?,
-        ExprKind::Product(first, rest) => rest.iter().try_fold(arithmetic(first)?, |product, (factor, e)| {
-            let value = arithmetic(e)?;
-            Some(if *factor == Factor::Times { product * value } else { product / value })
-        })?,
-        _ => return None,
-    })
 }

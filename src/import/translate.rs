@@ -15,6 +15,9 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Sign};
 use std::f64::consts::PI;
 
+/// How long a number may be to stand for the formula that it is the value of.
+const SHORT: usize = 10;
+
 /// The mechanism that a model describes; `None` where a mistake stands in the way, which has been said.
 pub(super) fn mechanism(model: &Model<'_>, file: &str, said: &mut Diagnostics) -> Option<Mechanism> {
     let (stem, origin) = origin(file);
@@ -237,7 +240,8 @@ fn beyond(p: f64, q: f64, span: Span) -> Expr {
     // what rounding took away (Knuth's two-sum): none where both differences give back what went in
     let taken = far - doubled;
     let exact = (doubled - (far - taken)).abs() + (-p - taken).abs() <= 0.0;
-    if exact {
+    // `2 * 0.1 m - 0.3 m` reads better than its 17 digits
+    if exact && far.abs().to_string().len() <= SHORT {
         return build::length(far, span);
     }
     let twice = ExprKind::Product(Box::new(build::number(2.0, span)), vec![(Factor::Times, build::length(q, span))]);

@@ -71,6 +71,11 @@ const FUNCTIONS: &[(&str, usize, &str)] = &[
     ("uplus", 1, "a"),
 ];
 
+/// Whether a name means something in a formula.
+pub(super) fn is_known(name: &str) -> bool {
+    matches!(name, "t" | "pi") || FUNCTIONS.iter().any(|(function, ..)| *function == name)
+}
+
 /// A name that is not called.
 pub(super) fn constant(name: &str, span: Span) -> Built<Term> {
     let expression = match name {
@@ -149,7 +154,11 @@ fn with_arguments(e: &Expr, arguments: &[Expr], span: Span) -> Expr {
             }
         }
         ExprKind::Call { name, arguments: list } => {
-            let list = list.iter().map(|e| with_arguments(e, arguments, span)).collect();
+            let mut list: Vec<Expr> = list.iter().map(|e| with_arguments(e, arguments, span)).collect();
+            // a literal has no sign
+            if name.text == "abs" && matches!(list.as_slice(), [Expr { kind: ExprKind::Literal { .. }, .. }]) {
+                return list.remove(0);
+            }
             return build::call(&name.text, list, span);
         }
         ExprKind::Paren(e) => return *inside(e),

@@ -1,6 +1,6 @@
 //! A MATLAB formula as words and signs.
 
-use super::Built;
+use super::{Built, functions};
 use crate::import::errors;
 use crate::import::json::Quoted;
 use crate::source::Span;
@@ -109,7 +109,9 @@ fn number<'a>(rest: &'a str, text: &Quoted, at: usize) -> Built<(TokenKind<'a>, 
             errors::fault(span, "formulas have real values only", "an imaginary number")
         } else {
             let message = format!("`{number}{word}` is no number");
-            errors::fault(span, message, "no number").help(format!("a product is written with `*`: `{number}*{word}`"))
+            let is_factor = functions::is_known(word);
+            let help = is_factor.then(|| format!("a product is written with `*`: `{number}*{word}`"));
+            errors::fault(span, message, "no number").help_if(help)
         };
         return Err(Box::new(fault));
     }
