@@ -48,9 +48,9 @@ fn imported(model: &str, settings: Option<&str>) -> Imported {
         let (_, said) = check::check(&again.mechanisms[0], &[], &sources);
         // elements that this version does not know yet are no fault of the translation, and constants that are not
         // finite are told by the command
-        for d in said.iter().filter(|d| !matches!(d.code, Code::E0208 | Code::E0404)) {
-            panic!("{}\n{text}", render(d, &sources, Format::Human, Color::Never));
-        }
+        let words = said.iter().find(|d| !matches!(d.code, Code::E0208 | Code::E0404));
+        let words = words.map(|d| render(d, &sources, Format::Human, Color::Never));
+        assert!(words.is_none(), "{}\n{text}", words.unwrap_or_default());
     }
     Imported { text, file, diagnostics, sources }
 }
@@ -236,108 +236,109 @@ fn times_of_the_settings() {
 
 // ---- formulas
 
+const TRANSLATED: &[&str] = &[
+    "0",
+    "-0",
+    "0.2",
+    "-1.5",
+    "7",
+    "-7",
+    "(-7)",
+    "1.",
+    ".5",
+    "1e-3",
+    "1d3",
+    "1D-3",
+    "+2",
+    "pi",
+    "-pi/2",
+    "2*pi*3",
+    "true",
+    "t",
+    "t'",
+    "t.'",
+    "(t)'",
+    "1.*t",
+    "1./t",
+    "2.^t",
+    "1.'*t",
+    "t.*t./2",
+    "t.^2",
+    "2^3^2*t",
+    "2^(3^2)*t",
+    "-t^2",
+    "(-t)^2",
+    "2^-1*t",
+    "2^-t",
+    "2^+t",
+    "2^(-t^2)",
+    "2*-t",
+    "-2*t",
+    "-(2*t)",
+    "--t",
+    "+t",
+    "-+t",
+    "t-(1-t)",
+    "t-(1+t)",
+    "(t-1)+t",
+    "t/(2*pi)",
+    "t*(2/pi)",
+    "(t*2)/pi",
+    "2\\t",
+    "t\\2*t",
+    "sin(10*t)",
+    "pi/2 + 2*pi*t",
+    "t^2",
+    "log(t)",
+    "log10(t)",
+    "log2(t)",
+    "exp(-t)",
+    "sqrt(t)",
+    "abs(t)",
+    "sign(t)",
+    "atan2(t, 1)",
+    "sinh(t)",
+    "mod(t, 2)",
+    "rem(t, 2)",
+    "min(t, 1)",
+    "hypot(t, 1)",
+    "power(t, 3)",
+    "power(t + 1, 2 - t)",
+    "times(t + 1, 2)",
+    "sind(30)",
+    "sind(90*t)",
+    "cosd(t)",
+    "tand(t + 1)",
+    "asind(t)",
+    "rad2deg(t)",
+    "deg2rad(90)",
+    "floor(t)",
+    "ceil(t)",
+    "fix(t)",
+    "round(t)",
+    "heaviside(t - 1)",
+    "cot(t)",
+    "t < 1",
+    "(t < 1)*t",
+    "(t >= 1).*(t <= 2)",
+    "(t > 1) & (t < 2)",
+    "(t > 1) | t",
+    "~(t > 1)",
+    "~t",
+    "~t == 1",
+    "t > 1 & t < 2 | t == 3",
+    "t > 1 && t < 2 || t ~= 3",
+    "0 < t < 1",
+    "-(t > 1)",
+    "(t > 1)^2",
+    "sin(t > 1)",
+    "eps*t",
+    "t + (t > 1) - 1",
+];
+
 #[test]
 fn formulas_are_translated() {
-    let table = [
-        "0",
-        "-0",
-        "0.2",
-        "-1.5",
-        "7",
-        "-7",
-        "(-7)",
-        "1.",
-        ".5",
-        "1e-3",
-        "1d3",
-        "1D-3",
-        "+2",
-        "pi",
-        "-pi/2",
-        "2*pi*3",
-        "true",
-        "t",
-        "t'",
-        "t.'",
-        "(t)'",
-        "1.*t",
-        "1./t",
-        "2.^t",
-        "1.'*t",
-        "t.*t./2",
-        "t.^2",
-        "2^3^2*t",
-        "2^(3^2)*t",
-        "-t^2",
-        "(-t)^2",
-        "2^-1*t",
-        "2^-t",
-        "2^+t",
-        "2^(-t^2)",
-        "2*-t",
-        "-2*t",
-        "-(2*t)",
-        "--t",
-        "+t",
-        "-+t",
-        "t-(1-t)",
-        "t-(1+t)",
-        "(t-1)+t",
-        "t/(2*pi)",
-        "t*(2/pi)",
-        "(t*2)/pi",
-        "2\\t",
-        "t\\2*t",
-        "sin(10*t)",
-        "pi/2 + 2*pi*t",
-        "t^2",
-        "log(t)",
-        "log10(t)",
-        "log2(t)",
-        "exp(-t)",
-        "sqrt(t)",
-        "abs(t)",
-        "sign(t)",
-        "atan2(t, 1)",
-        "sinh(t)",
-        "mod(t, 2)",
-        "rem(t, 2)",
-        "min(t, 1)",
-        "hypot(t, 1)",
-        "power(t, 3)",
-        "power(t + 1, 2 - t)",
-        "times(t + 1, 2)",
-        "sind(30)",
-        "sind(90*t)",
-        "cosd(t)",
-        "tand(t + 1)",
-        "asind(t)",
-        "rad2deg(t)",
-        "deg2rad(90)",
-        "floor(t)",
-        "ceil(t)",
-        "fix(t)",
-        "round(t)",
-        "heaviside(t - 1)",
-        "cot(t)",
-        "t < 1",
-        "(t < 1)*t",
-        "(t >= 1).*(t <= 2)",
-        "(t > 1) & (t < 2)",
-        "(t > 1) | t",
-        "~(t > 1)",
-        "~t",
-        "~t == 1",
-        "t > 1 & t < 2 | t == 3",
-        "t > 1 && t < 2 || t ~= 3",
-        "0 < t < 1",
-        "-(t > 1)",
-        "(t > 1)^2",
-        "sin(t > 1)",
-        "eps*t",
-        "t + (t > 1) - 1",
-    ];
-    let text = table.iter().fold(String::new(), |mut text, formula| {
+    let text = TRANSLATED.iter().fold(String::new(), |mut text, formula| {
         let meaning = translated(formula).unwrap_or_else(|error| panic!("{formula}: {error}"));
         writeln!(text, "{formula:24} {meaning}").unwrap();
         text
@@ -428,8 +429,8 @@ fn places_in_formulas_count_escapes() {
 #[test]
 fn formulas_keep_their_value() {
     let mut random = matlab::Random::new(20_240_611);
-    let (mut compared, mut finite) = (0, 0);
-    for _ in 0..3000 {
+    let mut compared = 0;
+    for _ in 0..1500 {
         let formula = matlab::formula(&mut random, 4);
         let meaning = match translated(&formula) {
             Ok(meaning) => meaning,
@@ -440,17 +441,15 @@ fn formulas_keep_their_value() {
         let file = sources.add("formula", meaning.as_str());
         let tree = syntax::parse_expression(&sources, file).expect("a formula");
         for t in [0.0, 0.37, -1.5, 2.0] {
-            let (wanted, found) = (matlab::value(&formula, t), matlab::value_here(&tree, t));
-            // where MATLAB goes on from an infinite value, the language may have none, and says so
-            let refused = found.is_nan();
-            let near = (wanted - found).abs() <= 1e-9 * wanted.abs().max(1.0);
-            let alike = near || wanted == found || refused;
-            finite += usize::from(near);
+            // where MATLAB goes on from an infinite value, the language stops and says so
+            let Some(wanted) = matlab::value(&formula, t) else { continue };
+            let found = matlab::value_here(&tree, t);
+            let alike = (wanted - found).abs() <= 1e-9 * wanted.abs().max(1.0);
+            compared += 1;
             assert!(alike, "{formula} at {t} is {wanted}, {meaning} is {found}");
         }
-        compared += 1;
     }
-    assert!(compared > 1500 && finite > 3 * compared, "{finite} of {compared}, at 4 times each");
+    assert!(compared > 2000, "{compared}");
 }
 
 #[test]
@@ -485,7 +484,7 @@ fn nothing_nests_too_deep() {
 fn mistakes_have_their_places() {
     let body = r#""bodies": [{"name": "a", "q0": [0, 0, 0]}]"#;
     let files = [
-        "".to_owned(),
+        String::new(),
         " \n".to_owned(),
         "[]".to_owned(),
         "5".to_owned(),

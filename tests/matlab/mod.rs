@@ -61,18 +61,20 @@ pub fn formula(random: &mut Random, depth: usize) -> String {
 
 // ---- MATLAB
 
-/// The value of a MATLAB formula: a method per precedence, loosest first.
-pub fn value(formula: &str, t: f64) -> f64 {
+/// The value of a MATLAB formula, if all on the way to it is finite: a method per precedence, loosest first.
+pub fn value(formula: &str, t: f64) -> Option<f64> {
     let text: String = formula.chars().filter(|c| !c.is_whitespace()).collect();
-    let mut reader = Reader { rest: &text, t };
+    let mut reader = Reader { rest: &text, t, finite: true };
     let value = reader.level(0);
     assert!(reader.rest.is_empty(), "{formula}: {} is left", reader.rest);
-    value
+    reader.finite.then_some(value)
 }
 
 struct Reader<'a> {
     rest: &'a str,
     t: f64,
+    /// Whether every value so far is.
+    finite: bool,
 }
 
 /// Longer signs first.
@@ -123,6 +125,7 @@ impl<'a> Reader<'a> {
                 "/" | "./" => a / b,
                 _ => b / a,
             };
+            self.finite &= a.is_finite();
         }
         a
     }
@@ -150,6 +153,7 @@ impl<'a> Reader<'a> {
                 _ => truth(e == 0.0),
             });
             a = math::pow(a, exponent);
+            self.finite &= a.is_finite();
         }
         a
     }
@@ -202,7 +206,7 @@ impl<'a> Reader<'a> {
         let a = self.level(0);
         let b = if self.sign(&[","]).is_some() { self.level(0) } else { 0.0 };
         self.sign(&[")"]).expect("`)`");
-        match word {
+        let value = match word {
             "sin" => math::sin(a),
             "abs" => a.abs(),
             "floor" => a.floor(),
@@ -212,7 +216,9 @@ impl<'a> Reader<'a> {
             "max" => a.max(b),
             "power" => math::pow(a, b),
             _ => panic!("{word}"),
-        }
+        };
+        self.finite &= value.is_finite();
+        value
     }
 }
 
