@@ -204,7 +204,8 @@ impl<'a> Reader<'a> {
     /// A body by its position from 1, as a position from 0.
     fn body(&self, key: &str, said: &mut Diagnostics) -> Option<usize> {
         let number = self.fields.number(key, said)?;
-        let position = (1..=self.bodies).find(|&position| same(position as f64, number.value));
+        // a whole number prints without a point, and nothing else reads back as one
+        let position = number.value.to_string().parse().ok().filter(|k| (1..=self.bodies).contains(k));
         if position.is_none() {
             said.push(errors::no_such_body(key, number.value, number.span, self.bodies));
         }
