@@ -7,6 +7,8 @@
 //!                                                                            └──analysis▶ Started ▶ rows ─output▶ table
 //! ```
 //!
+//! `import` makes a tree from the model files of another program.
+//!
 //! Each stage has its own types, and a later one cannot hold what an earlier one should have refused. See
 //! `ARCHITECTURE.md` for what each room knows and must not know.
 
@@ -37,6 +39,8 @@ pub mod analysis;
 pub mod emit;
 
 pub mod output;
+
+pub mod import;
 
 pub mod cli;
 

@@ -23,6 +23,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["program", "structure", "ir", "diag", "math"]),
     ("emit", &["program", "structure", "ir", "expr"]),
     ("output", &[]),
+    ("import", &["source", "diag", "syntax"]),
 ];
 
 #[test]

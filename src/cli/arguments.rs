@@ -64,9 +64,21 @@ pub(super) enum Command {
         mechc formula 'if t < 1 then t^2 else 2 * t - 1'"
     )]
     Formula(FormulaArguments),
+    /// A model file of the course's planar engine (ADM), as .mech
+    #[command(
+        long_about = "A model file of the course's planar engine (ADM), as .mech.\n\n\
+        Bodies and constraints keep their names where these can be names. Formulas are translated from MATLAB's notation; \
+        a constraint whose formula holds t becomes a driver. What has no place in a kinematic model (forces, masses, \
+        drawing data) is named in a note. The settings file (ACF) gives the times of the analysis; without one, `run` needs \
+        --from, --to and --every.",
+        after_help = "Examples:\n  mechc import pendulum.adm -o pendulum.mech\n  \
+        mechc import pendulum.adm --acf kinematics.acf -o pendulum.mech\n  \
+        mechc import pendulum.adm | mechc run - --from 0 --to 5 --every 10ms"
+    )]
+    Import(ImportArguments),
 }
 
-/// What all commands that read a file share.
+/// What all commands that read a .mech file share.
 #[derive(Args, Debug)]
 pub(super) struct Input {
     /// The .mech file; `-` is standard input
@@ -144,6 +156,24 @@ pub(super) struct DumpArguments {
 
     /// Where the text goes; `-` is standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
+    pub output: String,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct ImportArguments {
+    /// The model file; `-` is standard input
+    #[arg(value_name = "MODEL.adm")]
+    pub model: String,
+
+    /// The settings file with the times of the analysis; `-` is standard input
+    #[arg(long, value_name = "FILE")]
+    pub acf: Option<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+
+    /// Where the text goes; `-` is standard output
+    #[arg(short, long, value_name = "OUT.mech", default_value = "-")]
     pub output: String,
 }
 

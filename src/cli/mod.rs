@@ -9,6 +9,7 @@ mod emit;
 mod failure;
 mod files;
 mod formula;
+mod import;
 mod input;
 mod progress;
 mod report;
@@ -30,6 +31,7 @@ pub fn main() -> ExitCode {
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
+        Command::Import(import) => reported(&import.messages, |reporter| import::import(&import, reporter)),
     })
 }
 

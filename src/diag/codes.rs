@@ -106,6 +106,9 @@ catalogue! {
     E0704 Error "a mechanism that has to be named"
     E0705 Error "an analysis without times"
     E0706 Error "a value of the command line that cannot be used"
+    E0707 Error "a model file that cannot be translated"
+    N0701 Note "what was not carried over"
+    N0702 Note "a name that was changed"
 }
 
 impl std::fmt::Display for Code {

@@ -12,7 +12,7 @@ mod parse;
 
 pub use depth::DEEPEST;
 pub use format::format;
-pub use parse::{normalized, parse, parse_expression};
+pub use parse::{is_name, normalized, parse, parse_expression};
 
 /// Words that begin a declaration, where every formula before them has ended.
 const DECLARATIONS: &[&str] = &[

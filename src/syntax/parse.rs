@@ -59,6 +59,13 @@ pub fn normalized(name: &str) -> String {
     name.nfc().collect()
 }
 
+/// Whether a text can stand where a name is wanted: an identifier, and no keyword.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let pair = grammar::Grammar::parse(Rule::name, text).ok().and_then(|mut pairs| pairs.next());
+    pair.is_some_and(|pair| pair.as_str().len() == text.len())
+}
+
 fn on_a_deep_stack<T>(
     sources: &Sources,
     file: FileId,

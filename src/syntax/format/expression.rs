@@ -7,7 +7,7 @@ use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
 
 /// The units, which are written behind a number without spaces: `9.81 m/s^2`. A unit that is missing here costs two
 /// spaces in the text, and nothing of its meaning.
-const UNITS: &[&str] =
+pub const UNITS: &[&str] =
     &["m", "mm", "cm", "um", "µm", "km", "in", "ft", "rad", "deg", "rev", "s", "ms", "us", "µs", "rpm"];
 
 /// What binds how tightly, loosest first.
