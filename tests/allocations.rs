@@ -23,6 +23,14 @@ fn following_a_motion_allocates_nothing() {
 }
 
 #[test]
+fn contacts_tables_and_edges_allocate_nothing() {
+    for name in ["cam_point_follower", "gear_pair", "cam_roller", "flat_swing", "table_list", "edges_pulse"] {
+        let text = fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+        follow(name, &text);
+    }
+}
+
+#[test]
 fn passing_near_a_dead_point_allocates_nothing() {
     follow(
         "slider_crank",

@@ -1,0 +1,199 @@
+//! Edges: where a formula goes over to another branch, both sides are evaluated at that same time.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::diag::Diagnostic;
+use support::{Outcome, Span, run};
+
+/// A block on a slide that is driven, in metres, over two seconds in steps of a tenth.
+fn slide(declarations: &str, formula: &str) -> Outcome {
+    let text = format!(
+        "mechanism slide {{
+            ground {{ axis way = (0, 0) along (1, 0) }}
+            body block {{ axis way = (0, 0) along (1, 0) }}
+            joint guide: translational(ground.way, block.way)
+            {declarations}
+            driver push: displacement(guide) = {formula}
+            analysis from 0 s to 2 s every 0.1 s
+        }}"
+    );
+    run("slide", &text, Span::default())
+}
+
+/// The only diagnostic, of the given code.
+fn only<'o>(outcome: &'o Outcome, code: &str) -> &'o Diagnostic {
+    assert_eq!(outcome.codes(), [code], "{}", outcome.text());
+    outcome.diagnostics.iter().next().expect("one")
+}
+
+fn time_of(diagnostic: &Diagnostic) -> f64 {
+    diagnostic.data.get("t").and_then(serde_json::Value::as_f64).expect("a time")
+}
+
+fn at(outcome: &Outcome, column: &str, t: f64) -> f64 {
+    let row = outcome.rows.iter().find(|row| (row[0] - t).abs() < 1e-9).expect("a row");
+    row[outcome.columns.iter().position(|name| name == column).expect("a column")]
+}
+
+#[test]
+fn a_position_that_jumps_is_told_with_its_time() {
+    for (formula, t) in [
+        ("if t < 0.55 then 0 else 1", 0.55),
+        ("if t <= 0.55 then 0 else 1", 0.55),
+        ("if t > 0.55 then 0 else 1", 0.55),
+        ("mod(t, 0.7)", 0.7),
+        ("sign(t - 1.234)", 1.234),
+        ("if sin(t) < 0.5 then 0 else 1e-6", (0.5_f64).asin()),
+        ("if t < 1 then 0 else if t < 1.0000001 then 1e-6 else 0", 1.0),
+    ] {
+        let outcome = slide("", formula);
+        let found = time_of(only(&outcome, "E0609"));
+        assert!((found - t).abs() <= 2.0 * f64::EPSILON * t, "{formula}: {found}");
+        let before = outcome.rows.last().expect("rows")[0];
+        assert!(before < t && before > t - 0.1 - 1e-9, "{formula}: the rows end at {before}");
+    }
+}
+
+#[test]
+fn a_velocity_that_jumps_has_no_acceleration() {
+    for (formula, t) in [
+        ("abs(t - 0.55)", 0.55),
+        ("max(0, t - 1.3)", 1.3),
+        ("min(t, 2 * t^2)", 0.5),
+        ("t + 1e-5 * max(0, t - 0.3)", 0.3),
+        ("abs(sin(pi * t / 1.7))", 1.7),
+    ] {
+        let outcome = slide("", formula);
+        let diagnostic = only(&outcome, "E0609");
+        let found = time_of(diagnostic);
+        assert!(diagnostic.message.contains("velocity"), "{}", diagnostic.message);
+        assert!((found - t).abs() <= 2.0 * f64::EPSILON * t, "{formula}: {found}");
+    }
+}
+
+#[test]
+fn an_acceleration_that_jumps_is_a_warning_once() {
+    let outcome = slide("", "step(mod(t, 0.5), 0.1, 0, 0.2, 1) - step(mod(t, 0.5), 0.3, 0, 0.4, 1)");
+    let warning = only(&outcome, "W0601");
+    assert!((time_of(warning) - 0.1).abs() < 1e-15);
+    assert_eq!(warning.notes, ["columns that jump: `block.x.dd`"]);
+    assert_eq!(outcome.rows.len(), 21);
+}
+
+#[test]
+fn the_later_side_counts_and_at_the_last_time_the_earlier() {
+    // the acceleration is 2 before 1 s, 6 up to 2 s, and 10 from there on
+    for below in ["<", "<="] {
+        let formula = format!(
+            "if t {below} 1 then t^2 else if t {below} 2 then 1 + 2 * (t - 1) + 3 * (t - 1)^2 else 6 + 8 * (t - 2) + 5 * (t - 2)^2"
+        );
+        let outcome = slide("", &formula);
+        only(&outcome, "W0601");
+        for (t, acceleration) in [(0.0, 2.0), (0.9, 2.0), (1.0, 6.0), (1.1, 6.0), (1.9, 6.0), (2.0, 6.0)] {
+            assert!((at(&outcome, "block.x.dd", t) - acceleration).abs() < 1e-12, "{formula} at {t}");
+        }
+    }
+    // the first time is an edge too
+    let outcome = slide("", "if t <= 0 then t else t + 3 * t^2");
+    assert_eq!(at(&outcome, "block.x.dd", 0.0), 6.0);
+    let outcome = slide("", "abs(t)^3 + abs(t) * t");
+    assert_eq!(at(&outcome, "block.x.dd", 0.0), 2.0);
+}
+
+#[test]
+fn a_pulse_between_output_times_is_met() {
+    // a millionth of a second wide, in a run of two seconds
+    let pulse = "step5(t, 1.2345, 0, 1.2345005, 1) - step5(t, 1.2345005, 0, 1.234501, 1)";
+    let outcome = slide("", pulse);
+    assert!(outcome.succeeded() && outcome.diagnostics.is_empty(), "{}", outcome.text());
+    let outcome = slide("", "if t > 1.2345 and t < 1.2345001 then 1e-3 else 0");
+    assert!((time_of(only(&outcome, "E0609")) - 1.2345).abs() < 1e-15);
+    // a guard that dips twice within one step
+    let outcome = slide("", "if sin(200 * t) > 0.9999 and t > 1 then 1e-3 else 0");
+    let peak = (std::f64::consts::FRAC_PI_2 - 0.9999_f64.acos() + 32.0 * std::f64::consts::TAU) / 200.0;
+    assert!((time_of(only(&outcome, "E0609")) - peak).abs() < 1e-14, "{}", outcome.text());
+}
+
+#[test]
+fn what_holds_at_a_single_time_is_no_edge() {
+    let outcome = slide("", "if t == 1 then 5 else t").expect_success();
+    assert!(outcome.diagnostics.is_empty());
+    assert_eq!(at(&outcome, "block.x", 1.0), 1.0);
+    let outcome = slide("", "t + 0.1 * sign(sin(t)^2 + 1e-3)").expect_success();
+    assert!(outcome.diagnostics.is_empty());
+}
+
+#[test]
+fn a_measure_takes_the_branch_it_is_on() {
+    let outcome = slide("measure late = if t <= 1 then 1 else 2 measure saw = mod(displacement(guide), 0.3)", "t");
+    assert!(outcome.diagnostics.is_empty(), "{}", outcome.text());
+    assert_eq!([at(&outcome, "late", 1.0), at(&outcome, "late", 1.1)], [1.0, 2.0]);
+    assert!((at(&outcome, "saw", 0.5) - 0.2).abs() < 1e-15);
+    assert!((at(&outcome, "saw.d", 0.5) - 1.0).abs() < 1e-15);
+}
+
+#[test]
+fn an_edge_may_depend_on_the_motion() {
+    // x' jumps where x reaches 0.5: sin(2 t) = 0.5
+    let text = |beyond: &str| {
+        format!(
+            "mechanism pin {{
+                body a {{ point P = (0, 0) }}
+                driver x: x(a.P) = sin(2 * t)
+                constraint y: y(a.P) = if x(a.P) < 0.5 then 0 else {beyond}
+                constraint p: angle(a) = 0
+                analysis from 0 s to 1 s every 50 ms
+            }}"
+        )
+    };
+    let t = (0.5_f64).asin() / 2.0;
+    for (beyond, code, says) in [
+        ("x(a.P)", "E0609", "constraint `y` jumps"),
+        ("x(a.P) - 0.5", "E0609", "the velocity of constraint `y` jumps"),
+        ("(x(a.P) - 0.5)^2", "W0601", "the acceleration of constraint `y` jumps"),
+    ] {
+        let outcome = run("pin", &text(beyond), Span::default());
+        let diagnostic = only(&outcome, code);
+        assert!(diagnostic.message.contains(says), "{}", diagnostic.message);
+        assert!((time_of(diagnostic) - t).abs() < 1e-15, "{beyond}: {}", time_of(diagnostic));
+    }
+    let outcome = run("pin", &text("(x(a.P) - 0.5)^3"), Span::default()).expect_success();
+    assert!(outcome.diagnostics.is_empty());
+    for t in [0.25, 0.3, 0.8, 1.0] {
+        let x = (2.0_f64 * t).sin();
+        let y = if x < 0.5 { 0.0 } else { (x - 0.5).powi(3) };
+        assert!((at(&outcome, "a.y", t) - y).abs() < 1e-14, "at {t}");
+    }
+}
+
+#[test]
+fn output_times_do_not_move_edges() {
+    let formula = "0.2 * step(mod(t, 0.7), 0.1, 0, 0.3, 1) + abs(sin(3 * t))^3 + table_of(t)";
+    let table = "table table_of = spline [(0, 0), (0.35, 0.1), (0.9, -0.2), (1.1, 0.3), (2, 0)]";
+    let fine = slide(table, formula);
+    let text = |every: &str| {
+        format!(
+            "mechanism slide {{
+                ground {{ axis way = (0, 0) along (1, 0) }}
+                body block {{ axis way = (0, 0) along (1, 0) }}
+                joint guide: translational(ground.way, block.way)
+                {table}
+                driver push: displacement(guide) = {formula}
+                analysis from 0 s to 2 s every {every}
+            }}"
+        )
+    };
+    for every in ["0.5 s", "1 s", "0.01 s", "2 s"] {
+        let other = run("slide", &text(every), Span::default());
+        for row in &other.rows {
+            let Some(same) = fine.rows.iter().find(|fine| (fine[0] - row[0]).abs() < 1e-12) else {
+                continue;
+            };
+            for (a, b) in row.iter().zip(same) {
+                assert!((a - b).abs() < 1e-11 * (1.0 + b.abs()), "every {every} at {}: {a} and {b}", row[0]);
+            }
+        }
+    }
+}
