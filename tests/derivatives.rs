@@ -127,6 +127,60 @@ fn functions_of_two_arguments_and_operators() {
 }
 
 #[test]
+fn tables() {
+    let rows = [[-2.0, 0.3], [-0.7, 1.1], [0.1, -0.4], [0.9, 0.2], [2.5, 0.8], [4.0, 0.3]];
+    for periodic in [false, true] {
+        // away from the knots, and for the one that repeats a period on
+        for range in [[-0.6, -0.5], [0.25, 0.4], [1.05, 1.2], [if periodic { 3.1 } else { 1.3 }, 3.2]] {
+            check_function(&format!("spline, periodic: {periodic}, on {range:?}"), range, |g, u, _| {
+                let points = rows.map(|row| row.map(|c| g.constant(c)));
+                let table = g.spline("s", periodic, &points);
+                g.table(table, 0, u)
+            });
+        }
+    }
+}
+
+#[test]
+fn tables_are_interpolated_smoothly() {
+    let mut g = Graph::new();
+    let x = g.symbol(X);
+    for periodic in [false, true] {
+        // a cosine, sampled; the natural spline bends nowhere at its ends
+        let rows: Vec<[f64; 2]> =
+            (0..=24).map(|k| f64::from(k) * std::f64::consts::TAU / 24.0).map(|u| [u, mechc::math::sin(u)]).collect();
+        let last = rows.len() - 1;
+        let points: Vec<[ExprId; 2]> = rows
+            .iter()
+            .enumerate()
+            .map(|(k, row)| [g.constant(row[0]), g.constant(if k == last { 0.0 } else { row[1] })])
+            .collect();
+        let table = g.spline("sine", periodic, &points);
+        let orders = [0, 1, 2].map(|order| g.table(table, order, x));
+        for row in &rows[1..last] {
+            assert!((value(&g, orders[0], row[0], 0.0) - row[1]).abs() < 1e-15, "at a knot");
+            for order in orders {
+                let (before, after) = (value(&g, order, row[0].next_down(), 0.0), value(&g, order, row[0], 0.0));
+                assert!((before - after).abs() < 1e-13, "smooth at {}", row[0]);
+            }
+        }
+        for (k, order) in orders.into_iter().enumerate() {
+            let exact = [mechc::math::sin(1.0), mechc::math::cos(1.0), -mechc::math::sin(1.0)][k];
+            assert!((value(&g, order, 1.0, 0.0) - exact).abs() < [2e-5, 2e-4, 1e-2][k], "derivative {k}");
+        }
+        for u in [0.0, rows[last][0]] {
+            assert!(value(&g, orders[2], u, 0.0).abs() < 1e-12, "no curvature at the ends");
+        }
+        if periodic {
+            for turns in [-3.0, 1.0, 100.0] {
+                let far = value(&g, orders[1], 1.0 + turns * std::f64::consts::TAU, 0.0);
+                assert!((far - value(&g, orders[1], 1.0, 0.0)).abs() < 1e-12, "{turns} turns on");
+            }
+        }
+    }
+}
+
+#[test]
 fn branches_that_do_not_count_do_not_matter() {
     // left of zero the root and the logarithm of the other branch have no value
     for range in [[0.4, 2.5], [-2.5, -0.4]] {
