@@ -163,3 +163,59 @@ fn timings_go_to_standard_error() {
     let without = mechc().args(["run", SLIDER_CRANK]).output().unwrap();
     assert_eq!(output.stdout, without.stdout, "the table is the same");
 }
+
+/// A block that is moved by a table in a file.
+const BLOCK: &str = "mechanism block {
+    table way = spline \"way.csv\" (ms, mm)
+    ground { axis rail = (0, 0) along (1, 0) }
+    body block { axis rail = (0, 0) along (1, 0) }
+    joint guide: translational(ground.rail, block.rail)
+    driver push: displacement(guide) = way(t)
+    analysis from 0 s to 20 ms every 10 ms
+}";
+
+#[test]
+fn a_table_is_read_from_beside_its_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    fs::write(inside("block.mech"), BLOCK).unwrap();
+    let plain = "0,0\n10,1.5\n20,4\n";
+    fs::write(inside("way.csv"), plain).unwrap();
+    let run = |file: &str| mechc().args(["run", file]).output().expect("it runs");
+    let wanted = run(&inside("block.mech"));
+    assert!(wanted.status.success(), "{}", String::from_utf8_lossy(&wanted.stderr));
+    let table = String::from_utf8(wanted.stdout.clone()).expect("text");
+    assert!(table.lines().nth(2).expect("rows").starts_with("0.01,0.0015,0.0,0.0,"), "{table}");
+    // as Windows and spreadsheets write it
+    for text in [
+        "\u{feff}time,way\r\n0,0\r\n10,1.5\r\n20,4\r\n",
+        "0 , 0\n 10,1.5e0\n\n2e1,+4",
+        "time in ms,way in mm\n0,0\n10.0,1.50\n20,4.\n\n",
+    ] {
+        fs::write(inside("way.csv"), text).unwrap();
+        assert_eq!(run(&inside("block.mech")).stdout, wanted.stdout, "{text:?}");
+    }
+    // from standard input the current folder counts
+    fs::write(inside("way.csv"), plain).unwrap();
+    let piped = mechc().current_dir(folder.path()).args(["run", "-"]).write_stdin(BLOCK).output().expect("it runs");
+    assert_eq!(piped.stdout, wanted.stdout);
+}
+
+#[test]
+fn a_table_that_cannot_be_read() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    fs::write(inside("block.mech"), BLOCK).unwrap();
+    let missing = failure(&["run", &inside("block.mech")], 4);
+    assert!(missing.contains("E0701") && missing.contains("block.mech:2:24"), "{missing}");
+    fs::create_dir(inside("way.csv")).unwrap();
+    assert!(failure(&["check", &inside("block.mech")], 4).contains("E0701"));
+    fs::remove_dir(inside("way.csv")).unwrap();
+    fs::write(inside("way.csv"), b"0,0\n10,1.5\n20,\xb5\n").unwrap();
+    let latin = failure(&["run", &inside("block.mech")], 1);
+    assert!(latin.contains("E0102") && latin.contains("way.csv:3:4"), "{latin}");
+    fs::write(inside("way.csv"), "time,way\n0,0\n1,000,5\n").unwrap();
+    let thousands = failure(&["run", &inside("block.mech")], 1);
+    assert!(thousands.contains("E0416") && thousands.contains("way.csv:3:1"), "{thousands}");
+    assert!(thousands.contains("without separators between their thousands"), "{thousands}");
+}

@@ -189,12 +189,18 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
     }
 }
 
-/// Why a contact is singular.
-pub fn equal_curvatures(system: &ConstraintSystem, joint: usize) -> String {
+/// Why a contact is singular, and what to do about it.
+pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: usize) -> Diagnostic {
     let name = &system.declarations[joint].name;
     match system.declarations[joint].kind {
-        DeclarationKind::Joint("flat_follower") => format!("at the contact `{name}` the curve is as flat as the face"),
-        _ => format!("at the contact `{name}` the curvatures of the two curves are equal"),
+        DeclarationKind::Joint("flat_follower") => {
+            diagnostic.note(format!("at the contact `{name}` the curve is as flat as the face")).help(
+                "a flat face needs a curve that is round all the way it touches it: without hollows and straight parts",
+            )
+        }
+        _ => diagnostic
+            .note(format!("at the contact `{name}` the curvatures of the two curves are equal"))
+            .help("a roller must be smaller than the hollows of its cam, and a hollow one larger than what runs in it"),
     }
 }
 
@@ -266,14 +272,14 @@ fn with_places(mut diagnostic: Diagnostic, system: &ConstraintSystem, joints: &[
     diagnostic
 }
 
-/// The bodies that coordinates are of; where none is a body's, the joints.
-fn owners(system: &ConstraintSystem, columns: &[usize]) -> String {
+/// `the bodies that would have to jump: `rod`, `slider``; where no coordinate is a body's, the contacts and meshes.
+fn owners(system: &ConstraintSystem, columns: &[usize], what: &str) -> String {
     let of_bodies: Vec<usize> = columns.iter().copied().filter(|&k| system.body_of(k).is_some()).collect();
-    let columns = if of_bodies.is_empty() { columns } else { &of_bodies };
+    let (columns, noun) = if of_bodies.is_empty() { (columns, "contacts") } else { (of_bodies.as_slice(), "bodies") };
     let mut names: Vec<String> = columns.iter().map(|&column| format!("`{}`", system.owner_name(column))).collect();
     names.dedup();
     names.truncate(LISTED);
-    names.join(", ")
+    format!("the {noun} that {what}: {}", names.join(", "))
 }
 
 pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
@@ -284,7 +290,7 @@ pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], colum
     )
     .at(declaration.span, "drives into a dead point");
     with_places(diagnostic, system, joints, "these hold it there")
-        .note(format!("the bodies that would have to jump: {}", owners(system, columns)))
+        .note(owners(system, columns, "would have to jump"))
         .help("let the driver turn back before that time, drive another joint, or change a length")
         .datum("t", t)
 }
@@ -295,7 +301,7 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize
         format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
     );
     with_places(diagnostic, system, joints, "these leave it open")
-        .note(format!("the bodies that could go either way: {}", owners(system, columns)))
+        .note(owners(system, columns, "could go either way"))
         .help("change a length a little, or stop before that time")
         .datum("t", t)
 }
@@ -315,7 +321,7 @@ pub fn singular_start(system: &ConstraintSystem, joints: &[usize], columns: &[us
         format!("the equations are not independent in the assembled position at {}", at(t)),
     );
     with_places(diagnostic, system, joints, "these depend on each other there")
-        .note(format!("the bodies that are left free to move: {}", owners(system, columns)))
+        .note(owners(system, columns, "are left free to move"))
         .help("a dead point or change point: start at another time; else one of these joints is redundant")
         .datum("t", t)
         .datum("coordinates", system.coordinates.len())

@@ -34,7 +34,7 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     let diagnostic = if singular.sigma < NEAR {
         let named = name_singular(system, &singular.left, &singular.right, state.t);
         match flat_contact(kinematics) {
-            Some(joint) => named.note(errors::equal_curvatures(system, joint)),
+            Some(joint) => errors::equal_curvatures(named, system, joint),
             None => named,
         }
     } else if let Some(fault) = without_value(kinematics, state, target) {
