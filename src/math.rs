@@ -125,6 +125,12 @@ pub fn floor(x: f64) -> f64 {
     x.floor()
 }
 
+/// `a − b·⌊a/b⌋`
+#[must_use]
+pub fn modulo(a: f64, b: f64) -> f64 {
+    a - b * floor(a / b)
+}
+
 /// −1, 0 or 1; 0 at 0.
 #[must_use]
 pub fn sign(x: f64) -> f64 {

@@ -198,3 +198,127 @@ fn output_times_do_not_move_edges() {
         }
     }
 }
+
+#[test]
+fn edges_are_where_their_guards_are_zero() {
+    // guards whose last digits go back and forth around their zero
+    for (formula, t) in [
+        ("harmonic(5.49 * t - t, 0.96, 0, 1.96, 1)", 0.96 / 4.49),
+        ("step(2.63 * t - 0.97 * t - 1.68, 0, 0, 100, 1)", 1.68 / 1.66),
+        ("if 2.46 * t > 1.18 * t + 1.29 then t^2 else t^2 + (t - 1.29 / 1.28)^2 / 10", 1.29 / 1.28),
+    ] {
+        let outcome = slide("", formula);
+        let found = time_of(only(&outcome, "W0601"));
+        assert!((found - t).abs() < 1e-15, "{formula}: {found} instead of {t}");
+    }
+    let outcome = slide("", "max(5.16 * t, 3.48 * t + 0.1)");
+    let diagnostic = only(&outcome, "E0609");
+    assert!(diagnostic.message.contains("velocity"), "{}", diagnostic.message);
+    assert!((time_of(diagnostic) - 0.1 / 1.68).abs() < 1e-15);
+}
+
+#[test]
+fn random_guards_are_met_where_they_are_zero() {
+    let mut seed = 7_u64;
+    let mut random = || {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 11) as f64 / (1_u64 << 53) as f64
+    };
+    for _ in 0..60 {
+        let (a, b, p, c) = (2.0 + 9.0 * random(), 2.0 + 9.0 * random(), 6.0 * random(), 0.8 * random() - 0.4);
+        let guard = |t: f64| 0.3 * math::sin(a * t) + 0.2 * math::cos(b * t + p) - c;
+        let formula = format!("if 0.3 * sin({a} * t) + 0.2 * cos({b} * t + {p}) > {c} then 1 else 0");
+        // the first change of sign, by steps that are fine for these frequencies
+        let root = (0..20_000).map(|k| f64::from(k) * 1e-4).find(|&t| (guard(t) > 0.0) != (guard(t + 1e-4) > 0.0));
+        let outcome = slide("", &formula);
+        match root {
+            None => assert!(outcome.diagnostics.is_empty(), "{formula}: {}", outcome.text()),
+            Some(t) => {
+                let found = time_of(only(&outcome, "E0609"));
+                assert!(found >= t - 1e-12 && found <= t + 1e-4 + 1e-12, "{formula}: {found}, not just behind {t}");
+                assert!(guard(found).abs() < 1e-14, "{formula}: {} at {found}", guard(found));
+            }
+        }
+    }
+}
+
+#[test]
+fn an_edge_at_the_start_belongs_to_the_start() {
+    for formula in
+        ["if t^2 > 0 then t else 0", "min(0.87, 0.87 + t)", "if 1 + t > 1 then t else 0", "if exp(t) > 1 then t else 0"]
+    {
+        let outcome = slide("", formula);
+        assert!(outcome.diagnostics.is_empty(), "{formula}: {}", outcome.text());
+    }
+    let outcome = slide("", "max(2 * t^2, t^2)");
+    assert!(outcome.diagnostics.is_empty(), "{}", outcome.text());
+    assert_eq!(at(&outcome, "block.x.dd", 0.0), 4.0);
+}
+
+#[test]
+fn branches_that_agree_are_no_edges() {
+    for formula in ["max(sin(2 * t), 2 * sin(t) * cos(t))", "abs(sin(t)^2 + cos(t)^2 - 1) + t"] {
+        let outcome = slide("", formula);
+        assert!(outcome.succeeded(), "{formula}: {}", outcome.text());
+    }
+}
+
+#[test]
+fn what_is_smooth_gets_no_warning() {
+    for formula in [
+        "step7(t, 1.1, 0.47, 1.101, 0.48)",
+        "step5(t, 1.1, 0, 1.1001, 0.01)",
+        "cycloidal(t, 1.1, 0, 1.1001, 0.01)",
+        "step7(t, 0.762, -0.24, 1.132, 0.4)",
+        "step5(mod(t, 0.01), 0.002, 0, 0.005, 1e-3) - step5(mod(t, 0.01), 0.006, 0, 0.009, 1e-3)",
+    ] {
+        let outcome = slide("", formula);
+        assert!(outcome.diagnostics.is_empty(), "{formula}: {}", outcome.text());
+    }
+}
+
+#[test]
+fn an_edge_of_the_motion_within_a_step_is_met() {
+    let text = |every: &str| {
+        format!(
+            "mechanism crank {{
+                ground {{ point O = (0, 0) }}
+                body a {{ point O = (0, 0) }}
+                body b {{ point O = (0, 0) }}
+                joint main: revolute(ground.O, a.O)
+                driver motor: rotation(main) = 60 rpm * t
+                driver x: x(b.O) = if (mod(angle(a), 2 * pi) - 1.2)^2 < 0.0004 then 10 mm else 12 mm
+                constraint y: y(b.O) = 0
+                constraint p: angle(b) = 0
+                analysis from 0 s to 10 s every {every}
+            }}"
+        )
+    };
+    for every in ["1 s", "1 ms"] {
+        let outcome = run("crank", &text(every), Span::default());
+        let found = time_of(only(&outcome, "E0609"));
+        assert!((found - 1.18 / std::f64::consts::TAU).abs() < 1e-12, "every {every}: {found}");
+    }
+}
+
+#[test]
+fn a_table_that_is_left_between_output_times() {
+    let table = "table way = spline [(0, 0), (1, 1), (2, 4)]";
+    let outcome = slide(table, "way(1 + 1.0001 * sin(10 * t))");
+    let found = time_of(only(&outcome, "E0608"));
+    // sin reaches 1/1.0001
+    assert!((found - math::asin(1.0 / 1.0001) / 10.0).abs() < 1e-9, "{found}");
+}
+
+#[test]
+fn a_guard_may_hold_time_and_motion() {
+    let outcome = slide("", "1 * t - max(0, displacement(guide) - 2 * t + 0.4)^3 * 0.01");
+    assert!(outcome.succeeded(), "{}", outcome.text());
+}
+
+#[test]
+fn a_long_way_in_a_straight_line_takes_few_steps() {
+    for formula in ["1e5 * t", "1e6 * t^2"] {
+        assert!(slide("", formula).diagnostics.is_empty(), "{formula}");
+    }
+}

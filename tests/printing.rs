@@ -8,7 +8,7 @@ use mechc::syntax::{self, ast};
 use proptest::prelude::*;
 use std::collections::HashMap;
 
-const UNARIES: [Unary; 16] = [
+const UNARIES: [Unary; 15] = [
     Unary::Sin,
     Unary::Cos,
     Unary::Tan,
@@ -24,7 +24,6 @@ const UNARIES: [Unary; 16] = [
     Unary::Sqrt,
     Unary::Abs,
     Unary::Sign,
-    Unary::Floor,
 ];
 const BINARIES: [Binary; 4] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max];
 const COMPARISONS: [Comparison; 3] = [Comparison::Less, Comparison::LessEqual, Comparison::Equal];

@@ -150,6 +150,7 @@ impl Bounded {
             Binary::Hypot => Bounded::new(math::hypot(a.value, b.value), both),
             Binary::Min => Bounded::new(math::min(a.value, b.value), a.error.max(b.error)),
             Binary::Max => Bounded::new(math::max(a.value, b.value), a.error.max(b.error)),
+            Binary::Mod => a.modulo(b),
             Binary::Pow => {
                 let value = math::pow(a.value, b.value);
                 let exponent = a.unary(Unary::Ln).mul(b);

@@ -294,3 +294,18 @@ fn tables_of_many_rows_and_edges_by_the_thousand() {
     // a switch that stands on its edge all the time
     check("fn still(u) = if sin(u)^2 + cos(u)^2 < 1 then 0 else 0 * u", "still(t) + t").expect_success();
 }
+
+#[test]
+fn a_search_for_a_contact_ends() {
+    // the further from the turn, the nearer the curve comes to the point
+    let text = "mechanism far {
+        ground { curve k(u) = (10 mm, 10 mm / (1 + u^2)) }
+        body b { point P = (0, 0) point Q = (10 mm, 0) }
+        joint c: point_follower(b.Q, ground.k)
+        driver d: angle(b) = 0.1 + t
+        driver f: y(b.P) = 1 mm
+        analysis from 0 s to 0.1 s every 0.1 s
+    }";
+    let outcome = run("far", text, Span::default());
+    assert!(outcome.codes().iter().all(|code| code.starts_with('E')), "{}", outcome.text());
+}

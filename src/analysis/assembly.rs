@@ -3,7 +3,7 @@
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
-use super::edges::shortly_after;
+use super::edges::behind_start;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::singular;
@@ -52,7 +52,8 @@ pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State
     let system = kinematics.system();
     let estimates = kinematics.estimates();
     // at a switch the later side counts
-    kinematics.settle_time(shortly_after(t));
+    let span = system.analysis.map_or(1.0, |[from, to, _]| to - from);
+    kinematics.settle_time(behind_start(t, span));
     kinematics.freeze(true, false);
     kinematics.set_time(t);
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {

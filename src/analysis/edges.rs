@@ -18,6 +18,9 @@ const SLACK: f64 = 4.0;
 const FINEST: f64 = 1e-8;
 /// Parts that are looked at in one step at most: where a formula stands on its edge all the time nothing is ever decided.
 const MOST_PARTS: usize = 2000;
+/// A step is looked through in parts no smaller than this one of it, and in so many at most.
+const FINEST_BETWEEN: f64 = 2e-4;
+const MOST_PARTS_BETWEEN: usize = 500;
 /// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on.
 const AHEAD: f64 = 1e-9;
 /// A position that changes by more than this at an edge, scaled, jumps.
@@ -28,16 +31,25 @@ const VELOCITY_JUMP: f64 = 1e-7;
 const ACCELERATION_JUMP: f64 = 1e-6;
 /// A speed below this part of one per span, scaled, is rest.
 const REST: f64 = 1e-3;
+/// What is smaller than this part of the largest velocity or acceleration so far is rounding.
+const LAST_DIGITS: f64 = 1e-9;
 /// The rounding of an edge's time may show so many times in what is computed there.
 const UNCERTAIN: f64 = 16.0;
 /// An equation takes part in a jump if it is left open by this part of the widest.
 const TAKES_PART: f64 = 1e-2;
+/// A restless switch is left alone for this part of the span at most.
+const LONGEST_REST: f64 = 1e-2;
 /// Corrections of a position at an edge at most.
 const ITERATIONS: usize = 4;
 
-/// A time on the later side of whatever happens at `t` (s).
+/// A time on the later side of whatever is meant to happen at `t` (s).
 pub(super) fn shortly_after(t: f64) -> f64 {
     t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+
+/// A time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.
+pub(super) fn behind_start(t: f64, span: f64) -> f64 {
+    shortly_after(t) + AHEAD * span
 }
 
 /// Where a switch changes.
@@ -49,6 +61,20 @@ pub(super) struct Edge {
     after: Option<f64>,
 }
 
+/// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left
+/// alone for a while, and for longer each time.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Restless {
+    last: f64,
+    length: f64,
+    until: f64,
+}
+
+impl Restless {
+    /// One that has never been so.
+    pub(super) const NEVER: Restless = Restless { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
+}
+
 impl Motion<'_, '_> {
     /// Whether a time is the last one, where the earlier side counts.
     fn is_last(&self, t: f64) -> bool {
@@ -57,91 +83,114 @@ impl Motion<'_, '_> {
 
     /// The first edge that a step to `next` meets, before the last time. An edge that is meant to be at the output time
     /// `next` is there.
-    pub(super) fn next_edge(&mut self, next: f64, is_output: bool) -> Option<Edge> {
+    ///
+    /// # Errors
+    /// A formula of time ends on the way.
+    pub(super) fn next_edge(&mut self, next: f64, is_output: bool) -> Result<Option<Edge>, Box<Diagnostic>> {
         let reach = if is_output { shortly_after(next) } else { next };
-        let of_time = if self.has_time_switches { self.edge_of_time(self.state.t, reach) } else { None };
+        let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(self.state.t, reach)? };
         let edge = match (of_time, self.met.filter(|edge| edge.t <= reach)) {
             (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
             (one, other) => one.or(other),
-        }?;
-        let edge = Edge { t: edge.t.min(next).max(self.state.t), ..edge };
-        (!self.is_last(edge.t)).then_some(edge)
+        };
+        let edge = edge.map(|edge| Edge { t: edge.t.min(next).max(self.state.t), ..edge });
+        Ok(edge.filter(|edge| !self.is_last(edge.t)))
     }
 
     /// The first edge of time from `from` on, where all switches are known, up to `to`.
-    fn edge_of_time(&mut self, from: f64, to: f64) -> Option<Edge> {
+    fn edge_of_time(&mut self, from: f64, to: f64) -> Result<Option<Edge>, Box<Diagnostic>> {
         let finest = FINEST * self.span;
         // parts that are still to be looked at, the first one last
-        let mut open = [(0.0, 0.0); 64];
-        let mut count = 1;
-        open[0] = (from, to);
-        let mut looked_at = 0;
+        let mut open = [[0.0; 2]; 64];
+        let (mut count, mut looked_at) = (1, 0);
+        open[0] = [from, to];
         while count > 0 {
             count -= 1;
             looked_at += 1;
-            let (a, b) = open[count];
-            if self.kinematics.is_steady(&mut self.enclosure, a, b) {
+            let part @ [a, b] = open[count];
+            let (switches, restless) = (self.kinematics.switches(), &self.restless);
+            let may_change = |register| {
+                switches.iter().zip(restless).any(|(switch, restless)| switch.to == register && restless.until > a)
+            };
+            if self.kinematics.is_steady(&mut self.in_time, part, &[], may_change) {
                 continue;
             }
             let middle = 0.5 * (a + b);
             if b - a > finest && looked_at < MOST_PARTS && count + 2 <= open.len() && middle > a && middle < b {
-                open[count] = (middle, b);
-                open[count + 1] = (a, middle);
+                open[count] = [middle, b];
+                open[count + 1] = [a, middle];
                 count += 2;
-            } else if let Some(edge) = self.bisect(a, b) {
-                return Some(edge);
+            } else if let Some(edge) = self.bisect(a, b)? {
+                return Ok(Some(edge));
             }
         }
-        None
+        Ok(None)
     }
 
-    /// The edge of time between two times, the switches being known at the first; none if they are the same shortly after
-    /// the second.
-    fn bisect(&mut self, a: f64, b: f64) -> Option<Edge> {
-        let (mut low, mut high) = (a, b);
-        if !self.switches_at(high) {
-            return None;
+    /// The edge of time between two times, the switches being known at the first; none if nothing has changed at the second
+    /// and shortly after it.
+    fn bisect(&mut self, a: f64, b: f64) -> Result<Option<Edge>, Box<Diagnostic>> {
+        if !self.happens_at(b) {
+            return Ok(None);
         }
+        let mut low = a;
         loop {
-            let middle = 0.5 * (low + high);
-            if middle <= low || middle >= high {
-                break;
+            let mut high = b;
+            loop {
+                let middle = 0.5 * (low + high);
+                if middle <= low || middle >= high {
+                    break;
+                }
+                if self.happens_at(middle) {
+                    high = middle;
+                } else {
+                    low = middle;
+                }
             }
-            if self.switches_at(middle) {
-                high = middle;
-            } else {
-                low = middle;
+            self.kinematics.set_time(high);
+            if let Some(index) = self.kinematics.broken_condition().filter(|_| high <= self.last) {
+                return Err(Box::new(errors::no_value(self.kinematics.system(), Fault::Condition { index }, high)));
             }
+            let after = high.next_up();
+            if self.happens_at(after) {
+                self.kinematics.set_time(low);
+                let on_edge = |switch| self.kinematics.is_on_edge(switch);
+                let is_low = self.kinematics.switches().iter().filter(|switch| switch.on_time).any(on_edge);
+                return Ok(Some(Edge { t: if is_low { low } else { high }, after: Some(after) }));
+            }
+            // what differs at a single time is no edge, `t == 1 s`; or rounding goes back and forth around one
+            if after >= b {
+                return Ok(None);
+            }
+            low = after;
         }
-        let after = high.next_up();
-        // what differs at a single time is no edge: `t == 1 s`
-        if !self.switches_at(after) {
-            return None;
-        }
-        self.kinematics.set_time(low);
-        let on_edge = |switch| self.kinematics.is_on_edge(switch);
-        let t = if self.kinematics.switches().iter().filter(|switch| switch.on_time).any(on_edge) { low } else { high };
-        Some(Edge { t, after: Some(after) })
     }
 
-    fn switches_at(&mut self, t: f64) -> bool {
+    /// Whether a switch of time would change at a time, or a formula of time ends.
+    fn happens_at(&mut self, t: f64) -> bool {
         self.kinematics.set_time(t);
-        let mut of_time = self.kinematics.switches().iter().filter(|switch| switch.on_time);
-        of_time.any(|switch| self.kinematics.would_switch(switch))
+        let switches = self.kinematics.switches().iter().zip(&self.restless);
+        let mut of_time = switches.filter(|(switch, restless)| switch.on_time && restless.until <= t);
+        of_time.any(|(switch, _)| self.kinematics.would_switch(switch)) || self.breaks_in_time()
     }
 
-    /// Whether the step that was just corrected goes over an edge of the motion.
+    /// Whether a condition on time alone is broken where time was set: those on the motion have not been evaluated.
+    fn breaks_in_time(&self) -> bool {
+        !self.in_time.conditions_hold(|register| self.kinematics.value(register))
+    }
+
+    /// Whether the position that was just set is beyond an edge of the motion.
     pub(super) fn meets_edge(&self) -> bool {
-        let mut of_motion = self.kinematics.switches().iter().filter(|switch| !switch.on_time);
-        of_motion.any(|switch| self.kinematics.would_switch(switch))
+        let switches = self.kinematics.switches().iter().zip(&self.restless);
+        let mut of_motion = switches.filter(|(switch, restless)| !switch.on_time && restless.until <= self.state.t);
+        of_motion.any(|(switch, _)| self.kinematics.would_switch(switch))
     }
 
-    /// Finds the edge that a step to `next` goes over; says whether it could.
+    /// Finds the edge of the motion that lies before a time; says whether it could.
     pub(super) fn locate(&mut self, next: f64) -> bool {
         let (mut low, mut high) = (self.state.t, next);
-        // the step goes over it
-        let mut found = true;
-        loop {
+        let mut found = self.solve_at(next).is_ok() && self.meets_edge();
+        while found || high < next {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
@@ -164,6 +213,74 @@ impl Motion<'_, '_> {
         self.correct().map(|_| ())
     }
 
+    /// Looks at what a step that was tried goes over between its ends, on the curve through both: an edge of the motion, a
+    /// formula that ends, a branch that is left and taken again.
+    pub(super) fn look_between(&mut self, h: f64, between: f64) -> Result<(), Fault> {
+        if self.along.is_empty() {
+            return Ok(());
+        }
+        let mut open = [[0.0; 2]; 32];
+        let (mut count, mut looked_at) = (1, 0);
+        open[0] = [0.0, 1.0];
+        while count > 0 {
+            count -= 1;
+            looked_at += 1;
+            let part @ [a, b] = open[count];
+            if self.is_steady_between(h, part, between) {
+                continue;
+            }
+            if b - a > FINEST_BETWEEN && looked_at < MOST_PARTS_BETWEEN && count + 2 <= open.len() {
+                let middle = 0.5 * (a + b);
+                open[count] = [middle, b];
+                open[count + 1] = [a, middle];
+                count += 2;
+            } else {
+                self.look_at(h, b)?;
+            }
+        }
+        Ok(())
+    }
+
+    fn is_steady_between(&mut self, h: f64, [a, b]: [f64; 2], between: f64) -> bool {
+        let (middle, reach) = (0.5 * (a + b), 0.5 * (b - a));
+        for (k, curve) in self.curve.iter().enumerate() {
+            // Taylor's polynomial about the middle: what its higher terms can reach
+            let mut taylor = *curve;
+            for order in 0..taylor.len() {
+                for j in (order..taylor.len() - 1).rev() {
+                    taylor[j] += middle * taylor[j + 1];
+                }
+            }
+            let rest = taylor[1..].iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * reach);
+            let slack = 2.0 * between * self.kinematics.linear().column_scale(k);
+            self.boxes[k] = [taylor[0], rest + slack];
+        }
+        let (switches, restless) = (self.kinematics.switches(), &self.restless);
+        let t = self.state.t;
+        let may_change = |register| {
+            switches.iter().zip(restless).any(|(switch, restless)| switch.to == register && restless.until > t)
+        };
+        let times = [t + a * h, t + b * h];
+        self.kinematics.is_steady(&mut self.along, times, &self.boxes, may_change)
+    }
+
+    /// Looks at one place of the curve through both ends of a step.
+    fn look_at(&mut self, h: f64, x: f64) -> Result<(), Fault> {
+        for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
+            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
+        }
+        self.kinematics.set_time(self.state.t + x * h);
+        self.kinematics.set_position(&self.middle)?;
+        if self.meets_edge() {
+            return Err(Fault::Edge { t: self.state.t + x * h });
+        }
+        self.kinematics.sides(&mut self.trial_sides);
+        match (0..self.sides.len()).find(|&k| self.sides[k] != self.trial_sides[k]) {
+            Some(index) => Err(Fault::Watch { index }),
+            None => Ok(()),
+        }
+    }
+
     /// Goes over to the later side of an edge, which the state has reached on the earlier one.
     pub(super) fn cross(&mut self, edge: Edge) -> Result<(), Box<Diagnostic>> {
         if self.met.is_some_and(|known| known.t <= edge.t) {
@@ -172,7 +289,10 @@ impl Motion<'_, '_> {
         self.remember();
         self.settle(edge.after);
         match self.later_side() {
-            Ok(None) => Ok(()),
+            Ok(None) => {
+                self.note_restless();
+                Ok(())
+            }
             Ok(Some(jump)) => self.say(jump),
             Err(fault) => {
                 let t = self.state.t;
@@ -181,9 +301,27 @@ impl Motion<'_, '_> {
         }
     }
 
-    /// Keeps the earlier side: the state and its row.
+    /// Nothing jumps at an edge: if it is one of many in no time at all, its switch is left alone for a while.
+    fn note_restless(&mut self) {
+        let t = self.state.t;
+        let switches = self.kinematics.switches().iter().zip(&self.switches_before);
+        for (restless, (switch, before)) in self.restless.iter_mut().zip(switches) {
+            if self.kinematics.switch(switch).to_bits() == before.to_bits() {
+                continue;
+            }
+            let at_once = t - restless.last <= f64::max(4.0 * restless.length, FINEST * self.span);
+            restless.length = if at_once { f64::max(2.0 * restless.length, FINEST * self.span) } else { 0.0 };
+            restless.length = restless.length.min(LONGEST_REST * self.span);
+            (restless.last, restless.until) = (t + restless.length, t + restless.length);
+        }
+    }
+
+    /// Keeps the earlier side: the state, its row, the switches.
     fn remember(&mut self) {
         self.before.copy_from(self.state);
+        for (old, switch) in self.switches_before.iter_mut().zip(self.kinematics.switches()) {
+            *old = self.kinematics.switch(switch);
+        }
         self.kinematics.restore(&self.before);
         // the state was computed once, so that this cannot fail now
         let _ = self.kinematics.derivatives(&mut self.before);
@@ -195,12 +333,14 @@ impl Motion<'_, '_> {
         if let Some(after) = after {
             self.kinematics.settle_time(after);
         }
-        self.kinematics.set_time(self.state.t);
         let ahead = AHEAD * self.span;
         for k in 0..self.middle.len() {
             self.middle[k] = self.state.q[k] + ahead * (self.state.qd[k] + 0.5 * ahead * self.state.qdd[k]);
         }
+        // a guard may speak of the motion and of time
+        self.kinematics.set_time(self.state.t + ahead);
         self.kinematics.settle_motion(&self.middle);
+        self.kinematics.set_time(self.state.t);
     }
 
     /// Computes the state anew where it is, with the switches as they are now, and compares.
@@ -220,6 +360,9 @@ impl Motion<'_, '_> {
             if self.kinematics.violated().is_none() {
                 break;
             }
+        }
+        if self.kinematics.violated().is_some() {
+            return Err(Fault::TooFar);
         }
         self.kinematics.factor()?;
         self.same_branch()?;
@@ -249,8 +392,8 @@ impl Motion<'_, '_> {
             let scaled = |k: usize| (a[k] - b[k]).abs() / self.kinematics.linear().column_scale(k);
             (0..a.len()).map(scaled).fold(0.0, f64::max)
         };
-        let velocity = change(&self.trial.qd, &self.state.qd).max(moment * self.pace);
-        let acceleration = change(&self.trial.qdd, &self.state.qdd).max(moment * self.jerk);
+        let velocity = change(&self.trial.qd, &self.state.qd).max(moment * self.velocity_change);
+        let acceleration = change(&self.trial.qdd, &self.state.qdd).max(moment * self.acceleration_change);
         Ok((UNCERTAIN * velocity, UNCERTAIN * acceleration))
     }
 
@@ -260,10 +403,13 @@ impl Motion<'_, '_> {
         let scaled = |k: usize, value: f64| value.abs() / self.kinematics.linear().column_scale(k);
         let largest =
             |a: &[f64], b: &[f64]| (0..a.len()).map(|k| f64::max(scaled(k, a[k]), scaled(k, b[k]))).fold(0.0, f64::max);
-        let speed = largest(&before.qd, &now.qd).max(REST / self.span);
-        let pace = largest(&before.qdd, &now.qdd).max(REST * speed / self.span);
-        let jumps = |k: &usize| scaled(*k, now.qd[*k] - before.qd[*k]) > velocity.max(VELOCITY_JUMP * speed);
-        let bends = |k: &usize| scaled(*k, now.qdd[*k] - before.qdd[*k]) > acceleration.max(ACCELERATION_JUMP * pace);
+        let fastest = largest(&before.qd, &now.qd).max(REST / self.span);
+        let hardest = largest(&before.qdd, &now.qdd).max(REST * fastest / self.span);
+        // beside what has been met before, the last digits of a formula are nothing
+        let velocity = velocity.max(VELOCITY_JUMP * fastest).max(LAST_DIGITS * self.fastest);
+        let acceleration = acceleration.max(ACCELERATION_JUMP * hardest).max(LAST_DIGITS * self.hardest);
+        let jumps = |k: &usize| scaled(*k, now.qd[*k] - before.qd[*k]) > velocity;
+        let bends = |k: &usize| scaled(*k, now.qdd[*k] - before.qdd[*k]) > acceleration;
         let mut all = 0..now.qd.len();
         // a contact may run along its curve as it likes: what counts is how bodies move
         match all.clone().filter(jumps).find(|&k| system.coordinates[k].kind != CoordinateKind::Argument) {
@@ -281,7 +427,8 @@ impl Motion<'_, '_> {
             Jump::Position => {
                 let far = |k: &usize| self.delta[*k].abs() / self.kinematics.linear().column_scale(*k);
                 let column = (0..self.delta.len()).max_by(|a, b| far(a).total_cmp(&far(b))).unwrap_or(0);
-                Err(Box::new(errors::position_jump(system, &behind, column, self.delta[column], t)))
+                let far = (column, self.delta[column]);
+                Err(Box::new(errors::position_jump(system, &behind, self.is_corner(), far, t)))
             }
             Jump::Velocity { column } => {
                 let velocities = [self.before.qd[column], self.state.qd[column]];
@@ -320,6 +467,18 @@ impl Motion<'_, '_> {
             .collect();
         behind.dedup();
         behind
+    }
+
+    /// Whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.
+    fn is_corner(&self) -> bool {
+        let system = self.kinematics.system();
+        let widest = (0..system.rows.len())
+            .max_by(|&a, &b| self.kinematics.residual(a).total_cmp(&self.kinematics.residual(b)))
+            .unwrap_or(0);
+        let declaration = system.rows[widest].declaration;
+        let is_last = system.rows.get(widest + 1).is_none_or(|next| next.declaration != declaration);
+        let others = (0..widest).rev().take_while(|&row| system.rows[row].declaration == declaration);
+        is_last && others.map(|row| self.kinematics.residual(row)).all(|open| open < POSITION_JUMP)
     }
 
     /// Names of the result's columns that differ on the two sides of the edge.

@@ -21,13 +21,21 @@ fn at(t: f64) -> String {
 
 /// Ten digits at most.
 fn short(value: f64) -> String {
-    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{rounded}")
+    readable(format!("{value:.9e}").parse().unwrap_or(value))
+}
+
+/// With an exponent where there would be more zeros than digits.
+fn readable(value: f64) -> String {
+    let size = value.abs();
+    if size == 0.0 || (1e-4..1e10).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// `3.2 mm`, `1.4 m`.
+///
+/// Less than an atom is nothing.
 fn length(metres: f64) -> String {
     let (value, unit) = match metres.abs() {
+        m if m < 1e-12 => (0.0, "m"),
         m if m >= 1e3 => (metres / 1e3, "km"),
         m if m >= 1.0 => (metres, "m"),
         m if m >= 1e-3 => (metres * 1e3, "mm"),
@@ -37,12 +45,12 @@ fn length(metres: f64) -> String {
 }
 
 fn three_digits(value: f64) -> String {
-    let rounded: f64 = format!("{value:.2e}").parse().unwrap_or(value);
-    format!("{rounded}")
+    readable(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
 fn degrees(radians: f64) -> String {
-    format!("{} deg", three_digits(radians.to_degrees()))
+    let rounded = if radians.abs() < 1e-12 { 0.0 } else { radians };
+    format!("{} deg", three_digits(rounded.to_degrees()))
 }
 
 fn named(system: &ConstraintSystem, row: usize) -> String {
@@ -69,7 +77,7 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
         }
         Fault::Condition { index } => condition(system, index, t),
         Fault::Watch { index } => no_contact(system, index, t),
-        Fault::Singular | Fault::TooFar | Fault::Edge => cannot_follow(system, t, None),
+        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Edge { .. } => cannot_follow(system, t, None),
     }
 }
 
@@ -120,10 +128,18 @@ fn in_units(system: &ConstraintSystem, column: usize, value: f64) -> String {
 }
 
 /// A position that would have to change in no time.
-pub fn position_jump(system: &ConstraintSystem, behind: &[usize], column: usize, by: f64, t: f64) -> Diagnostic {
+///
+/// It is a corner if only the tangents of a contact do not agree.
+pub fn position_jump(
+    system: &ConstraintSystem,
+    behind: &[usize],
+    is_corner: bool,
+    (column, by): (usize, f64),
+    t: f64,
+) -> Diagnostic {
     let is_contact =
         |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
-    if let Some(&joint) = behind.iter().find(|k| is_contact(k)) {
+    if let Some(&joint) = behind.iter().find(|k| is_corner && is_contact(k)) {
         let joint = &system.declarations[joint];
         let message = format!("the contact of `{}` comes to a corner of its curve at {}", joint.name, at(t));
         return Diagnostic::new(Code::E0609, message)
@@ -161,9 +177,16 @@ pub fn acceleration_jump(system: &ConstraintSystem, behind: &[usize], columns: &
     if columns.len() > MOST_COLUMNS {
         shown.push(format!("{} more", columns.len() - MOST_COLUMNS));
     }
+    let of_contact =
+        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
+    let help = if behind.iter().any(of_contact) {
+        "at such a time a row holds the later side; a curve under a cam or flat follower needs a third derivative: `step7`"
+    } else {
+        "at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`"
+    };
     with_places(Diagnostic::new(Code::W0601, message), system, behind, "jumps there, and maybe again later")
         .note(format!("columns that jump: {}", shown.join(", ")))
-        .help("at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`")
+        .help(help)
         .datum("t", t)
 }
 
@@ -176,7 +199,12 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
         WatchKind::LineOfCenters => diagnostic(format!("the centres of `{}` meet at {}", joint.name, at(t)))
             .at(joint.span, "there is no line of centres")
             .help("hold the gears apart by a carrier"),
-        WatchKind::Tangents | WatchKind::Curvature => diagnostic(format!(
+        WatchKind::Curvature => {
+            diagnostic(format!("the relative curvature at the contact `{}` changes its sign at {}", joint.name, at(t)))
+                .at(joint.span, "the curves would go through each other behind it")
+                .help("let the curve bend one way all along the contact")
+        }
+        WatchKind::Tangents => diagnostic(format!(
             "a curve has no tangent at the contact `{}` at {}",
             joint.name,
             at(t)
@@ -212,6 +240,15 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         return None;
     }
     let joint = &system.declarations[fit.declaration];
+    if distance < -LARGEST_MISFIT * radius {
+        let message =
+            format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
+        return Some(
+            Diagnostic::new(Code::W0501, message)
+                .at(joint.span, "it turns the other way there")
+                .help("left and right are seen along the direction of the rack's axis"),
+        );
+    }
     let (what, why) = match joint.kind {
         DeclarationKind::Joint("gear") => ("centres", "the sum of the radii"),
         DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii"),
@@ -233,6 +270,9 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
 
 /// A length (m) with as many digits as tell it from another.
 fn digits_that_differ(value: f64, other: f64) -> String {
+    if value.abs() < 1e-12 {
+        return "0 mm".to_owned();
+    }
     let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
     let rounded: f64 = format!("{:.digits$e}", value * 1e3).parse().unwrap_or(value);
     format!("{rounded} mm")
@@ -272,7 +312,7 @@ fn with_places(mut diagnostic: Diagnostic, system: &ConstraintSystem, joints: &[
     diagnostic
 }
 
-/// `the bodies that would have to jump: `rod`, `slider``; where no coordinate is a body's, the contacts and meshes.
+/// The bodies that coordinates are of, and what they do; where no coordinate is a body's, the contacts and meshes.
 fn owners(system: &ConstraintSystem, columns: &[usize], what: &str) -> String {
     let of_bodies: Vec<usize> = columns.iter().copied().filter(|&k| system.body_of(k).is_some()).collect();
     let (columns, noun) = if of_bodies.is_empty() { (columns, "contacts") } else { (of_bodies.as_slice(), "bodies") };
@@ -303,6 +343,15 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize
     with_places(diagnostic, system, joints, "these leave it open")
         .note(owners(system, columns, "could go either way"))
         .help("change a length a little, or stop before that time")
+        .datum("t", t)
+}
+
+/// A position whose derivatives are more rounding than digits.
+pub fn uncertain(system: &ConstraintSystem, joints: &[usize], t: f64) -> Diagnostic {
+    let message = format!("the position at {} is too near to a singular one for its accelerations to be known", at(t));
+    with_places(Diagnostic::new(Code::E0610, message), system, joints, "these nearly depend on each other there")
+        .note("nine digits are printed or none")
+        .help("leave this time out: other output times may be printed")
         .datum("t", t)
 }
 

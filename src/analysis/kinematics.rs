@@ -54,8 +54,10 @@ pub(super) enum Fault {
     Condition { index: usize },
     /// What is watched changes its sign: its number.
     Watch { index: usize },
-    /// The step goes over an edge.
-    Edge,
+    /// Derivatives would be more rounding than digits.
+    Uncertain,
+    /// The step goes over an edge, which lies before a time (s).
+    Edge { t: f64 },
 }
 
 /// A mechanism's program with its registers and factors.
@@ -129,6 +131,11 @@ impl<'d> Kinematics<'d> {
         self.program.switches()
     }
 
+    /// The result that a switch has now.
+    pub fn switch(&self, switch: &Switch) -> f64 {
+        self.registers.get(switch.to)
+    }
+
     /// Whether a switch would have another result now if it were not frozen.
     pub fn would_switch(&self, switch: &Switch) -> bool {
         let (live, now) = (self.program.live(switch, &self.registers), self.registers.get(switch.to));
@@ -144,14 +151,21 @@ impl<'d> Kinematics<'d> {
         }
     }
 
-    /// Room for proofs about the switches of time.
-    pub fn enclosure(&self) -> Enclosure {
-        Enclosure::new(self.program, &self.registers)
+    /// Room for proofs about what time alone decides, and about what the motion decides.
+    pub fn enclosures(&self) -> [Enclosure; 2] {
+        let of = [Enclosure::of_time, Enclosure::of_motion];
+        of.map(|enclosure| enclosure(self.program, &self.registers))
     }
 
-    /// Whether the switches of time keep their results from one time (s) to another.
-    pub fn is_steady(&self, enclosure: &mut Enclosure, from: f64, to: f64) -> bool {
-        enclosure.is_steady(self.program, &self.registers, from, to)
+    /// Whether nothing happens from one time (s) to another; see [`Enclosure::is_steady`].
+    pub fn is_steady(
+        &self,
+        enclosure: &mut Enclosure,
+        times: [f64; 2],
+        coordinates: &[[f64; 2]],
+        may_change: impl Fn(Register) -> bool,
+    ) -> bool {
+        enclosure.is_steady(self.program, &self.registers, times, coordinates, may_change)
     }
 
     /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
@@ -191,6 +205,11 @@ impl<'d> Kinematics<'d> {
     /// An entry of Φ_q, by its position in the pattern.
     pub fn phi_q(&self, position: usize) -> f64 {
         self.registers.get(self.program.outputs.phi_q[position])
+    }
+
+    /// The value of a register.
+    pub fn value(&self, register: Register) -> f64 {
+        self.registers.get(register)
     }
 
     /// A quantity that is watched, against its scale, where the position was set.
@@ -290,8 +309,8 @@ impl<'d> Kinematics<'d> {
         8.0 * f64::EPSILON * terms.chain(steps).fold(0.0, f64::max)
     }
 
-    /// The formula that must be positive and is not.
-    fn broken_condition(&self) -> Option<usize> {
+    /// The formula that must be positive and is not, where time or a position was set.
+    pub fn broken_condition(&self) -> Option<usize> {
         // a formula that is not a number is no better
         self.program.outputs.conditions.iter().position(|&register| {
             let value = self.registers.get(register);

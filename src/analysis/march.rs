@@ -1,9 +1,10 @@
 //! From one output time to the next, in steps that the solver chooses by its own error.
 //!
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
-//! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So the branch followed does not depend on the output times.
+//! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So
+//! the branch followed does not depend on the output times.
 
-use super::edges::{Edge, shortly_after};
+use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::singular;
@@ -32,6 +33,8 @@ const NEAREST: f64 = 1e-6;
 const ACCURACY: f64 = 1e-9;
 /// Steps from one output time to the next at most: what takes more is not meant.
 const MOST_STEPS: u64 = 1_000_000;
+/// Steps that are tried behind a row that cannot be printed, to tell why.
+const STEPS_AHEAD: usize = 1_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 pub struct Motion<'m, 'd> {
@@ -44,22 +47,33 @@ pub struct Motion<'m, 'd> {
     signs: Vec<bool>,
     trial_signs: Vec<bool>,
     /// The sign of what is watched.
-    sides: Vec<bool>,
-    trial_sides: Vec<bool>,
+    pub(super) sides: Vec<bool>,
+    pub(super) trial_sides: Vec<bool>,
     /// The time that the steps are measured against (s).
     pub(super) span: f64,
     /// The last time (s).
     pub(super) last: f64,
-    pub(super) has_time_switches: bool,
-    pub(super) enclosure: Enclosure,
+    /// What may happen in time, and along the motion.
+    pub(super) in_time: Enclosure,
+    pub(super) along: Enclosure,
+    /// Each coordinate between the ends of a step, as a polynomial of the part of the step.
+    pub(super) curve: Vec<[f64; 6]>,
+    /// Each coordinate's middle and reach in a part of a step.
+    pub(super) boxes: Vec<[f64; 2]>,
+    /// By switch.
+    pub(super) restless: Vec<Restless>,
+    pub(super) switches_before: Vec<f64>,
     /// An edge of the motion that a longer step has met.
     pub(super) met: Option<Edge>,
     /// The earlier side of the edge that is being crossed.
     pub(super) before: State,
     pub(super) row_before: Vec<f64>,
-    /// How fast velocities and accelerations change, scaled, over the last step (1/s², 1/s³).
-    pub(super) pace: f64,
-    pub(super) jerk: f64,
+    /// How fast velocities and accelerations changed, scaled, over the last step (1/s², 1/s³).
+    pub(super) velocity_change: f64,
+    pub(super) acceleration_change: f64,
+    /// The largest velocity and acceleration so far, scaled (1/s, 1/s²).
+    pub(super) fastest: f64,
+    pub(super) hardest: f64,
     /// Declarations of which it has been said that they make an acceleration jump.
     pub(super) warned: Vec<bool>,
     pub(super) remarks: Diagnostics,
@@ -70,6 +84,8 @@ pub struct Motion<'m, 'd> {
     /// Where the last step was looked into, from 0 to 1.
     probe: f64,
     begun: bool,
+    /// Whether the row holds digits, and not rounding.
+    is_certain: bool,
     pub(super) row: Vec<f64>,
 }
 
@@ -86,17 +102,24 @@ impl<'m, 'd> Motion<'m, 'd> {
         let watches = kinematics.system().watches.len();
         let smallest = SMALLEST_STEP * span;
         let switches = kinematics.switches();
+        let [in_time, along] = kinematics.enclosures();
         Motion {
             // what happens in no time at all is measured by the second
             span: if span > 0.0 { span } else { 1.0 },
             last: state.t + span,
-            has_time_switches: switches.iter().any(|switch| switch.on_time),
-            enclosure: kinematics.enclosure(),
+            in_time,
+            along,
+            curve: vec![[0.0; 6]; n],
+            boxes: vec![[0.0; 2]; n],
+            restless: vec![Restless::NEVER; switches.len()],
+            switches_before: vec![0.0; switches.len()],
             met: None,
             before: state.clone(),
             row_before: vec![0.0; kinematics.row_length()],
-            pace: 0.0,
-            jerk: 0.0,
+            velocity_change: 0.0,
+            acceleration_change: 0.0,
+            fastest: 0.0,
+            hardest: 0.0,
             warned: vec![false; kinematics.system().declarations.len()],
             remarks: Diagnostics::default(),
             trial: state.clone(),
@@ -111,6 +134,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             largest: span / FEWEST_STEPS,
             probe: 0.0,
             begun: false,
+            is_certain: true,
             row: vec![0.0; kinematics.row_length()],
             kinematics,
             state,
@@ -137,6 +161,9 @@ impl<'m, 'd> Motion<'m, 'd> {
             }
             self.step_towards(t)?;
         }
+        if !self.is_certain {
+            return Err(Box::new(self.explain_uncertain(t)));
+        }
         if self.row.iter().all(|value| value.is_finite()) { Ok(&self.row) } else { Err(Box::new(self.explain_row(t))) }
     }
 
@@ -145,7 +172,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         let left = t - self.state.t;
         // no crumb at the end
         let next = if self.h >= 0.999 * left { t } else { self.state.t + self.h };
-        let edge = self.next_edge(next, next >= t);
+        let edge = self.next_edge(next, next >= t)?;
         let next = edge.map_or(next, |edge| edge.t);
         let h = next - self.state.t;
         if h <= 0.0 {
@@ -156,7 +183,7 @@ impl<'m, 'd> Motion<'m, 'd> {
                 self.accept(h, &accepted);
                 edge.map_or(Ok(()), |edge| self.cross(edge))
             }
-            Err(Fault::Edge) if self.locate(next) => Ok(()),
+            Err(Fault::Edge { t }) if self.locate(t) => Ok(()),
             Err(fault) => self.shorten(h, fault, t),
         }
     }
@@ -172,6 +199,22 @@ impl<'m, 'd> Motion<'m, 'd> {
         errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
     }
 
+    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it.
+    fn explain_uncertain(&mut self, t: f64) -> Diagnostic {
+        let ahead = t + self.span / FEWEST_STEPS;
+        for _ in 0..STEPS_AHEAD {
+            if let Err(diagnostic) = self.step_towards(ahead) {
+                return *diagnostic;
+            }
+            if self.state.t >= ahead {
+                break;
+            }
+        }
+        self.kinematics.restore(self.state);
+        let singular = self.kinematics.worst();
+        singular::name_uncertain(self.kinematics.system(), &singular.left, t)
+    }
+
     /// Derivatives at the start.
     fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
         self.begun = true;
@@ -179,7 +222,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         if !self.kinematics.switches().is_empty() {
             // which way it goes on decides on which side of an edge it begins
             let _ = self.kinematics.derivatives(self.state);
-            self.settle(Some(shortly_after(self.state.t)));
+            self.settle(Some(behind_start(self.state.t, self.span)));
             self.kinematics.restore(self.state);
         }
         self.kinematics.linear().signs(&mut self.signs);
@@ -210,16 +253,19 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.predict(h, t)?;
         let first_correction = self.correct()?;
         if !to_edge_of_motion && self.meets_edge() {
-            return Err(Fault::Edge);
+            return Err(Fault::Edge { t });
         }
         self.same_branch()?;
         self.keep_away()?;
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
-            Self::trustworthy(self.kinematics, &self.trial)?;
+            self.is_certain = Self::trustworthy(self.kinematics, &self.trial).is_ok();
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         let between = self.correction_between(h)?;
+        if !to_edge_of_motion {
+            self.look_between(h, between)?;
+        }
         Ok(Accepted { first_correction, between })
     }
 
@@ -237,12 +283,12 @@ impl<'m, 'd> Motion<'m, 'd> {
     /// Taylor's predictor, which costs nothing: both derivatives are known.
     pub(super) fn predict(&mut self, h: f64, t: f64) -> Result<(), Fault> {
         self.trial.t = t;
-        let mut motion: f64 = 0.0;
         for k in 0..self.trial.q.len() {
-            let step = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
-            self.trial.q[k] = self.state.q[k] + step;
-            motion = motion.max(step.abs() / self.kinematics.linear().column_scale(k));
+            self.delta[k] = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
+            self.trial.q[k] = self.state.q[k] + self.delta[k];
         }
+        // what follows without iteration has no branches, and may go as far as the predictor is right
+        let motion = self.kinematics.linear().largest_implicit(&self.delta);
         if motion <= LARGEST_MOTION { Ok(()) } else { Err(Fault::TooFar) }
     }
 
@@ -281,7 +327,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     fn trustworthy(kinematics: &mut Kinematics<'_>, state: &State) -> Result<(), Fault> {
         let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
-        if uncertain > ACCURACY { Err(Fault::Singular) } else { Ok(()) }
+        if uncertain > ACCURACY { Err(Fault::Uncertain) } else { Ok(()) }
     }
 
     /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
@@ -290,26 +336,29 @@ impl<'m, 'd> Motion<'m, 'd> {
     fn correction_between(&mut self, h: f64) -> Result<f64, Fault> {
         self.probe = (self.probe + GOLDEN).fract();
         let x = 0.3 + 0.4 * self.probe;
-        let (x2, x3, rest) = (x * x, x * x * x, 1.0 - x);
-        // the quintic Hermite basis: value, slope and curvature at the end, then at the start
-        let end = x3 * (10.0 + x * (6.0 * x - 15.0));
-        let end_slope = h * x3 * (x * (7.0 - 3.0 * x) - 4.0);
-        let end_curvature = h * h * 0.5 * x3 * rest * rest;
-        let start_slope = h * (x + x3 * (x * (8.0 - 3.0 * x) - 6.0));
-        let start_curvature = h * h * 0.5 * x2 * rest * rest * rest;
-        let (a, b) = (&*self.state, &self.trial);
-        for k in 0..self.middle.len() {
-            self.middle[k] = a.q[k]
-                + end * (b.q[k] - a.q[k])
-                + start_slope * a.qd[k]
-                + start_curvature * a.qdd[k]
-                + end_slope * b.qd[k]
-                + end_curvature * b.qdd[k];
+        self.draw_curve(h);
+        for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
+            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
         }
-        self.kinematics.set_time(a.t + x * h);
+        self.kinematics.set_time(self.state.t + x * h);
         self.kinematics.set_position(&self.middle)?;
         let size = self.kinematics.correction(&mut self.delta);
         if size <= LARGEST_BETWEEN { Ok(size) } else { Err(Fault::TooFar) }
+    }
+
+    /// The quintic with value, slope and curvature of both ends, by its coefficients.
+    fn draw_curve(&mut self, h: f64) {
+        let (a, b) = (&*self.state, &self.trial);
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);
+            // what is left of value, slope and half the curvature at the end
+            let (value, first, second) =
+                (way - slope - bend, h * b.qd[k] - slope - 2.0 * bend, 0.5 * h * h * b.qdd[k] - bend);
+            let cubic = 10.0 * value - 4.0 * first + second;
+            let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
+            let quintic = 6.0 * value - 3.0 * first + second;
+            *curve = [a.q[k], slope, bend, cubic, quartic, quintic];
+        }
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
@@ -319,7 +368,15 @@ impl<'m, 'd> Motion<'m, 'd> {
                 let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
                 (0..a.len()).map(scaled).fold(0.0, f64::max)
             };
-            (self.pace, self.jerk) = (change(&a.qd, &b.qd) / h, change(&a.qdd, &b.qdd) / h);
+            let largest = |a: &[f64]| (0..a.len()).map(|k| a[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
+            // a motion that begins and ends at rest within the step is fast between
+            let swing = |k: usize| (b.q[k] - a.q[k] - 0.5 * h * (a.qd[k] + b.qd[k])).abs() / linear.column_scale(k);
+            let swing = (0..a.q.len()).map(swing).fold(0.0, f64::max);
+            let (faster, harder) = (2.0 * swing / h, 6.0 * swing / (h * h));
+            self.velocity_change = f64::max(change(&a.qd, &b.qd) / h, harder);
+            self.acceleration_change = f64::max(change(&a.qdd, &b.qdd) / h, 6.0 * harder / h);
+            self.fastest = self.fastest.max(largest(&b.qd)).max(faster);
+            self.hardest = self.hardest.max(largest(&b.qdd)).max(harder);
         }
         self.state.copy_from(&self.trial);
         self.signs.copy_from_slice(&self.trial_signs);

@@ -23,14 +23,19 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     if let Some(fault) = without_value(kinematics, state, just_ahead) {
         return errors::no_value(system, fault, state.t);
     }
-    if let Fault::Watch { index } = fault
-        && system.watches[index].kind != WatchKind::Curvature
-    {
-        return errors::no_contact(system, index, state.t);
-    }
     kinematics.restore(state);
     let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
+    match fault {
+        // a curvature that comes to zero makes the position singular, one that jumps over it does not
+        Fault::Watch { index } if system.watches[index].kind != WatchKind::Curvature || singular.sigma > NEAR => {
+            return errors::no_contact(system, index, state.t);
+        }
+        _ => {}
+    }
+    if let Some(index) = centers_that_meet(kinematics) {
+        return errors::no_contact(system, index, state.t);
+    }
     let diagnostic = if singular.sigma < NEAR {
         let named = name_singular(system, &singular.left, &singular.right, state.t);
         match flat_contact(kinematics) {
@@ -43,6 +48,13 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
     };
     diagnostic.datum("residual", residual)
+}
+
+/// The watch over a line of centres that vanishes, or nearly so, where the position was set.
+fn centers_that_meet(kinematics: &Kinematics<'_>) -> Option<usize> {
+    let watches = &kinematics.system().watches;
+    let meet = |k: &usize| watches[*k].kind == WatchKind::LineOfCenters && kinematics.watched(*k).abs() < FLAT;
+    (0..watches.len()).find(meet)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
@@ -74,6 +86,11 @@ fn name_singular(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64)
         Some(row) => errors::lock_up(system, row, &joints, &columns, t),
         None => errors::bifurcation(system, &joints, &columns, t),
     }
+}
+
+/// A position so near to a singular one that its derivatives are not known.
+pub(super) fn name_uncertain(system: &ConstraintSystem, left: &[f64], t: f64) -> Diagnostic {
+    errors::uncertain(system, &declarations_in(system, left), t)
 }
 
 /// A start that is in such a position already.

@@ -137,10 +137,7 @@ impl Checker<'_> {
                 let one = self.model.graph.constant(1.0);
                 let positive = self.guard.map_or(length, |guard| self.model.graph.select(guard, length, one));
                 let owner = context.place.to_owned();
-                let condition = Condition { positive, kind: ConditionKind::Interval, span: u1.0, owner };
-                if self.model.conditions.iter().all(|known| known.positive != positive) {
-                    self.model.conditions.push(condition);
-                }
+                self.model.conditions.push(Condition { positive, kind: ConditionKind::Interval, span: u1.0, owner });
             }
         }
         let id = self.model.graph.motion(motion, u.1.id, [u0.1.id, v0.1.id], [u1.1.id, v1.1.id]);

@@ -376,13 +376,13 @@ pub fn too_few_rows(name: &Name, periodic: bool, least: usize, found: usize) -> 
         .at(name.span, format!("found {found}"))
 }
 
-pub fn not_rising(name: &Name, here: f64, before: f64, rows: [Span; 2]) -> Diagnostic {
+pub fn not_rising(name: &Name, [here, before]: [f64; 2], rows: [Span; 2]) -> Diagnostic {
     let message = format!("the arguments of table `{}` do not rise: {here} follows {before}", name.text);
     let text = if here < before { "smaller than the one before" } else { "not above the one before" };
     Diagnostic::new(Code::E0414, message)
         .at(rows[0], text)
         .also(rows[1], "the row before")
-        .help("arguments must rise from row to row, in SI units as they are told here")
+        .help("arguments must rise from row to row")
 }
 
 pub fn ends_differ(name: &Name, ends: [Span; 2], last: f64, first: f64) -> Diagnostic {

@@ -211,7 +211,7 @@ impl Checker<'_> {
                 is_argument || matches!(name.text.as_str(), "t" | "pi" | "tau") || self.space.get(&name.text).is_some();
             self.report(errors::not_a_unit(
                 name,
-                self.sources.text(e.span).split_whitespace().next().unwrap_or("2"),
+                self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end(),
                 is_a_name,
             ));
             return None;

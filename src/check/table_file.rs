@@ -43,7 +43,8 @@ fn number(cell: &str) -> Option<f64> {
 /// A line none of whose parts is a number.
 fn is_header(line: &str) -> bool {
     let parts = line.split([',', ';', '\t']).map(str::trim).filter(|part| !part.is_empty());
-    !parts.clone().any(|part| part.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c)))
+    let begins_a_number = |part: &str| part.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
+    !parts.clone().any(|part| begins_a_number(part.trim_start_matches(['"', '\''])))
 }
 
 fn not_two_numbers(line: &str, span: Span) -> Diagnostic {

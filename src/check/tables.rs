@@ -44,6 +44,8 @@ pub(super) struct Made {
 /// A row with its place.
 struct Row {
     cells: [ExprId; 2],
+    /// The argument as the file has it, in its own unit.
+    written: Option<f64>,
     span: Span,
 }
 
@@ -93,7 +95,7 @@ impl<'a> Checker<'a> {
         let second = self.listed_column(pairs.iter().map(|pair| pair[1]), "the values of a table");
         let ((first, a), (second, b)) = (first?, second?);
         let cells = first.into_iter().zip(second).zip(rows);
-        Some((cells.map(|((x, y), row)| Row { cells: [x, y], span: row.span }).collect(), [a, b]))
+        Some((cells.map(|((x, y), row)| Row { cells: [x, y], written: None, span: row.span }).collect(), [a, b]))
     }
 
     fn listed_column<'e>(
@@ -171,7 +173,10 @@ impl<'a> Checker<'a> {
         };
         let rows: Vec<Row> = rows
             .into_iter()
-            .map(|(values, span)| Row { cells: [0, 1].map(|k: usize| cell(units[k], values[k])), span })
+            .map(|(values, span)| {
+                let cells = [0, 1].map(|k: usize| cell(units[k], values[k]));
+                Row { cells, written: Some(values[0]), span }
+            })
             .collect();
         if rows.is_empty() {
             self.report(errors::empty_table_file(path));
@@ -197,7 +202,8 @@ impl<'a> Checker<'a> {
         for k in 1..rows.len() {
             let (before, here) = (values[k - 1][0], values[k][0]);
             if here.is_nan() || here <= before {
-                self.report(named(errors::not_rising(name, here, before, [rows[k].span, rows[k - 1].span])));
+                let told = [rows[k].written.unwrap_or(here), rows[k - 1].written.unwrap_or(before)];
+                self.report(named(errors::not_rising(name, told, [rows[k].span, rows[k - 1].span])));
                 return false;
             }
         }
@@ -258,10 +264,8 @@ impl<'a> Checker<'a> {
             let room = self.model.graph.add(way, slack);
             let one = self.model.graph.constant(1.0);
             let positive = self.guard.map_or(room, |guard| self.model.graph.select(guard, room, one));
-            if self.model.conditions.iter().all(|known| known.positive != positive) {
-                let owner = context.place.to_owned();
-                self.model.conditions.push(Condition { positive, kind: ConditionKind::Range(made.id), span, owner });
-            }
+            let owner = context.place.to_owned();
+            self.model.conditions.push(Condition { positive, kind: ConditionKind::Range(made.id), span, owner });
         }
         Some(())
     }

@@ -7,7 +7,6 @@ use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
 use crate::analysis::{self, Started};
-use crate::ir::CoordinateKind;
 use crate::program::Program;
 use crate::structure::{self, Determined};
 
@@ -36,11 +35,9 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     text += &format!("\n\nat t = {t} s\n  {moved}\n");
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
-        let unit = match coordinate.kind {
-            CoordinateKind::Argument => "",
-            other => other.unit(),
-        };
-        let value = format!("{} {unit}", nine_digits(*q));
+        // less than an atom is nothing
+        let q = if q.abs() < 1e-12 { 0.0 } else { *q };
+        let value = format!("{} {}", nine_digits(q), coordinate.kind.unit());
         text += &format!("  {} = {}\n", coordinate.name, value.trim_end());
     }
     text

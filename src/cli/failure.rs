@@ -45,20 +45,12 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
         return 0;
     };
     // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time
-    let on_the_way = first.code >= Code::E0601 && first.code <= Code::E0606;
+    let on_the_way = (Code::E0601..=Code::E0610).contains(&first.code);
     if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
         return USAGE;
     }
     match first.code {
-        Code::E0601
-        | Code::E0602
-        | Code::E0603
-        | Code::E0604
-        | Code::E0605
-        | Code::E0606
-        | Code::E0607
-        | Code::E0608
-        | Code::E0609 => ANALYSIS,
+        _ if on_the_way => ANALYSIS,
         Code::E0701 | Code::E0702 => FILES,
         Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
         _ => INPUT,

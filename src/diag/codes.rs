@@ -97,6 +97,7 @@ catalogue! {
     E0607 Error "a contact or mesh that is none"
     E0608 Error "a table that is left"
     E0609 Error "a motion that jumps"
+    E0610 Error "a position that is too near to a singular one"
     W0601 Warning "an acceleration that jumps"
     N0601 Note "the estimates were far from the assembled start"
     // the command line and files

@@ -109,7 +109,10 @@ impl<'s> Writer<'s> {
         );
         let mut namer = Namer::default();
         for (k, coordinate) in self.system.coordinates.iter().enumerate() {
-            let unit = coordinate.kind.unit();
+            let unit = match coordinate.kind.unit() {
+                "" => "a pure number",
+                unit => unit,
+            };
             let name = namer.constant(&coordinate.name);
             text += &format!("    /// `{}` ({unit})\n    pub const {name}: usize = {k};\n", coordinate.name);
         }

@@ -62,6 +62,8 @@ impl Graph {
                 let opposite = self.constant(-f64::from_bits(bits));
                 self.add(a, opposite)
             }
+            // what is left of a number and its fraction
+            (_, Node::Binary(Binary::Mod, x, one)) if x == a && self.is(one, 1.0) => self.unary(Unary::Floor, a),
             (_, Node::Neg(inner)) => self.add(a, inner),
             (Node::Neg(inner), _) => {
                 let sum = self.add(inner, b);
@@ -315,26 +317,7 @@ impl Graph {
 
     /// `a − b·⌊a/b⌋`
     pub fn modulo(&mut self, a: ExprId, b: ExprId) -> ExprId {
-        let quotient = self.div(a, b);
-        let whole = self.unary(Unary::Floor, quotient);
-        let multiple = self.mul(b, whole);
-        self.sub(a, multiple)
-    }
-
-    /// `a − b·⌊a/b⌋` as `mod(a, b)`.
-    pub(super) fn as_modulo(&self, id: ExprId) -> Option<(ExprId, ExprId)> {
-        let Node::Sub(a, multiple) = self.node(id) else { return None };
-        let (b, floor) = match self.node(multiple) {
-            Node::Mul(x, y) if self.is_floor(y) => (x, y),
-            Node::Mul(x, y) if self.is_floor(x) => (y, x),
-            _ => return None,
-        };
-        let Node::Unary(Unary::Floor, quotient) = self.node(floor) else { return None };
-        (self.node(quotient) == Node::Div(a, b)).then_some((a, b))
-    }
-
-    fn is_floor(&self, id: ExprId) -> bool {
-        matches!(self.node(id), Node::Unary(Unary::Floor, _))
+        self.binary(Binary::Mod, a, b)
     }
 
     /// The same operation on other operands.

@@ -272,6 +272,13 @@ impl Graph {
                 let slope = self.mul(b, lower);
                 self.mul(factor, slope)
             }
+            (Binary::Mod, 0) => factor,
+            (Binary::Mod, _) => {
+                let quotient = self.div(a, b);
+                let whole = self.unary(Unary::Floor, quotient);
+                let share = self.mul(factor, whole);
+                self.neg(share)
+            }
             // 0 to any power stays 0, and has no logarithm
             (Binary::Pow, _) if self.is_zero(a) => zero,
             (Binary::Pow, _) => {

@@ -35,6 +35,7 @@ pub fn binary_value(function: Binary, x: f64, y: f64) -> f64 {
         Binary::Min => math::min(x, y),
         Binary::Max => math::max(x, y),
         Binary::Pow => math::pow(x, y),
+        Binary::Mod => math::modulo(x, y),
     }
 }
 

@@ -82,6 +82,8 @@ pub enum Binary {
     Max,
     /// A power whose exponent is not a small whole number.
     Pow,
+    /// `a − b·⌊a/b⌋`
+    Mod,
 }
 
 /// Comparisons; the other four are these with sides exchanged or negated.

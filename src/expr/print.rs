@@ -25,7 +25,7 @@ enum Tightness {
 }
 
 impl Unary {
-    /// As in the language (`floor` is within `mod` there).
+    /// As in the language, which has no `floor`: `x - mod(x, 1)`.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
@@ -59,6 +59,7 @@ impl Binary {
             Binary::Min => "min",
             Binary::Max => "max",
             Binary::Pow => "pow",
+            Binary::Mod => "mod",
         }
     }
 }
@@ -151,18 +152,15 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     }
 
     fn tightness(&self, id: ExprId) -> Tightness {
-        if self.graph.as_modulo(id).is_some() {
-            return Tightness::Atom;
-        }
         match self.graph.node(id) {
             Node::Const(bits) if f64::from_bits(bits) < 0.0 => Tightness::Negation,
             Node::Binary(Binary::Pow, ..) | Node::Power(..) => Tightness::Power,
-            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) | Node::Table(..) => Tightness::Atom,
-            Node::Add(..) | Node::Sub(..) => Tightness::Sum,
+            Node::Add(..) | Node::Sub(..) | Node::Unary(Unary::Floor, _) => Tightness::Sum,
             Node::Mul(..) | Node::Div(..) => Tightness::Product,
             // the sign of a product stands before its first factor
             Node::Neg(a) if self.takes_sign_in_front(a) => Tightness::Product,
             Node::Neg(_) => Tightness::Negation,
+            Node::Const(_) | Node::Symbol(_) | Node::Unary(..) | Node::Binary(..) | Node::Table(..) => Tightness::Atom,
             Node::Compare(..) => Tightness::Comparison,
             Node::And(..) => Tightness::And,
             Node::Or(..) => Tightness::Or,
@@ -172,9 +170,6 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     }
 
     fn write_bare(&self, id: ExprId, out: &mut String) {
-        if let Some((a, b)) = self.graph.as_modulo(id) {
-            return self.write_call("mod", &[a, b], out);
-        }
         match self.graph.node(id) {
             Node::Const(bits) => out.push_str(&number(f64::from_bits(bits))),
             Node::Symbol(symbol) => out.push_str(&(self.symbol)(symbol)),
@@ -197,6 +192,12 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
                 out.push_str(&format!("^{n}"));
             }
             Node::Binary(Binary::Pow, a, b) => self.write_pair(a, "^", b, [Tightness::Atom, Tightness::Negation], out),
+            Node::Unary(Unary::Floor, a) => {
+                self.write(a, Tightness::Sum, out);
+                out.push_str(" - mod(");
+                self.write(a, Tightness::Conditional, out);
+                out.push_str(", 1)");
+            }
             Node::Unary(function, a) => self.write_call(function.word(), &[a], out),
             Node::Binary(function, a, b) => self.write_call(function.word(), &[a, b], out),
             Node::Table(table, order, a) => {

@@ -2,7 +2,8 @@
 //!
 //! The constructors see one operation at a time; this looks at whole sums and whole products: equal terms are gathered,
 //! numbers stand in front, equal factors are powers, a sum begins with a term that is added. Nothing is cancelled against
-//! a denominator, and nothing is multiplied out but numbers and what Horner's rule left. Only what is printed goes through here: what is computed stays as it is.
+//! a denominator, and nothing is multiplied out but numbers and what Horner's rule left. Only what is printed goes through
+//! here: what is computed stays as it is.
 
 use super::{ExprId, Graph, Node, number};
 use rustc_hash::FxHashMap;
@@ -66,7 +67,6 @@ impl Tidying<'_> {
 
     fn tidy_node(&mut self, id: ExprId) -> ExprId {
         let gathered = match self.graph.node(id) {
-            _ if self.graph.as_modulo(id).is_some() => None,
             Node::Add(..) | Node::Sub(..) | Node::Neg(_) => {
                 let sum = self.sum(id);
                 self.build_sum(sum)
@@ -81,10 +81,6 @@ impl Tidying<'_> {
 
     /// The same operation on tidied operands.
     fn rebuilt(&mut self, id: ExprId) -> ExprId {
-        if let Some((a, b)) = self.graph.as_modulo(id) {
-            let (a, b) = (self.tidy(a), self.tidy(b));
-            return self.graph.modulo(a, b);
-        }
         let node = self.graph.node(id);
         for &child in node.children().as_slice() {
             self.tidy(child);
@@ -115,10 +111,9 @@ impl Tidying<'_> {
         // with its coefficient, and whether it has been tidied
         let mut open = vec![(root, 1.0, self.known.get(&root) == Some(&root))];
         while let Some((id, c, is_tidy)) = open.pop() {
-            let whole = self.graph.as_modulo(id).is_some();
             match self.graph.node(id) {
-                Node::Add(a, b) if !whole => open.extend([(b, c, is_tidy), (a, c, is_tidy)]),
-                Node::Sub(a, b) if !whole => open.extend([(b, -c, is_tidy), (a, c, is_tidy)]),
+                Node::Add(a, b) => open.extend([(b, c, is_tidy), (a, c, is_tidy)]),
+                Node::Sub(a, b) => open.extend([(b, -c, is_tidy), (a, c, is_tidy)]),
                 Node::Neg(a) => open.push((a, -c, is_tidy)),
                 Node::Const(bits) => sum.number += c * f64::from_bits(bits),
                 _ if !is_tidy => open.push((self.tidy(id), c, true)),
@@ -139,8 +134,7 @@ impl Tidying<'_> {
         };
         // a power of two has no fraction bits
         let is_exact = scale.is_normal() && scale.to_bits().trailing_zeros() >= 52;
-        let is_sum =
-            matches!(self.graph.node(sum), Node::Add(..) | Node::Sub(..)) && self.graph.as_modulo(sum).is_none();
+        let is_sum = matches!(self.graph.node(sum), Node::Add(..) | Node::Sub(..));
         (is_exact && is_sum).then_some((scale, sum))
     }
 

@@ -96,13 +96,13 @@ pub enum CoordinateKind {
 }
 
 impl CoordinateKind {
-    /// The SI unit; `1` for a pure number.
+    /// The SI unit; none for a pure number.
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
             CoordinateKind::Length => "m",
             CoordinateKind::Angle => "rad",
-            CoordinateKind::Argument => "1",
+            CoordinateKind::Argument => "",
         }
     }
 }

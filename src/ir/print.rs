@@ -1,6 +1,6 @@
 //! The constraint system as readable text.
 
-use super::{ConstraintSystem, DeclarationKind, WatchKind};
+use super::{ConditionKind, ConstraintSystem, DeclarationKind, WatchKind};
 use crate::expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
@@ -37,38 +37,33 @@ impl std::fmt::Display for ConstraintSystem {
         let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol));
         let prefix = self.prefix_of_shared();
         let shared = printer.name_shared(&self.printed(), |k| format!("{prefix}{}", k + 1));
-        writeln!(
-            f,
-            "constraint system of {}: {} coordinates, {} equations",
-            self.name,
-            self.coordinates.len(),
-            self.rows.len()
-        )?;
-        if !self.params.is_empty() {
-            section(f, "parameters", self.params.iter().map(|p| (p.name.clone(), format!("= {}", number(p.value)))))?;
-        }
-        if !shared.is_empty() {
-            let title = "parts that stand in several places";
-            section(
-                f,
-                title,
-                shared.iter().map(|(name, id)| (name.clone(), format!("= {}", printer.definition(*id)))),
-            )?;
-        }
-        section(
-            f,
-            "coordinates q, with their estimates",
-            self.coordinates
-                .iter()
-                .map(|c| (c.name.clone(), format!("≈ {} {}", printer.text(c.estimate), c.kind.unit()))),
-        )?;
-        let row = |k: usize| self.row_name(k);
-        let rows = 0..self.rows.len();
-        section(
-            f,
-            "equations Φ = 0",
-            rows.clone().map(|k| (row(k), format!("0 = {}", printer.text(self.rows[k].phi)))),
-        )?;
+        let text = |id: ExprId| printer.text(id);
+        let (n, m) = (self.coordinates.len(), self.rows.len());
+        writeln!(f, "constraint system of {}: {n} coordinates, {m} equations", self.name)?;
+        let params = self.params.iter().map(|p| (p.name.clone(), format!("= {}", number(p.value))));
+        section(f, "parameters", params)?;
+        section(f, "tables; a name with ' is the derivative by the argument", self.table_lines(&text))?;
+        let parts = shared.iter().map(|(name, id)| (name.clone(), format!("= {}", printer.definition(*id))));
+        section(f, "parts that stand in several places", parts)?;
+        let coordinates = self
+            .coordinates
+            .iter()
+            .map(|c| (c.name.clone(), format!("≈ {} {}", text(c.estimate), c.kind.unit()).trim_end().to_owned()));
+        section(f, "coordinates q, with their estimates", coordinates)?;
+        self.write_equations(f, &text)?;
+        section(f, "measures", self.measure_lines(&text))?;
+        section(f, "conditions", self.condition_lines(&text))?;
+        section(f, "watched along the way", self.watch_lines(&text))
+    }
+}
+
+impl ConstraintSystem {
+    fn write_equations(&self, f: &mut std::fmt::Formatter<'_>, text: &dyn Fn(ExprId) -> String) -> std::fmt::Result {
+        let of_rows = |list: &[ExprId]| -> Vec<(String, String)> {
+            list.iter().enumerate().map(|(k, &id)| (self.row_name(k), format!("= {}", text(id)))).collect()
+        };
+        let phi = self.rows.iter().enumerate().map(|(k, row)| (self.row_name(k), format!("0 = {}", text(row.phi))));
+        section(f, "equations Φ = 0", phi)?;
         writeln!(f, "\nwritten by")?;
         for declaration in &self.declarations {
             let kind = match declaration.kind {
@@ -77,51 +72,60 @@ impl std::fmt::Display for ConstraintSystem {
             };
             writeln!(f, "  {}: {kind}", declaration.name)?;
         }
-        let entries = rows.clone().flat_map(|k| {
-            let entry = |&(column, id): &(u32, ExprId)| {
+        let entries = (0..self.rows.len()).flat_map(|k| {
+            self.phi_q.row(k).iter().map(move |&(column, id)| {
                 let by = &self.coordinates[column as usize].name;
-                (format!("{} by {by}", self.row_name(k)), format!("= {}", printer.text(id)))
-            };
-            self.phi_q.row(k).iter().map(entry).collect::<Vec<_>>()
+                (format!("{} by {by}", self.row_name(k)), format!("= {}", text(id)))
+            })
         });
         section(f, "Jacobian Φ_q, entries that are not 0", entries)?;
-        section(
-            f,
-            "velocity, right side ν of Φ_q q̇ = ν",
-            rows.clone().map(|k| (row(k), format!("= {}", printer.text(self.nu[k])))),
-        )?;
-        let gamma = rows.clone().map(|k| (row(k), format!("= {}", printer.text(self.gamma[k]))));
-        section(f, "acceleration, right side γ of Φ_q q̈ = γ", gamma)?;
-        if let Some(jerk) = &self.jerk {
-            let jerk = rows.map(|k| (row(k), format!("= {}", printer.text(jerk[k]))));
-            section(f, "jerk, right side of Φ_q q⃛ = …", jerk)?;
-        }
-        if !self.measures.is_empty() {
-            let lines = self.measures.iter().flat_map(|measure| {
-                let parts = [("", Some(measure.value)), (".d", measure.first), (".dd", measure.second)];
-                parts.into_iter().filter_map(|(end, id)| {
-                    id.map(|id| (format!("{}{end}", measure.name), format!("= {}", printer.text(id))))
-                })
-            });
-            section(f, "measures", lines)?;
-        }
-        if !self.conditions.is_empty() {
-            let lines = self.conditions.iter().map(|c| (c.owner.clone(), format!("{} > 0", printer.text(c.positive))));
-            section(f, "conditions", lines)?;
-        }
-        if !self.watches.is_empty() {
-            let lines = self.watches.iter().map(|watch| {
-                let rule = match watch.kind {
-                    WatchKind::LineOfCenters => "> 0, along the line of centres",
-                    WatchKind::Tangents => "keeps its sign: the tangents",
-                    WatchKind::Curvature => "keeps its sign: the relative curvature",
-                };
-                let name = self.declarations[watch.declaration].name.clone();
-                (name, format!("{} {rule}", printer.text(watch.value)))
-            });
-            section(f, "watched along the way", lines)?;
-        }
-        Ok(())
+        section(f, "velocity, right side ν of Φ_q q̇ = ν", of_rows(&self.nu).into_iter())?;
+        section(f, "acceleration, right side γ of Φ_q q̈ = γ", of_rows(&self.gamma).into_iter())?;
+        let jerk = self.jerk.as_deref().map_or(Vec::new(), of_rows);
+        section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())
+    }
+
+    fn table_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
+        self.graph.tables().iter().map(|table| {
+            let pairs = table.knots.iter().zip(&table.values);
+            let rows: Vec<String> = pairs.map(|(x, y)| format!("({}, {})", text(*x), text(*y))).collect();
+            let kind = if table.periodic { "periodic spline" } else { "spline" };
+            (table.name.clone(), format!("= {kind} [{}]", rows.join(", ")))
+        })
+    }
+
+    fn measure_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
+        self.measures.iter().flat_map(move |measure| {
+            let parts = [("", Some(measure.value)), (".d", measure.first), (".dd", measure.second)];
+            parts
+                .into_iter()
+                .filter_map(move |(end, id)| id.map(|id| (format!("{}{end}", measure.name), format!("= {}", text(id)))))
+        })
+    }
+
+    fn condition_lines<'s>(
+        &'s self,
+        text: &'s dyn Fn(ExprId) -> String,
+    ) -> impl Iterator<Item = (String, String)> + 's {
+        self.conditions.iter().map(|condition| {
+            let why = match condition.kind {
+                ConditionKind::Distance => "a distance".to_owned(),
+                ConditionKind::Interval => "the interval of a motion".to_owned(),
+                ConditionKind::Range(table) => format!("within table `{}`", self.graph.tables()[table.index()].name),
+            };
+            (condition.owner.clone(), format!("{} > 0, {why}", text(condition.positive)))
+        })
+    }
+
+    fn watch_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
+        self.watches.iter().map(|watch| {
+            let rule = match watch.kind {
+                WatchKind::LineOfCenters => "> 0, along the line of centres",
+                WatchKind::Tangents => "keeps its sign: the tangents",
+                WatchKind::Curvature => "keeps its sign: the relative curvature",
+            };
+            (self.declarations[watch.declaration].name.clone(), format!("{} {rule}", text(watch.value)))
+        })
     }
 }
 
@@ -145,13 +149,16 @@ impl ConstraintSystem {
     }
 }
 
-/// A title, and lines of two columns.
+/// A title, and lines of two columns; nothing where there are none.
 fn section(
     f: &mut std::fmt::Formatter<'_>,
     title: &str,
     lines: impl Iterator<Item = (String, String)>,
 ) -> std::fmt::Result {
     let lines: Vec<(String, String)> = lines.collect();
+    if lines.is_empty() {
+        return Ok(());
+    }
     let width = lines.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     writeln!(f, "\n{title}")?;
     for (name, text) in lines {

@@ -36,16 +36,18 @@ impl Lowering<'_> {
 
     /// `r_j + A_j k(u) − r_i^P`
     pub(super) fn point_follower(&mut self, joint: &Joint, point: PointId, profile: Profile) -> Vec<ExprId> {
+        let first_condition = self.conditions.len();
         let u = self.argument(joint, 0, profile);
         let local = self.along(profile, u);
         let (on_curve, point) = (self.placed(profile.frame(self.model), local.at), self.global(point));
         let rows = self.minus(on_curve, point).to_vec();
-        self.search(&rows, &[(u, profile)]);
+        self.search(&rows, &[(u, profile)], first_condition);
         rows
     }
 
     /// `[r_i + A_i k(u) − r_j − A_j m(w), (A_i k'(u))^⊥ᵀ (A_j m'(w))]`
     pub(super) fn cam(&mut self, joint: &Joint, first: Profile, second: Profile) -> Vec<ExprId> {
+        let first_condition = self.conditions.len();
         let (u, w) = (self.argument(joint, 0, first), self.argument(joint, 1, second));
         let (k, m) = (self.along(first, u), self.along(second, w));
         let frames = [first.frame(self.model), second.frame(self.model)];
@@ -64,12 +66,13 @@ impl Lowering<'_> {
         let (of_k, of_m) = (self.graph.mul(of_k, square), self.graph.mul(of_m, together));
         let curvature = self.graph.add(of_k, of_m);
         self.watch(curvature, WatchKind::Curvature, scale * scale);
-        self.search(&rows, &[(u, first), (w, second)]);
+        self.search(&rows, &[(u, first), (w, second)], first_condition);
         rows
     }
 
     /// `[v_j^⊥ᵀ(r_i + A_i k(u) − r_j^a), v_j^⊥ᵀ A_i k'(u)]`
     pub(super) fn flat_follower(&mut self, joint: &Joint, profile: Profile, face: AxisId) -> Vec<ExprId> {
+        let first_condition = self.conditions.len();
         let u = self.argument(joint, 0, profile);
         let local = self.along(profile, u);
         let frame = profile.frame(self.model);
@@ -83,7 +86,7 @@ impl Lowering<'_> {
         self.watch(along, WatchKind::Tangents, scale);
         let curvature = self.left_of(v, bend);
         self.watch(curvature, WatchKind::Curvature, scale);
-        self.search(&rows, &[(u, profile)]);
+        self.search(&rows, &[(u, profile)], first_condition);
         rows
     }
 

@@ -3,8 +3,8 @@
 //! A search needs numbers, and so it is made with the parameters' values; what comes out is an estimate and no more.
 
 use super::Lowering;
-use crate::expr::{ExprId, Node, Symbol};
-use crate::model::Profile;
+use crate::expr::{ExprId, Graph, Node, Symbol};
+use crate::model::{Mechanism, Profile};
 use std::f64::consts::PI;
 
 /// Places on one turn that are looked at for one argument.
@@ -15,130 +15,199 @@ const PLACES_OF_TWO: usize = 120;
 const CANDIDATES: usize = 8;
 /// An estimate need not be nearer than this.
 const REFINED: f64 = 1e-7;
+/// Steps downhill at most.
+const MOST_STEPS: usize = 1000;
+/// Mismatches that differ by less than this part of the widest are the same.
+const SAME: f64 = 1e-12;
+
+/// The numbers of a graph with all coordinates at their estimates, kept as the graph grows.
+#[derive(Default)]
+pub(super) struct Numbers {
+    values: Vec<f64>,
+    /// The estimates.
+    q: Vec<f64>,
+}
 
 /// The sum of squares of a joint's rows, as its arguments go, all else being as drawn.
-struct Mismatch<'l, 'm> {
-    lowering: &'l Lowering<'m>,
+struct Mismatch<'l> {
+    graph: &'l Graph,
     rows: &'l [ExprId],
-    /// All that the rows are built of.
-    nodes: Vec<ExprId>,
-    values: Vec<f64>,
-    /// The poses as written, and the arguments' estimates.
-    q: Vec<f64>,
+    /// What must be positive for a curve to have a point there.
+    conditions: &'l [ExprId],
+    /// The arguments' coordinates.
+    wanted: &'l [u32],
+    /// What depends on the last argument, and what depends only on the others.
+    inner: Vec<ExprId>,
+    outer: Vec<ExprId>,
+    values: &'l mut [f64],
 }
 
 impl Lowering<'_> {
     /// Sets those estimates of a joint's arguments that its curves do not give to the smallest sum of squares of its rows
-    /// in the written poses, over one turn (−π to π).
-    pub(super) fn search(&mut self, rows: &[ExprId], arguments: &[(ExprId, Profile)]) {
-        let wanted: Vec<usize> =
-            arguments.iter().filter(|(_, p)| !self.has_estimate(*p)).map(|&(u, _)| self.index(u)).collect();
-        if wanted.is_empty() {
-            return;
+    /// in the written poses, over one turn (−π to π), where the curves' conditions hold.
+    pub(super) fn search(&mut self, rows: &[ExprId], arguments: &[(ExprId, Profile)], first_condition: usize) {
+        let mut numbers = std::mem::take(&mut self.numbers);
+        numbers.extend(self.model, &self.graph, self.coordinates.iter().map(|coordinate| coordinate.estimate));
+        let open = arguments.iter().filter(|(_, profile)| !self.has_estimate(*profile));
+        let wanted: Vec<u32> = open.filter_map(|&(u, _)| self.index(u)).collect();
+        if !wanted.is_empty() {
+            let conditions: Vec<ExprId> = self.conditions[first_condition..].iter().map(|c| c.positive).collect();
+            let best = Mismatch::new(&self.graph, rows, &conditions, &wanted, &mut numbers.values).best();
+            for (&index, value) in wanted.iter().zip(best) {
+                self.coordinates[index as usize].estimate = self.graph.constant(value);
+                numbers.q[index as usize] = value;
+            }
         }
-        let mut mismatch = Mismatch {
-            lowering: self,
-            rows,
-            nodes: self.graph.reachable_with_tables(rows),
-            values: vec![f64::NAN; self.graph.len()],
-            q: self.coordinates.iter().map(|coordinate| self.number(coordinate.estimate)).collect(),
-        };
-        let best = mismatch.best(&wanted);
-        for (&index, value) in wanted.iter().zip(best) {
-            self.coordinates[index].estimate = self.graph.constant(value);
-        }
+        self.numbers = numbers;
     }
 
     fn has_estimate(&self, profile: Profile) -> bool {
         matches!(profile, Profile::Curve(curve) if self.model[curve].estimate.is_some())
     }
 
-    fn index(&self, u: ExprId) -> usize {
+    fn index(&self, u: ExprId) -> Option<u32> {
         match self.graph.node(u) {
-            Node::Symbol(Symbol::Coordinate { index, .. }) => index as usize,
-            _ => 0,
+            Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index),
+            _ => None,
         }
-    }
-
-    /// The value of a formula of parameters.
-    fn number(&self, id: ExprId) -> f64 {
-        self.graph.value(id, |symbol| match symbol {
-            Symbol::Param(k) => self.model.params[k as usize].value,
-            _ => f64::NAN,
-        })
     }
 }
 
-impl Mismatch<'_, '_> {
-    fn at(&mut self, wanted: &[usize], place: [f64; 2]) -> f64 {
-        for (&index, value) in wanted.iter().zip(place) {
-            self.q[index] = value;
+impl Numbers {
+    /// Takes in what the graph and the coordinates have grown by. Values that hold the argument of a contact are of no use
+    /// to others.
+    fn extend(&mut self, model: &Mechanism, graph: &Graph, estimates: impl Iterator<Item = ExprId>) {
+        let param = |symbol: Symbol| match symbol {
+            Symbol::Param(k) => model.params[k as usize].value,
+            _ => f64::NAN,
+        };
+        for estimate in estimates.skip(self.q.len()) {
+            self.q.push(graph.value(estimate, param));
         }
-        let (graph, model) = (&self.lowering.graph, self.lowering.model);
-        for &id in &self.nodes {
-            let values = &self.values;
-            let value = graph.node_value(
-                graph.node(id),
-                |child| values[child.index()],
-                |symbol| match symbol {
-                    Symbol::Param(k) => model.params[k as usize].value,
-                    Symbol::Coordinate { index, order: 0 } => self.q[index as usize],
-                    _ => f64::NAN,
-                },
-            );
-            self.values[id.index()] = value;
-        }
-        let sum: f64 = self.rows.iter().map(|row| self.values[row.index()] * self.values[row.index()]).sum();
-        // where the rows have no value there is no contact
-        if sum.is_finite() { sum } else { f64::INFINITY }
+        let q = &self.q;
+        graph.extend_values(&mut self.values, |symbol| match symbol {
+            Symbol::Coordinate { index, order: 0 } => q[index as usize],
+            other => param(other),
+        });
     }
+}
 
-    fn best(&mut self, wanted: &[usize]) -> [f64; 2] {
-        let places = if wanted.len() == 1 { PLACES } else { PLACES_OF_TWO };
-        let step = 2.0 * PI / places as f64;
-        let turn = |k: usize| -PI + k as f64 * step;
-        let others = if wanted.len() == 1 { 1 } else { places + 1 };
-        let mut found: Vec<(f64, [f64; 2])> = Vec::new();
-        for k in 0..=places {
-            for m in 0..others {
-                let place = [turn(k), turn(m)];
-                found.push((self.at(wanted, place), place));
+impl<'l> Mismatch<'l> {
+    fn new(
+        graph: &'l Graph,
+        rows: &'l [ExprId],
+        conditions: &'l [ExprId],
+        wanted: &'l [u32],
+        values: &'l mut [f64],
+    ) -> Mismatch<'l> {
+        let roots: Vec<ExprId> = rows.iter().chain(conditions).copied().collect();
+        let (mut inner, mut outer) = (Vec::new(), Vec::new());
+        // by node: nothing, an outer argument, the last argument
+        let mut depends = rustc_hash::FxHashMap::default();
+        for id in graph.reachable(&roots) {
+            let node = graph.node(id);
+            let level = match node {
+                Node::Symbol(Symbol::Coordinate { index, order: 0 }) => {
+                    wanted.iter().position(|&w| w == index).map_or(0, |k| if k + 1 == wanted.len() { 2 } else { 1 })
+                }
+                _ => node.children().as_slice().iter().map(|child| depends[child]).max().unwrap_or(0),
+            };
+            depends.insert(id, level);
+            match level {
+                2 => inner.push(id),
+                1 => outer.push(id),
+                _ => {}
             }
         }
-        let is_least = |at: usize| {
-            let (k, m) = (at / others, at % others);
-            let near = |k: usize, m: usize| found.get(k * others + m).map_or(f64::INFINITY, |f| f.0);
-            let here = found[at].0;
+        Mismatch { graph, rows, conditions, wanted, inner, outer, values }
+    }
+
+    fn run(&mut self, is_inner: bool, place: [f64; 2]) {
+        let nodes = if is_inner { &self.inner } else { &self.outer };
+        for &id in nodes {
+            let values = &*self.values;
+            let symbol = |symbol: Symbol| match symbol {
+                Symbol::Coordinate { index, .. } => {
+                    self.wanted.iter().position(|&w| w == index).map_or(f64::NAN, |k| place[k])
+                }
+                _ => f64::NAN,
+            };
+            self.values[id.index()] = self.graph.node_value(self.graph.node(id), |child| values[child.index()], symbol);
+        }
+    }
+
+    fn sum(&self) -> f64 {
+        let value = |id: &ExprId| self.values[id.index()];
+        let sum: f64 = self.rows.iter().map(|row| value(row) * value(row)).sum();
+        // where the rows have no value, or the curves no point, there is no contact
+        if sum.is_finite() && self.conditions.iter().all(|c| value(c) > 0.0) { sum } else { f64::INFINITY }
+    }
+
+    fn at(&mut self, place: [f64; 2]) -> f64 {
+        self.run(false, place);
+        self.run(true, place);
+        self.sum()
+    }
+
+    /// The mismatch all over one turn, place by place, the last argument going first.
+    fn everywhere(&mut self, places: usize) -> Vec<(f64, [f64; 2])> {
+        let turn = |k: usize| -PI + k as f64 * (2.0 * PI / places as f64);
+        let mut found = Vec::new();
+        if let [_] = self.wanted {
+            for k in 0..=places {
+                let place = [turn(k), 0.0];
+                found.push((self.at(place), place));
+            }
+            return found;
+        }
+        for k in 0..=places {
+            self.run(false, [turn(k), 0.0]);
+            for m in 0..=places {
+                let place = [turn(k), turn(m)];
+                self.run(true, place);
+                found.push((self.sum(), place));
+            }
+        }
+        found
+    }
+
+    /// The arguments of the smallest mismatch; of several that are as good, the first.
+    fn best(&mut self) -> [f64; 2] {
+        let is_single = self.wanted.len() == 1;
+        let places = if is_single { PLACES } else { PLACES_OF_TWO };
+        let others = if is_single { 1 } else { places + 1 };
+        let found = self.everywhere(places);
+        let near = |k: usize, m: usize| found.get(k * others + m).map_or(f64::INFINITY, |f| f.0);
+        let is_least = |at: &usize| {
+            let (k, m, here) = (at / others, at % others, found[*at].0);
             here.is_finite()
                 && (k == 0 || near(k - 1, m) >= here)
                 && (k == places || near(k + 1, m) >= here)
                 && (m == 0 || near(k, m - 1) >= here)
                 && (m + 1 == others || near(k, m + 1) >= here)
         };
-        let mut least: Vec<(f64, [f64; 2])> = (0..found.len()).filter(|&at| is_least(at)).map(|at| found[at]).collect();
-        least.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut least: Vec<usize> = (0..found.len()).filter(is_least).collect();
+        least.sort_by(|&a, &b| found[a].0.total_cmp(&found[b].0));
         least.truncate(CANDIDATES);
-        let mut best = (f64::INFINITY, [0.0; 2]);
-        for start in least {
-            let refined = self.refined(wanted, start, step);
-            // the first one counts where several are as good
-            if refined.0 < best.0 - 1e-12 * best.0.min(1.0) {
-                best = refined;
-            }
-        }
-        best.1
+        least.sort_unstable();
+        let step = 2.0 * PI / places as f64;
+        let refined: Vec<(f64, [f64; 2])> = least.into_iter().map(|at| self.refined(found[at], step)).collect();
+        let smallest = refined.iter().map(|f| f.0).fold(f64::INFINITY, f64::min);
+        let widest = found.iter().map(|f| f.0).filter(|sum| sum.is_finite()).fold(0.0, f64::max);
+        let as_good = |f: &&(f64, [f64; 2])| f.0 <= smallest + SAME * widest;
+        refined.iter().find(as_good).map_or([0.0; 2], |f| f.1)
     }
 
-    /// Goes downhill in ever smaller steps.
-    fn refined(&mut self, wanted: &[usize], start: (f64, [f64; 2]), step: f64) -> (f64, [f64; 2]) {
+    /// Goes downhill in ever smaller steps, within the turn.
+    fn refined(&mut self, start: (f64, [f64; 2]), step: f64) -> (f64, [f64; 2]) {
         let (mut best, mut step) = (start, step);
-        while step > REFINED {
+        for _ in 0..MOST_STEPS {
             let (here, mut stays) = (best.1, true);
-            for k in 0..wanted.len() {
+            for k in 0..self.wanted.len() {
                 for way in [-step, step] {
                     let mut place = here;
-                    place[k] += way;
-                    let value = self.at(wanted, place);
+                    place[k] = (place[k] + way).clamp(-PI, PI);
+                    let value = self.at(place);
                     if value < best.0 {
                         (best, stays) = ((value, place), false);
                     }
@@ -146,6 +215,9 @@ impl Mismatch<'_, '_> {
             }
             if stays {
                 step *= 0.5;
+            }
+            if step < REFINED {
+                break;
             }
         }
         best

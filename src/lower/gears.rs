@@ -88,7 +88,8 @@ impl Lowering<'_> {
         };
         let rolled = self.rolled_on(pinion, rack, sigma);
         let height = self.height(pinion, rack);
-        let distance = self.graph.unary(Unary::Abs, height);
+        // on the other side it is below zero
+        let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
         self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.len() });
         vec![self.graph.sub(rolled, phase)]

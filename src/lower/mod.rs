@@ -16,22 +16,26 @@ use crate::ir::{
     Owner, Param, Row, SparseRows, Watch,
 };
 use crate::model::{ConditionKind, EquationForm, Frame, Mechanism, Named, Quantity};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
+    let sizes = size::of_bodies(model);
     let mut lowering = Lowering {
         model,
         graph: Graph::new(),
         known: FxHashMap::default(),
         named: Vec::new(),
         as_drawn: false,
-        sizes: size::of_bodies(model),
+        largest_size: sizes.iter().copied().fold(0.0, f64::max),
+        sizes,
+        numbers: estimates::Numbers::default(),
         coordinates: Vec::new(),
         rows: Vec::new(),
         declarations: Vec::new(),
         conditions: Vec::new(),
+        known_conditions: FxHashSet::default(),
         watches: Vec::new(),
         fits: Vec::new(),
     };
@@ -73,7 +77,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         conditions: lowering.conditions,
         watches: lowering.watches,
         fits: lowering.fits,
-        length: lowering.sizes.iter().copied().fold(0.0, f64::max),
+        length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
@@ -89,12 +93,16 @@ struct Lowering<'m> {
     named: Vec<ExprId>,
     /// Whether frames stand in their poses as written, rather than where the coordinates put them.
     as_drawn: bool,
-    /// The size of each body (m).
+    /// The size of each body (m), and the largest of them.
     sizes: Vec<f64>,
+    largest_size: f64,
+    /// What the search for contacts knows already.
+    numbers: estimates::Numbers,
     coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
     declarations: Vec<Declaration>,
     conditions: Vec<Condition>,
+    known_conditions: FxHashSet<ExprId>,
     watches: Vec<Watch>,
     fits: Vec<Fit>,
 }
@@ -152,7 +160,7 @@ impl Lowering<'_> {
     /// The size of a frame's body (m), that of the largest for the ground.
     fn size(&self, frame: Frame) -> f64 {
         match frame {
-            Frame::Ground => self.sizes.iter().copied().fold(0.0, f64::max),
+            Frame::Ground => self.largest_size,
             Frame::Body(body) => self.sizes[body.index()],
         }
     }
@@ -208,6 +216,9 @@ impl Lowering<'_> {
     }
 
     fn condition(&mut self, condition: &crate::model::Condition, positive: ExprId) {
+        if !self.known_conditions.insert(positive) {
+            return;
+        }
         self.conditions.push(Condition {
             positive,
             kind: match condition.kind {

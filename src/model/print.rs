@@ -103,12 +103,19 @@ impl Text<'_> {
             JointKind::Cam(k, m) => vec![self.profile_text(k), self.profile_text(m)],
             JointKind::FlatFollower(profile, face) => vec![self.profile_text(profile), self.axis_text(face)],
         };
-        format!("{}({})", kind.word(), arguments.join(", "))
+        let drawn = match kind {
+            JointKind::Gear { phase: None, .. } | JointKind::RackPinion { phase: None, .. } => ", meshing as drawn",
+            _ => "",
+        };
+        format!("{}({}){drawn}", kind.word(), arguments.join(", "))
     }
 
     fn write_features(&self, f: &mut std::fmt::Formatter<'_>, frame: Frame) -> std::fmt::Result {
         for point in self.model.points.iter().filter(|point| point.frame == frame) {
-            let name = point.name.as_deref().unwrap_or("(literal)");
+            // a literal point is told where it is used
+            let Some(name) = &point.name else {
+                continue;
+            };
             writeln!(f, "    point {name} = ({}, {})", self.formula_text(point.at[0]), self.formula_text(point.at[1]))?;
         }
         for axis in self.model.axes.iter().filter(|axis| axis.frame == frame) {

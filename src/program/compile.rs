@@ -130,6 +130,7 @@ impl<'s> Layout<'s> {
                 let condition = self.comparison(stage, Comparison::Less, b, a);
                 self.push(stage, |to| Op::Either { to, condition, a, b })
             }
+            Node::Binary(Binary::Mod, a, b) => self.modulo(stage, self.register(a), self.register(b)),
             Node::Compare(comparison, a, b) => self.comparison(stage, comparison, self.register(a), self.register(b)),
             Node::Table(table, order, x) => self.table(stage, table, order, x),
             node => self.operation(stage, node),
@@ -167,6 +168,14 @@ impl<'s> Layout<'s> {
         let condition = self.comparison(stage, Comparison::Less, a, zero);
         let turned = self.push(stage, |to| Op::Neg { to, a });
         self.push(stage, |to| Op::Select { to, condition, a: turned, b: a })
+    }
+
+    /// `a − b·⌊a/b⌋`, by the operations of `math::modulo`.
+    fn modulo(&mut self, stage: Stage, a: Register, b: Register) -> Register {
+        let quotient = self.push(stage, |to| Op::Div { to, a, b });
+        let whole = self.push(stage, |to| Op::Unary { function: Unary::Floor, to, a: quotient });
+        let multiple = self.push(stage, |to| Op::Mul { to, a: b, b: whole });
+        self.push(stage, |to| Op::Sub { to, a, b: multiple })
     }
 
     fn comparison(&mut self, stage: Stage, comparison: Comparison, a: Register, b: Register) -> Register {

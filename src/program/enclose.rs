@@ -1,9 +1,9 @@
-//! Proof that no switch of time changes within an interval: the operations of [`Stage::Time`], run on intervals.
+//! Proof that nothing happens within a stretch of time: a program's operations, run on intervals.
 //!
-//! An enclosure holds every value that an operation takes while time goes through the interval; it may hold more, and the
-//! narrower the interval, the less more it holds.
+//! An enclosure holds every value that an operation takes while time, and where wanted the coordinates, go through their
+//! intervals; it may hold more, and the narrower the intervals, the less more it holds.
 
-use super::{Column, Op, Program, Registers, Stage};
+use super::{Column, Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -17,50 +17,143 @@ struct Interval {
 const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 const UNDECIDED: Interval = Interval { low: 0.0, high: 1.0 };
 
-/// Room for the enclosures of a program's registers.
+/// What must not happen: a switch that changes, a condition that fails, a watched quantity that changes its sign.
 #[derive(Clone, Debug)]
 pub struct Enclosure {
+    /// The operations behind all that, in order.
+    operations: Vec<Op>,
+    /// Results of the switches that must keep them.
+    switches: Vec<Register>,
+    /// What must stay above zero.
+    conditions: Vec<Register>,
+    /// What must keep its sign.
+    watches: Vec<Register>,
+    /// First of the coordinates; none where time alone goes on.
+    coordinates: Option<Register>,
+    time: Register,
     values: Vec<Interval>,
 }
 
 impl Enclosure {
-    /// Room for a program whose prologue has been run; allocates nothing later.
+    /// For what depends on time alone; the prologue must have been run. Allocates nothing later.
     #[must_use]
-    pub fn new(program: &Program, registers: &Registers) -> Enclosure {
-        // what time decides is written anew each time
-        Enclosure { values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect() }
+    pub fn of_time(program: &Program, registers: &Registers) -> Enclosure {
+        Enclosure::new(program, registers, true)
     }
 
-    /// Whether every switch of time keeps its frozen result from one time (s) to another.
-    pub fn is_steady(&mut self, program: &Program, registers: &Registers, from: f64, to: f64) -> bool {
-        let v = &mut self.values;
-        v[program.inputs.time as usize] = Interval { low: from, high: to };
-        for &op in program.stage(Stage::Time) {
-            let (to, value) = match op {
-                Op::SinCos { sin, cos, a } => {
-                    v[sin as usize] = wave(v[a as usize], unary_value(Unary::Sin, middle(v[a as usize])));
-                    (cos, wave(v[a as usize], unary_value(Unary::Cos, middle(v[a as usize]))))
-                }
-                _ => enclosed(program, op, v),
-            };
-            if op.switched().is_some() {
-                let frozen = registers.get(to);
-                if value.low.to_bits() != value.high.to_bits() || value.low.to_bits() != (frozen + 0.0).to_bits() {
-                    return false;
-                }
+    /// For what depends on the motion.
+    #[must_use]
+    pub fn of_motion(program: &Program, registers: &Registers) -> Enclosure {
+        Enclosure::new(program, registers, false)
+    }
+
+    fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
+        let mut in_motion = vec![false; program.registers()];
+        for &op in program.stage(Stage::Position) {
+            for register in program.operands(op).1 {
+                in_motion[register as usize] = true;
             }
-            v[to as usize] = value;
         }
-        true
+        let wanted = |register: &Register| in_motion[*register as usize] != on_time;
+        let switches: Vec<Register> =
+            program.switches().iter().filter(|switch| switch.on_time == on_time).map(|switch| switch.to).collect();
+        let of = |list: &[Register]| list.iter().copied().filter(wanted).collect::<Vec<Register>>();
+        let (conditions, watches) = (of(&program.outputs.conditions), of(&program.outputs.watches));
+        let roots: Vec<Register> = switches.iter().chain(&conditions).chain(&watches).copied().collect();
+        Enclosure {
+            operations: behind(program, &roots, on_time),
+            switches,
+            conditions,
+            watches,
+            coordinates: (!on_time).then_some(program.inputs.coordinates[0]),
+            time: program.inputs.time,
+            // what is computed is written anew each time
+            values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
+        }
+    }
+
+    /// Whether there is nothing to prove.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.switches.is_empty() && self.conditions.is_empty() && self.watches.is_empty()
+    }
+
+    /// Whether all conditions hold, by their values.
+    pub fn conditions_hold(&self, value: impl Fn(Register) -> f64) -> bool {
+        self.conditions.iter().all(|&register| value(register) > 0.0)
+    }
+
+    /// Whether nothing happens from one time (s) to another, the coordinates staying in their intervals (middle and
+    /// reach). What is frozen or watched is what `registers` have now; a switch that `may_change` is passed over.
+    pub fn is_steady(
+        &mut self,
+        program: &Program,
+        registers: &Registers,
+        [from, to]: [f64; 2],
+        coordinates: &[[f64; 2]],
+        may_change: impl Fn(Register) -> bool,
+    ) -> bool {
+        let v = &mut self.values;
+        v[self.time as usize] = Interval { low: from, high: to };
+        if let Some(first) = self.coordinates {
+            for (k, [middle, reach]) in coordinates.iter().enumerate() {
+                v[first as usize + k] = wider(middle - reach, middle + reach);
+            }
+        }
+        for &op in &self.operations {
+            if let Op::SinCos { sin, cos, a } = op {
+                let (sine, cosine) = (of_one(Unary::Sin, v[a as usize]), of_one(Unary::Cos, v[a as usize]));
+                (v[sin as usize], v[cos as usize]) = (sine, cosine);
+                continue;
+            }
+            let (to, value) = enclosed(program, op, v);
+            if op.switched().is_none() {
+                v[to as usize] = value;
+                continue;
+            }
+            let frozen = point(registers.get(to));
+            let is_same = [value.low, value.high].iter().all(|end| end.to_bits() == frozen.low.to_bits());
+            if !is_same && self.switches.contains(&to) && !may_change(to) {
+                return false;
+            }
+            v[to as usize] = frozen;
+        }
+        let has_sign = |register: &Register| {
+            let (now, value) = (registers.get(*register), v[*register as usize]);
+            if now > 0.0 { value.low > 0.0 } else { value.high <= 0.0 }
+        };
+        self.conditions.iter().all(|&register| v[register as usize].low > 0.0) && self.watches.iter().all(has_sign)
     }
 }
 
+/// The operations behind some registers, those of time or those of position too.
+fn behind(program: &Program, roots: &[Register], on_time: bool) -> Vec<Op> {
+    let mut needed = vec![false; program.registers()];
+    for &root in roots {
+        needed[root as usize] = true;
+    }
+    let stages: &[Stage] = if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] };
+    let mut operations = Vec::new();
+    for &op in stages.iter().flat_map(|&stage| program.stage(stage).iter().rev()) {
+        let (reads, writes) = program.operands(op);
+        if writes.iter().any(|&register| needed[register as usize]) {
+            operations.push(op);
+            for register in reads {
+                needed[register as usize] = true;
+            }
+        }
+    }
+    operations.reverse();
+    operations
+}
+
 /// An operation's register and the enclosure of its result.
-fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (u32, Interval) {
-    let at = |register: u32| v[register as usize];
+fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
+    let at = |register: Register| v[register as usize];
     match op {
         Op::Add { to, a, b } => (to, wider(at(a).low + at(b).low, at(a).high + at(b).high)),
         Op::Sub { to, a, b } => (to, wider(at(a).low - at(b).high, at(a).high - at(b).low)),
+        Op::Mul { to, a, b } if a == b => (to, square(at(a))),
         Op::Mul { to, a, b } => (to, corners(at(a), at(b), |x, y| if x == 0.0 || y == 0.0 { 0.0 } else { x * y })),
         Op::Div { to, a, b } => (to, quotient(at(a), at(b))),
         Op::Recip { to, a } => (to, quotient(point(1.0), at(a))),
@@ -70,11 +163,12 @@ fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (u32, Interval) {
         // a number is what it is
         Op::Compare { comparison, to, a, b } if a == b => (to, point(compare(comparison, 0.0, 0.0))),
         Op::Compare { comparison, to, a, b } => (to, compared(comparison, at(a), at(b))),
-        Op::And { to, a, b } => (to, Interval { low: at(a).low.min(at(b).low), high: at(a).high.min(at(b).high) }),
-        Op::Or { to, a, b } => (to, Interval { low: at(a).low.max(at(b).low), high: at(a).high.max(at(b).high) }),
-        Op::Not { to, a } => (to, Interval { low: 1.0 - at(a).high, high: 1.0 - at(a).low }),
+        // switches are points once they have been looked at
+        Op::And { to, a, b } => (to, point(at(a).low.min(at(b).low))),
+        Op::Or { to, a, b } => (to, point(at(a).low.max(at(b).low))),
+        Op::Not { to, a } => (to, point(1.0 - at(a).low)),
         Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
-            (to, chosen(at(condition), at(a), at(b)))
+            (to, if at(condition).low == 0.0 { at(b) } else { at(a) })
         }
         Op::Copy { to, a } => (to, at(a)),
         Op::Piece { to, table, a } => {
@@ -83,7 +177,7 @@ fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (u32, Interval) {
             let number = |x: f64| piece(layout.pieces as usize, knot, x) as f64;
             (to, Interval { low: number(at(a).low), high: number(at(a).high) })
         }
-        Op::Pick { to, table, column, piece } => (to, picked(program, table, column, at(piece), v)),
+        Op::Pick { to, table, column, piece } => (to, picked(program, table, column, at(piece).low, v)),
         // both results are written where it is met
         Op::SinCos { sin, .. } => (sin, WHOLE),
     }
@@ -98,22 +192,23 @@ fn wider(low: f64, high: f64) -> Interval {
     if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low.next_down(), high: high.next_up() } }
 }
 
-fn middle(a: Interval) -> f64 {
-    0.5 * a.low + 0.5 * a.high
-}
-
-fn hull(a: Interval, b: Interval) -> Interval {
-    Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
-}
-
 /// A sine or cosine changes by no more than its argument.
-fn wave(a: Interval, at_middle: f64) -> Interval {
-    let reach = 0.5 * (a.high - a.low);
-    if at_middle.is_nan() || !reach.is_finite() {
+fn wave(function: Unary, a: Interval) -> Interval {
+    let middle = 0.5 * a.low + 0.5 * a.high;
+    let reach = (a.high - middle).max(middle - a.low).next_up();
+    let value = unary_value(function, middle);
+    if value.is_nan() || !reach.is_finite() {
         return Interval { low: -1.0, high: 1.0 };
     }
-    let reached = wider(at_middle - reach - 1e-15, at_middle + reach + 1e-15);
+    let reached = wider(value - reach - 2.0 * f64::EPSILON, value + reach + 2.0 * f64::EPSILON);
     Interval { low: reached.low.max(-1.0), high: reached.high.min(1.0) }
+}
+
+/// Never below zero.
+fn square(a: Interval) -> Interval {
+    let a = of_one(Unary::Abs, a);
+    let squared = wider(a.low * a.low, a.high * a.high);
+    Interval { low: squared.low.max(0.0), high: squared.high }
 }
 
 /// Of a function that is monotone in each operand: its values at the corners hold all others between them.
@@ -132,7 +227,7 @@ fn quotient(a: Interval, b: Interval) -> Interval {
 fn of_one(function: Unary, a: Interval) -> Interval {
     let (low, high) = (unary_value(function, a.low), unary_value(function, a.high));
     match function {
-        Unary::Sin | Unary::Cos => wave(a, unary_value(function, middle(a))),
+        Unary::Sin | Unary::Cos => wave(function, a),
         // exact, and they never fall
         Unary::Sign | Unary::Floor if !low.is_nan() && !high.is_nan() => Interval { low: low + 0.0, high: high + 0.0 },
         Unary::Acos => loose(high, low),
@@ -142,9 +237,11 @@ fn of_one(function: Unary, a: Interval) -> Interval {
         Unary::Cosh if a.low < 0.0 && a.high > 0.0 => loose(1.0, low.max(high)),
         Unary::Cosh => loose(low.min(high), low.max(high)),
         Unary::Tan => {
+            // the poles are known as well as the argument is
+            let slack = 1e-9 + 4.0 * f64::EPSILON * a.low.abs().max(a.high.abs());
             let branch = |x: f64| crate::math::floor((x + FRAC_PI_2) / PI);
-            let one_branch = branch(a.low - 1e-9).to_bits() == branch(a.high + 1e-9).to_bits();
-            if one_branch { loose(low, high) } else { WHOLE }
+            let one_branch = branch(a.low - slack).to_bits() == branch(a.high + slack).to_bits();
+            if one_branch && low <= high { loose(low, high) } else { WHOLE }
         }
         // all others rise
         _ => loose(low, high),
@@ -158,9 +255,10 @@ fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
         Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
         Binary::Pow if a.low > 0.0 => loosened(corners(a, b, value)),
-        Binary::Pow => WHOLE,
         Binary::Atan2 if b.low > 0.0 => loosened(corners(a, b, value)),
         Binary::Atan2 => Interval { low: -PI, high: PI },
+        // the last is laid out as other operations
+        Binary::Pow | Binary::Mod => WHOLE,
     }
 }
 
@@ -183,22 +281,13 @@ fn compared(comparison: Comparison, a: Interval, b: Interval) -> Interval {
     }
 }
 
-fn chosen(condition: Interval, a: Interval, b: Interval) -> Interval {
-    match (condition.low > 0.0, condition.high <= 0.0) {
-        (true, _) => a,
-        (_, true) => b,
-        _ => hull(a, b),
-    }
-}
-
-fn picked(program: &Program, table: u32, column: Column, piece: Interval, v: &[Interval]) -> Interval {
+fn picked(program: &Program, table: u32, column: Column, piece: f64, v: &[Interval]) -> Interval {
     let range = program.tables()[table as usize].column(column);
-    if piece.low.is_nan() || piece.high.is_nan() || piece.low < 0.0 {
+    if piece.is_nan() || piece < 0.0 {
         return WHOLE;
     }
     // pieces are small whole numbers
     #[allow(clippy::cast_sign_loss)]
-    let (first, last) = (range.start + piece.low as u32, range.start + piece.high as u32);
-    let last = last.min(range.end - 1);
-    (first.min(last)..=last).map(|k| v[k as usize]).reduce(hull).unwrap_or(WHOLE)
+    let at = range.start + piece as u32;
+    v[at.min(range.end - 1) as usize]
 }
