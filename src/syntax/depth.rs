@@ -61,7 +61,7 @@ fn set_last(level: &mut [bool], after_last_else: bool) {
 }
 
 /// The next word or character that is neither comment, string nor white space.
-fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
+pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
     loop {
         let text = rest.trim_start();
         let first = text.chars().next()?;

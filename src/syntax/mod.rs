@@ -9,6 +9,7 @@ mod errors;
 pub mod format;
 mod formula;
 mod parse;
+mod recover;
 
 pub use depth::DEEPEST;
 pub use format::format;

@@ -1,11 +1,12 @@
 //! From the parser's pairs to the tree of declarations.
 
 use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
-use super::{depth, errors, formula};
+use super::{depth, errors, formula, recover};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
 use pest::Parser;
 use pest::iterators::{Pair, Pairs};
+use std::borrow::Cow;
 use unicode_normalization::UnicodeNormalization;
 
 pub(super) use grammar::Rule;
@@ -21,25 +22,50 @@ mod grammar {
 /// Stack that the deepest text may take, in bytes.
 const STACK: usize = 16 << 20;
 
+/// So many faults of one text are told; each costs another reading.
+const MOST_FAULTS: usize = 20;
+
 /// A fault is rare and large; the way without one should be quick.
 pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
 
 /// The tree of a file.
 ///
 /// # Errors
-/// The first fault of the text: nested too deep, not of the grammar, or without any mechanism.
+/// The faults of the text: nested too deep, not of the grammar, or without any mechanism. After one the reading goes on
+/// behind the declaration that holds it.
 pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
-    on_a_deep_stack(sources, file, |reader| {
-        let mechanisms = reader
-            .read(Rule::file)?
-            .filter(|pair| pair.as_rule() == Rule::mechanism)
-            .map(|pair| reader.mechanism(pair))
-            .collect::<Built<Vec<_>>>()?;
-        if mechanisms.is_empty() {
-            return Err(Box::new(errors::no_mechanism(sources.end_of(file))));
+    let mut source = Cow::Borrowed(sources.get(file));
+    let mut faults = Diagnostics::default();
+    let (mut last, mut stays) = (None, false);
+    loop {
+        let fault = match on_a_deep_stack(&source, file, |reader| reader.mechanisms()) {
+            Ok(mechanisms) if faults.is_empty() && mechanisms.is_empty() => {
+                return Err(errors::no_mechanism(sources.end_of(file)).into());
+            }
+            Ok(mechanisms) if faults.is_empty() => return Ok(File { mechanisms }),
+            Ok(_) => return Err(sorted(faults)),
+            Err(fault) => fault,
+        };
+        let at = fault.labels.first().map_or(0, |label| label.span.start as usize);
+        if last == Some(at) {
+            // the declaration before it was not to blame, the one that begins there is
+            if std::mem::replace(&mut stays, true) {
+                return Err(sorted(faults));
+            }
+        } else {
+            faults.push(*fault);
+            stays = false;
         }
-        Ok(File { mechanisms })
-    })
+        last = Some(at);
+        if faults.len() == MOST_FAULTS || !recover::blank(&mut source.to_mut().text, at, stays) {
+            return Err(sorted(faults));
+        }
+    }
+}
+
+fn sorted(mut faults: Diagnostics) -> Diagnostics {
+    faults.sort_by_place();
+    faults
 }
 
 /// A formula alone, as the command line takes it.
@@ -47,10 +73,11 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
 /// # Errors
 /// As [`parse`].
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
-    on_a_deep_stack(sources, file, |reader| {
+    on_a_deep_stack(sources.get(file), file, |reader| {
         let mut pairs = reader.read(Rule::expression_only)?;
         reader.next_expr(&mut pairs)
     })
+    .map_err(|fault| (*fault).into())
 }
 
 /// A name as it is compared: in NFC.
@@ -66,14 +93,9 @@ pub fn is_name(text: &str) -> bool {
     pair.is_some_and(|pair| pair.as_str().len() == text.len())
 }
 
-fn on_a_deep_stack<T>(
-    sources: &Sources,
-    file: FileId,
-    work: impl FnOnce(&Reader<'_>) -> Built<T>,
-) -> Result<T, Diagnostics> {
-    let source = sources.get(file);
-    depth::measure(&source.text, file).map_err(|fault| *fault)?;
-    stacker::maybe_grow(STACK, STACK, || work(&Reader { source, file }).map_err(|fault| (*fault).into()))
+fn on_a_deep_stack<T>(source: &Source, file: FileId, work: impl FnOnce(&Reader<'_>) -> Built<T>) -> Built<T> {
+    depth::measure(&source.text, file)?;
+    stacker::maybe_grow(STACK, STACK, || work(&Reader { source, file }))
 }
 
 /// Builds the nodes of one text.
@@ -83,6 +105,11 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
+    fn mechanisms(&self) -> Built<Vec<Mechanism>> {
+        let mechanisms = self.read(Rule::file)?.filter(|pair| pair.as_rule() == Rule::mechanism);
+        mechanisms.map(|pair| self.mechanism(pair)).collect()
+    }
+
     /// The pairs inside one rule that matches the whole text.
     fn read(&self, rule: Rule) -> Built<Pairs<'a, Rule>> {
         let pairs = grammar::Grammar::parse(rule, &self.source.text)
