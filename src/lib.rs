@@ -79,10 +79,10 @@ pub fn compile(
     sources: &Sources,
 ) -> (Option<Determined>, Diagnostics) {
     let (model, mut diagnostics) = check::check(mechanism, surroundings, sources);
-    let determined = model.and_then(|model| match structure::prove(lower::lower(&model)) {
-        Ok(determined) => Some(determined),
-        Err(diagnostic) => {
-            diagnostics.push(*diagnostic);
+    let determined = model.and_then(|model| match analysis::determine(lower::lower(&model), false) {
+        Ok((determined, _)) => Some(determined),
+        Err(why) => {
+            diagnostics.extend(why);
             None
         }
     });

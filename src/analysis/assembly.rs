@@ -29,6 +29,12 @@ const LARGEST_DENSE: usize = 300;
 const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.
 const SINGULAR_START: f64 = 1e-5;
+/// Times nearby at which a singular start is looked at, as parts of the span.
+const NEARBY: [f64; 4] = [3e-3, -3e-3, 1e-2, -1e-2];
+/// A position that differs by less than this, scaled, is the same.
+const MOVED: f64 = 1e-4;
+/// Equations that are open by less than this hold nearly.
+const OPEN_NEARBY: f64 = 1e-9;
 /// A tangent shorter than this, in sizes of its body, is none.
 const VANISHING_TANGENT: f64 = 1e-7;
 
@@ -242,7 +248,30 @@ fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result
         return Ok(());
     }
     let vectors = kinematics.worst();
-    Err(Box::new(singular::name_start(system, &vectors.left, &vectors.right, t)))
+    let elsewhere = independent_nearby(kinematics, q, t);
+    Err(Box::new(singular::name_start(system, (&vectors.left, &vectors.right), elsewhere, t)))
+}
+
+/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
+fn independent_nearby(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Option<bool> {
+    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
+    for part in NEARBY {
+        kinematics.set_time(t + part * span);
+        let near = least_squares(kinematics, q.to_vec());
+        let moved = near
+            .iter()
+            .zip(q)
+            .enumerate()
+            .any(|(k, (a, b))| (a - b).abs() > MOVED * kinematics.linear().column_scale(k));
+        let holds = kinematics.set_position(&near).is_ok() && {
+            let _ = kinematics.factor();
+            kinematics.hold_nearly(OPEN_NEARBY)
+        };
+        if moved && holds {
+            return Some(kinematics.nearness(SINGULAR_START) > SINGULAR_START);
+        }
+    }
+    None
 }
 
 /// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
@@ -287,7 +316,7 @@ fn levenberg_marquardt(kinematics: &mut Kinematics<'_>, q: &mut [f64], rows: &[u
         if norm.sqrt() < 1e-15 {
             return;
         }
-        let step = damped_solution(&jacobian, &residual, damping, m);
+        let step = damped_solution(&jacobian, &residual, damping, [m, m]);
         let before: Vec<f64> = q.to_vec();
         let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
         let cut = if longest > LARGEST_STEP { LARGEST_STEP / longest } else { 1.0 };
@@ -354,18 +383,20 @@ fn linearize(
 }
 
 /// The x of least |J x + r|² + λ|x|², by Householder reflections of J above √λ I.
-fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, m: usize) -> Vec<f64> {
-    let height = 2 * m;
+pub(super) fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, [m, n]: [usize; 2]) -> Vec<f64> {
+    let height = m + n;
     // column by column, with the right side as the last one
-    let mut a = vec![0.0; height * (m + 1)];
+    let mut a = vec![0.0; height * (n + 1)];
     for i in 0..m {
-        for j in 0..m {
-            a[j * height + i] = jacobian[i * m + j];
+        for j in 0..n {
+            a[j * height + i] = jacobian[i * n + j];
         }
-        a[i * height + m + i] = damping.sqrt();
-        a[m * height + i] = -residual[i];
+        a[n * height + i] = -residual[i];
     }
-    for k in 0..m {
+    for j in 0..n {
+        a[j * height + m + j] = damping.sqrt();
+    }
+    for k in 0..n {
         let (done, rest) = a.split_at_mut((k + 1) * height);
         let column = &mut done[k * height..];
         let norm = square(&column[k..]).sqrt();
@@ -380,10 +411,10 @@ fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, m: usize) -
         }
         column[k] = pivot;
     }
-    let mut x = vec![0.0; m];
-    for i in (0..m).rev() {
-        let mut sum = a[m * height + i];
-        for j in i + 1..m {
+    let mut x = vec![0.0; n];
+    for i in (0..n).rev() {
+        let mut sum = a[n * height + i];
+        for j in i + 1..n {
             sum -= a[j * height + i] * x[j];
         }
         x[i] = sum / a[i * height + i];

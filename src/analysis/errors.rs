@@ -2,7 +2,9 @@
 
 use super::assembly::Moved;
 use super::kinematics::Fault;
-use crate::diag::{Code, Diagnostic};
+use super::redundancy::Dependent;
+use super::singular::StartVerdict;
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::{ConditionKind, ConstraintSystem, CoordinateKind, DeclarationKind, Fit, WatchKind};
 
 /// Labels of one message at most.
@@ -44,7 +46,7 @@ fn length(metres: f64) -> String {
     format!("{} {unit}", three_digits(value))
 }
 
-fn three_digits(value: f64) -> String {
+pub fn three_digits(value: f64) -> String {
     readable(format!("{value:.2e}").parse().unwrap_or(value))
 }
 
@@ -77,6 +79,7 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
         }
         Fault::Condition { index } => condition(system, index, t),
         Fault::Watch { index } => no_contact(system, index, t),
+        Fault::Check { index } => ceases_to_hold(system, index, t),
         Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Edge { .. } => cannot_follow(system, t, None),
     }
 }
@@ -117,6 +120,135 @@ fn named_all(system: &ConstraintSystem, declarations: &[usize]) -> String {
         .map(|&k| format!("{} `{}`", system.declarations[k].kind.noun(), system.declarations[k].name))
         .collect();
     names.join(" and ")
+}
+
+/// Whether a row is about places, or about angles alone.
+pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
+    let mut kinds = system.phi_q.row(row).iter().map(|&(column, _)| system.coordinates[column as usize].kind);
+    if kinds.any(|kind| kind == CoordinateKind::Length) { CoordinateKind::Length } else { CoordinateKind::Angle }
+}
+
+/// Equations that depend on others: a message for each declaration that wrote them.
+pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for group in dependents.chunk_by(|a, b| system.rows[a.row].declaration == system.rows[b.row].declaration) {
+        let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
+        diagnostics.push(match widest {
+            Some((one, (by, t))) => conflicting(system, group, one, by, t),
+            None => redundant(system, group),
+        });
+    }
+    diagnostics
+}
+
+/// The declarations that a group of rows of one declaration depends on, in order.
+fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<usize> {
+    let own = group.first().map(|one| system.rows[one.row].declaration);
+    let rows = group.iter().flat_map(|one| &one.on).map(|&(row, _)| system.rows[row].declaration);
+    let mut declarations: Vec<usize> = rows.filter(|&declaration| Some(declaration) != own).collect();
+    declarations.sort_unstable();
+    declarations.dedup();
+    declarations
+}
+
+fn count_data(diagnostic: Diagnostic, system: &ConstraintSystem, declaration: usize) -> Diagnostic {
+    let (n, m) = (system.coordinates.len(), system.rows.len());
+    diagnostic
+        .note(format!("{n} coordinates, {m} equations: NDOF = {}", system.ndof()))
+        .datum("coordinates", n)
+        .datum("equations", m)
+        .datum("ndof", system.ndof())
+        .datum("redundant", vec![system.declarations[declaration].name.clone()])
+}
+
+fn redundant(system: &ConstraintSystem, group: &[Dependent]) -> Diagnostic {
+    let on = depends_on(system, group);
+    let index = group.first().map_or(0, |one| system.rows[one.row].declaration);
+    let declaration = &system.declarations[index];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let message = match group.len() {
+        k if k == declaration.rows => format!("{noun} `{name}` is redundant: the others hold it already"),
+        1 => format!("1 equation of {noun} `{name}` is redundant: the others hold it already"),
+        k => format!("{k} equations of {noun} `{name}` are redundant: the others hold them already"),
+    };
+    let mut diagnostic = Diagnostic::new(Code::E0506, message).at(declaration.span, "says nothing new");
+    for (k, &other) in on.iter().take(LISTED).enumerate() {
+        let text = if k == 0 { "it follows from these" } else { "" };
+        diagnostic = diagnostic.also(system.declarations[other].span, text);
+    }
+    count_data(diagnostic, system, index)
+        .help(mend(system, group))
+        .help("or allow it: `--allow-redundant` leaves it out, and checks at every time that it holds")
+}
+
+/// What to write instead of a redundant joint, constraint or driver.
+fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
+    let index = group.first().map_or(0, |one| system.rows[one.row].declaration);
+    let declaration = &system.declarations[index];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let whole = format!("take the {noun} `{name}` away");
+    if group.len() == declaration.rows {
+        return whole;
+    }
+    match declaration.kind {
+        DeclarationKind::Joint("revolute") => format!(
+            "let the pin of `{name}` slide along the line between the pins of its link: \
+             `joint {name}: revolute_translational(P, axis)`, with an axis along that line"
+        ),
+        DeclarationKind::Joint("translational") => format!(
+            "let `{name}` hold a point on the axis, and not the angle too: `joint {name}: revolute_translational(P, axis)`"
+        ),
+        DeclarationKind::Joint("weld") => {
+            format!("let `{name}` hold the point, and not the angle too: `joint {name}: revolute(P, Q)`")
+        }
+        _ => whole,
+    }
+}
+
+fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, by: f64, t: f64) -> Diagnostic {
+    let on = depends_on(system, group);
+    let index = system.rows[one.row].declaration;
+    let declaration = &system.declarations[index];
+    let by = if gap_kind(system, one.row) == CoordinateKind::Length { length(by) } else { degrees(by) };
+    let others = named_all(system, &on[..on.len().min(3)]);
+    let more = if on.len() > 3 { " and others" } else { "" };
+    let message = format!("{} `{}` cannot hold beside {others}{more}", declaration.kind.noun(), declaration.name);
+    let mut diagnostic =
+        Diagnostic::new(Code::E0507, message).at(declaration.span, format!("off by {by} at {}", at(t)));
+    for &other in on.iter().take(LISTED) {
+        diagnostic = diagnostic.also(system.declarations[other].span, "");
+    }
+    count_data(diagnostic, system, index)
+        .help(format!("take one of them away, or make `{}` agree with the others", declaration.name))
+        .datum("t", t)
+}
+
+/// What is said of equations that are left out because that was allowed.
+pub fn left_out(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for group in dependents.chunk_by(|a, b| system.rows[a.row].declaration == system.rows[b.row].declaration) {
+        let index = group.first().map_or(0, |one| system.rows[one.row].declaration);
+        let declaration = &system.declarations[index];
+        let what = if group.len() == 1 { "1 equation".to_owned() } else { format!("{} equations", group.len()) };
+        let message = format!(
+            "{what} of {} `{}` left out: the others hold it already",
+            declaration.kind.noun(),
+            declaration.name
+        );
+        let diagnostic = Diagnostic::new(Code::W0502, message).at(declaration.span, "checked at every time");
+        diagnostics.push(diagnostic.help(mend(system, group)));
+    }
+    diagnostics
+}
+
+/// An equation that was left out and does not follow from the others any more.
+pub fn ceases_to_hold(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let declaration = &system.declarations[system.checks[index].declaration];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    Diagnostic::new(Code::E0611, format!("{noun} `{name}`, which was left out, ceases to hold at {}", at(t)))
+        .at(declaration.span, "redundant at the start, but not here")
+        .help(format!("`{name}` conflicts with the others: take one of them away"))
+        .datum("t", t)
 }
 
 fn in_units(system: &ConstraintSystem, column: usize, value: f64) -> String {
@@ -364,14 +496,38 @@ pub fn without_effect(system: &ConstraintSystem, row: usize, t: f64) -> Diagnost
         .datum("t", t)
 }
 
-pub fn singular_start(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
-    let diagnostic = Diagnostic::new(
-        Code::E0504,
-        format!("the equations are not independent in the assembled position at {}", at(t)),
-    );
-    with_places(diagnostic, system, joints, "these depend on each other there")
-        .note(owners(system, columns, "are left free to move"))
-        .help("a dead point or change point: start at another time; else one of these joints is redundant")
+pub fn singular_start(
+    system: &ConstraintSystem,
+    joints: &[usize],
+    columns: &[usize],
+    verdict: StartVerdict,
+    t: f64,
+) -> Diagnostic {
+    let (message, help) = match verdict {
+        StartVerdict::Always => (
+            format!("the equations are not independent, at {} or at any other time", at(t)),
+            "one of these joints is redundant, and a driver or joint is missing that fixes what is left free"
+                .to_owned(),
+        ),
+        StartVerdict::LockUp(row) => (
+            format!(
+                "the mechanism starts in a dead point at {}: driver `{}` cannot move it",
+                at(t),
+                system.declaration_of(row).name
+            ),
+            "start at another time, drive another joint, or change a length".to_owned(),
+        ),
+        StartVerdict::Bifurcation => (
+            format!("the mechanism starts where two branches of its motion meet, at {}", at(t)),
+            "start at another time, with estimates that show the branch".to_owned(),
+        ),
+        StartVerdict::Unknown => (
+            format!("the equations are not independent in the assembled position at {}", at(t)),
+            "a dead point or change point: start at another time; else one of these joints is redundant".to_owned(),
+        ),
+    };
+    with_places(Diagnostic::new(Code::E0504, message), system, joints, "these depend on each other there")
+        .help(help)
         .datum("t", t)
         .datum("coordinates", system.coordinates.len())
         .datum("equations", system.rows.len())

@@ -10,6 +10,9 @@ use crate::structure::Determined;
 /// Largest irreducible block that the dense factors can hold.
 const LARGEST_BLOCK: usize = 4000;
 
+/// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
+const CHECKED: f64 = 1e-9;
+
 /// A time with the coordinates and their derivatives.
 #[derive(Clone, Debug)]
 pub(super) struct State {
@@ -54,6 +57,8 @@ pub(super) enum Fault {
     Condition { index: usize },
     /// What is watched changes its sign: its number.
     Watch { index: usize },
+    /// An equation that was left out ceases to hold: its number among the checks.
+    Check { index: usize },
     /// Derivatives would be more rounding than digits.
     Uncertain,
     /// The step goes over an edge, which lies before a time (s).
@@ -212,6 +217,13 @@ impl<'d> Kinematics<'d> {
         self.registers.get(register)
     }
 
+    /// The equation that was left out and does not hold where the position was set.
+    pub fn broken_check(&self) -> Option<usize> {
+        let checks = self.system().checks.iter().zip(&self.program.outputs.checks);
+        let mut open = checks.map(|(check, &register)| self.registers.get(register).abs() / check.scale);
+        open.position(|open| open.is_nan() || open > CHECKED)
+    }
+
     /// A quantity that is watched, against its scale, where the position was set.
     pub fn watched(&self, index: usize) -> f64 {
         self.registers.get(self.program.outputs.watches[index]) / self.system().watches[index].scale
@@ -264,6 +276,11 @@ impl<'d> Kinematics<'d> {
     /// Whether some rows hold, to the tolerance.
     pub fn hold(&self, rows: &[u32]) -> bool {
         rows.iter().all(|&row| self.is_met(row as usize))
+    }
+
+    /// Whether all rows are open by no more than `limit`, scaled.
+    pub fn hold_nearly(&self, limit: f64) -> bool {
+        (0..self.system().rows.len()).all(|row| self.residual(row) <= limit)
     }
 
     /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.

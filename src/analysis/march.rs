@@ -310,6 +310,9 @@ impl<'m, 'd> Motion<'m, 'd> {
             }
             self.kinematics.set_position(&self.trial.q)?;
             if size <= SETTLED && self.kinematics.violated().is_none() {
+                if let Some(index) = self.kinematics.broken_check() {
+                    return Err(Fault::Check { index });
+                }
                 self.kinematics.factor()?;
                 return Ok(first.unwrap_or(size));
             }

@@ -14,11 +14,13 @@ mod errors;
 mod kinematics;
 mod linear;
 mod march;
+mod redundancy;
 mod singular;
 mod times;
 
 pub use assembly::Moved;
 pub use march::Motion;
+pub use redundancy::determine;
 pub use times::Times;
 
 use crate::diag::{Diagnostic, Diagnostics};

@@ -3,12 +3,14 @@
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, DeclarationKind, WatchKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
 
 /// Below this the position is called singular, or as near to one as the steps could come.
 const NEAR: f64 = 1e-2;
 /// A relative curvature below this is taken for none, beside a position that is singular.
 const FLAT: f64 = 1e-3;
+/// A part of the largest motion that is worth telling.
+const SEEN: f64 = 1e-3;
 /// A driver takes part in a dependency if its share is above this part of the largest.
 const TAKES_PART: f64 = 1e-3;
 
@@ -17,6 +19,9 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     let system = kinematics.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
         return errors::no_value(system, fault, state.t + h);
+    }
+    if let Fault::Check { index } = fault {
+        return errors::ceases_to_hold(system, index, state.t);
     }
     // a formula that ends just ahead, or at the end of the step, explains more than the equations do
     let just_ahead = f64::min(state.t + 1000.0 * h, target);
@@ -94,8 +99,76 @@ pub(super) fn name_uncertain(system: &ConstraintSystem, left: &[f64], t: f64) ->
 }
 
 /// A start that is in such a position already.
-pub(super) fn name_start(system: &ConstraintSystem, left: &[f64], right: &[f64], t: f64) -> Diagnostic {
-    errors::singular_start(system, &declarations_in(system, left), &columns_in(right), t)
+///
+/// `elsewhere` is whether the equations are independent at a time nearby, where that is known.
+pub(super) fn name_start(
+    system: &ConstraintSystem,
+    (left, right): (&[f64], &[f64]),
+    elsewhere: Option<bool>,
+    t: f64,
+) -> Diagnostic {
+    let declarations = declarations_in(system, left);
+    let verdict = match (elsewhere, driver_in(system, left)) {
+        (Some(false), _) => StartVerdict::Always,
+        (Some(true), Some(row)) => StartVerdict::LockUp(row),
+        (Some(true), None) => StartVerdict::Bifurcation,
+        (None, _) => StartVerdict::Unknown,
+    };
+    let free = motion_in_words(system, right);
+    errors::singular_start(system, &declarations, &columns_in(right), verdict, t).note(free)
+}
+
+/// What kind of singular position a mechanism starts in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum StartVerdict {
+    /// The equations depend on each other wherever the mechanism is.
+    Always,
+    /// A driver cannot move on; its row.
+    LockUp(usize),
+    /// Two branches meet.
+    Bifurcation,
+    /// Nothing moves that could tell.
+    Unknown,
+}
+
+/// A motion as a reader sees it: how far one body turns for each degree of another.
+fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
+    let largest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+    let rate = |k: usize| right[k];
+    let of_kind = |wanted: CoordinateKind| {
+        let mut found: Vec<usize> = (0..right.len())
+            .filter(|&k| system.coordinates[k].kind == wanted && system.body_of(k).is_some())
+            .filter(|&k| right[k].abs() > SEEN * largest)
+            .collect();
+        found.sort_by(|&a, &b| right[b].abs().total_cmp(&right[a].abs()));
+        found
+    };
+    let turning = of_kind(CoordinateKind::Angle);
+    let name = |k: usize| format!("`{}`", system.owner_name(k));
+    let Some((&first, others)) = turning.split_first() else {
+        let sliding = of_kind(CoordinateKind::Length);
+        let mut names: Vec<String> = sliding.iter().map(|&k| name(k)).collect();
+        names.dedup();
+        names.truncate(3);
+        return format!("left free: {} can move", names.join(", "));
+    };
+    let others: Vec<String> = others
+        .iter()
+        .take(3)
+        .map(|&k| {
+            format!(
+                "{} turns {} deg for each degree of {}",
+                name(k),
+                errors::three_digits(rate(k) / rate(first)),
+                name(first)
+            )
+        })
+        .collect();
+    if others.is_empty() {
+        format!("left free: {} can turn", name(first))
+    } else {
+        format!("left free: {}", others.join(", "))
+    }
 }
 
 fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {

@@ -133,6 +133,10 @@ pub(super) enum When {
 pub(super) struct CheckArguments {
     #[command(flatten)]
     pub input: Input,
+
+    /// Leave redundant equations out
+    #[arg(long)]
+    pub allow_redundant: bool,
 }
 
 #[derive(Args, Debug)]
@@ -219,6 +223,10 @@ pub(super) struct RunArguments {
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
     pub tolerance: f64,
+
+    /// Leave redundant equations out, and check them at every time
+    #[arg(long)]
+    pub allow_redundant: bool,
 
     /// Print to standard error where the time went
     #[arg(long)]

@@ -11,7 +11,8 @@ use crate::program::Program;
 use crate::structure::{self, Determined};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let determined = input::determined(&arguments.input, reporter, &mut Timings::new(false))?;
+    let determined =
+        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     let system = determined.system();
     let program = Program::new(system);
     let t = system.analysis.map_or(0.0, |[from, ..]| from);
@@ -32,7 +33,9 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
     let conditioning = started.conditioning();
     let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", system.name);
     text += &structure::table(system);
-    text += &format!("\n\nat t = {t} s\n  {moved}\n");
+    text += "\n\norder of solution\n";
+    text += &structure::order_of_solution(determined);
+    text += &format!("\nat t = {t} s\n  {moved}\n");
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
         // less than an atom is nothing

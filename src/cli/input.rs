@@ -5,21 +5,28 @@ use super::failure::Failure;
 use super::files;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
+use crate::analysis;
 use crate::check::{self, Setting, Surroundings, TableFiles};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
 use crate::lower;
 use crate::model::{Dimension, Mechanism};
 use crate::source::Sources;
-use crate::structure::{self, Determined};
+use crate::structure::Determined;
 use crate::syntax::{self, ast};
 
 /// Reads and checks the mechanism of a command, lowers and proves it; prints its warnings.
-pub(super) fn determined(input: &Input, reporter: &mut Reporter, timings: &mut Timings) -> Result<Determined, Failure> {
+pub(super) fn determined(
+    input: &Input,
+    allow_redundant: bool,
+    reporter: &mut Reporter,
+    timings: &mut Timings,
+) -> Result<Determined, Failure> {
     let file = tree(input, reporter)?;
     timings.end(Phase::Parse);
     let model = checked(&file, input, reporter)?;
     timings.end(Phase::Check);
-    let determined = structure::prove(lower::lower(&model))?;
+    let (determined, said) = analysis::determine(lower::lower(&model), allow_redundant)?;
+    reporter.print(&said);
     timings.end(Phase::Prove);
     Ok(determined)
 }

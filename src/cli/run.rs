@@ -16,7 +16,7 @@ use std::path::Path;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let mut timings = Timings::new(arguments.timings);
-    let determined = input::determined(&arguments.input, reporter, &mut timings)?;
+    let determined = input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
     let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
     let output = Output::open(&arguments.output)?;
     let program = Program::new(determined.system());

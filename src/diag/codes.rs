@@ -86,7 +86,10 @@ catalogue! {
     E0503 Error "a part with too many equations beside a part with too few"
     E0504 Error "a start in a singular position"
     E0505 Error "a closed chain that is too large"
+    E0506 Error "equations that are redundant"
+    E0507 Error "equations that conflict"
     W0501 Warning "gears or racks that do not fit their radii"
+    W0502 Warning "redundant equations that are left out"
     // on the way
     E0601 Error "a mechanism that cannot be assembled"
     E0602 Error "a lock-up"
@@ -98,6 +101,7 @@ catalogue! {
     E0608 Error "a table that is left"
     E0609 Error "a motion that jumps"
     E0610 Error "a position that is too near to a singular one"
+    E0611 Error "a redundant equation that ceases to hold"
     W0601 Warning "an acceleration that jumps"
     N0601 Note "the estimates were far from the assembled start"
     // the command line and files

@@ -54,6 +54,8 @@ pub struct ConstraintSystem {
     pub measures: Vec<Measure>,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
+    /// Equations that follow from the others, and are looked at instead of solved.
+    pub checks: Vec<Check>,
     /// What tells one branch of a gear or contact from another.
     pub watches: Vec<Watch>,
     /// Distances that gears and racks are made for, but do not hold themselves.
@@ -204,6 +206,17 @@ pub struct Condition {
     pub owner: String,
 }
 
+/// An equation that follows from the others.
+#[derive(Clone, Debug)]
+pub struct Check {
+    /// The entry of `Φ` [m, m² or rad].
+    pub phi: ExprId,
+    /// Index of the declaration that wrote it.
+    pub declaration: usize,
+    /// Its norm in the scaled `Φ_q` at the start.
+    pub scale: f64,
+}
+
 /// A quantity that keeps its sign along a branch of the motion, and only there.
 #[derive(Clone, Debug)]
 pub struct Watch {
@@ -339,6 +352,24 @@ impl ConstraintSystem {
     #[must_use]
     pub fn is_driver(&self, row: usize) -> bool {
         self.declaration_of(row).kind == DeclarationKind::Driver
+    }
+
+    /// Takes rows out, which are checked from now on.
+    pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
+        let stays = |k: &usize| rows.binary_search(k).is_err();
+        let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
+        let mut phi_q = SparseRows::new();
+        for &row in &kept {
+            phi_q.push(self.phi_q.row(row).iter().copied());
+        }
+        let of = |list: &[ExprId]| kept.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
+        (self.nu, self.gamma, self.jerk) = (of(&self.nu), of(&self.gamma), self.jerk.as_deref().map(of));
+        self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
+        self.phi_q = phi_q;
+        for check in &checks {
+            self.declarations[check.declaration].rows -= 1;
+        }
+        self.checks = checks;
     }
 
     /// The body that a coordinate is of, if it is of a body.

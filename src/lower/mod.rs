@@ -75,6 +75,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         jerk: None,
         measures,
         conditions: lowering.conditions,
+        checks: Vec::new(),
         watches: lowering.watches,
         fits: lowering.fits,
         length: lowering.largest_size,

@@ -18,6 +18,7 @@ impl Program {
             phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
             phi_q: layout.place(Stage::Position, system.phi_q.entries().iter().map(|&(_, id)| id)),
             conditions: layout.place(Stage::Position, system.conditions.iter().map(|c| c.positive)),
+            checks: layout.place(Stage::Position, system.checks.iter().map(|c| c.phi)),
             watches: layout.place(Stage::Position, system.watches.iter().map(|w| w.value)),
             nu: layout.place(Stage::Velocity, system.nu.iter().copied()),
             gamma: layout.place(Stage::Acceleration, system.gamma.iter().copied()),

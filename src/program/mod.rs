@@ -241,6 +241,8 @@ pub struct Outputs {
     pub measures_dd: Vec<Register>,
     /// Formulas that must be positive.
     pub conditions: Vec<Register>,
+    /// Entries of `Φ` that follow from the others.
+    pub checks: Vec<Register>,
     /// Quantities that keep their signs.
     pub watches: Vec<Register>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.

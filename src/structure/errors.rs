@@ -3,10 +3,13 @@
 use super::count::table;
 use super::matching::Matching;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{ConstraintSystem, Declaration, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
 
 /// Names that one message lists before it stops.
 const LISTED: usize = 8;
+
+/// Drivers that one message suggests at most.
+const MOST_DRIVERS: usize = 3;
 
 pub fn count(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     let ndof = system.ndof();
@@ -21,20 +24,56 @@ pub fn count(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
         .at(system.span, label)
         .note(table(system));
     let diagnostic = with_data(diagnostic, system, &competing(system, matching), &matching.free_columns(&system.phi_q));
-    if ndof > 0 { diagnostic.help(drivers_to_add(system, ndof)) } else { diagnostic.help(what_to_take_away(system)) }
+    if ndof > 0 {
+        diagnostic.help(drivers_to_add(system, matching, ndof))
+    } else {
+        diagnostic.help(what_to_take_away(system))
+    }
 }
 
-fn drivers_to_add(system: &ConstraintSystem, ndof: isize) -> String {
+/// Joints whose motion nothing fixes, as drivers to write.
+fn drivers_to_add(system: &ConstraintSystem, matching: &Matching, ndof: isize) -> String {
     let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
-    let joint = system.declarations.iter().find_map(|declaration| match declaration.kind {
-        DeclarationKind::Joint("revolute") => Some(format!("rotation({})", declaration.name)),
-        DeclarationKind::Joint("translational") => Some(format!("displacement({})", declaration.name)),
-        _ => None,
-    });
-    match joint {
-        Some(quantity) => format!("add {count}: `driver NAME: {quantity} = …`"),
-        None => format!("add {count}"),
+    let free = matching.free_columns(&system.phi_q);
+    let mut quantities: Vec<String> = Vec::new();
+    let mut first_row = 0;
+    for declaration in &system.declarations {
+        let rows = first_row..first_row + declaration.rows;
+        first_row = rows.end;
+        let wanted = match declaration.kind {
+            DeclarationKind::Joint("revolute") => CoordinateKind::Angle,
+            DeclarationKind::Joint("translational") => CoordinateKind::Length,
+            _ => continue,
+        };
+        // a pin at a body's origin leaves its angle out of the equations, but it is what turns
+        let owners =
+            rows.flat_map(|row| system.phi_q.row(row)).map(|(column, _)| system.coordinates[*column as usize].owner);
+        let mut owners: Vec<Owner> = owners.collect();
+        owners.dedup();
+        let moves = free.iter().any(|&column| {
+            let coordinate = &system.coordinates[column as usize];
+            coordinate.kind == wanted && owners.contains(&coordinate.owner)
+        });
+        if moves {
+            let quantity = if wanted == CoordinateKind::Angle { "rotation" } else { "displacement" };
+            quantities.push(format!("`driver NAME: {quantity}({}) = …`", declaration.name));
+        }
     }
+    quantities.truncate(MOST_DRIVERS);
+    if quantities.is_empty() {
+        let bodies = free.iter().filter_map(|&column| system.body_of(column as usize));
+        let mut names: Vec<&str> = bodies.map(|body| system.bodies[body].name.as_str()).collect();
+        names.dedup();
+        names.truncate(MOST_DRIVERS);
+        return match names.as_slice() {
+            [] => format!("add {count}"),
+            _ => format!(
+                "add {count} for {}",
+                names.iter().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
+            ),
+        };
+    }
+    format!("add {count}: {}", quantities.join(" or "))
 }
 
 fn what_to_take_away(system: &ConstraintSystem) -> String {

@@ -6,8 +6,10 @@
 mod count;
 mod errors;
 mod matching;
+mod order;
 
 pub use count::table;
+pub use order::order_of_solution;
 
 use crate::diag::Diagnostic;
 use crate::expr::Symbol;
@@ -54,17 +56,45 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
     slope.is_some_and(|&(_, slope)| !system.graph.symbols(slope).contains(&own))
 }
 
+/// Why a system is not determined.
+#[derive(Clone, Debug)]
+pub struct Refused {
+    /// The count's or the structure's diagnostic.
+    pub diagnostic: Diagnostic,
+    /// Where every coordinate has its equation, and there are more.
+    pub too_many: Option<Overdetermined>,
+}
+
+/// A system in which every coordinate has an equation that could fix it, and a part has more equations than coordinates.
+#[derive(Clone, Debug)]
+pub struct Overdetermined {
+    /// The equations.
+    pub system: ConstraintSystem,
+    /// Those of the part, in order.
+    pub rows: Vec<u32>,
+    /// Its coordinates: the rows hold no others.
+    pub columns: Vec<u32>,
+}
+
 /// Shows that a system is determined.
 ///
 /// # Errors
-/// The count's or the structure's diagnostic.
-pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Diagnostic>> {
+/// Why it is not.
+pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
     let matching = matching::maximum(&system.phi_q, system.rows.len(), system.coordinates.len());
     if system.ndof() != 0 {
-        return Err(Box::new(errors::count(&system, &matching)));
+        let diagnostic = errors::count(&system, &matching);
+        let rows = matching.overdetermined_rows(&system.phi_q);
+        let is_fixed = matching.free_columns(&system.phi_q).is_empty();
+        let mut columns: Vec<u32> =
+            rows.iter().flat_map(|&row| system.phi_q.row(row as usize)).map(|&(column, _)| column).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        let too_many = (is_fixed && !rows.is_empty()).then_some(Overdetermined { system, rows, columns });
+        return Err(Box::new(Refused { diagnostic, too_many }));
     }
     if !matching.is_perfect() {
-        return Err(Box::new(errors::structure(&system, &matching)));
+        return Err(Box::new(Refused { diagnostic: errors::structure(&system, &matching), too_many: None }));
     }
     let mut blocks = matching.blocks(&system.phi_q);
     for block in &mut blocks {

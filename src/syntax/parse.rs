@@ -38,7 +38,11 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
     let mut faults = Diagnostics::default();
     let (mut last, mut stays) = (None, false);
     loop {
-        let fault = match on_a_deep_stack(&source, file, |reader| reader.mechanisms()) {
+        let read = on_a_deep_stack(&source, file, |reader| {
+            let mechanisms = reader.read(Rule::file)?.filter(|pair| pair.as_rule() == Rule::mechanism);
+            mechanisms.map(|pair| reader.mechanism(pair)).collect::<Built<Vec<Mechanism>>>()
+        });
+        let fault = match read {
             Ok(mechanisms) if faults.is_empty() && mechanisms.is_empty() => {
                 return Err(errors::no_mechanism(sources.end_of(file)).into());
             }
@@ -105,11 +109,6 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    fn mechanisms(&self) -> Built<Vec<Mechanism>> {
-        let mechanisms = self.read(Rule::file)?.filter(|pair| pair.as_rule() == Rule::mechanism);
-        mechanisms.map(|pair| self.mechanism(pair)).collect()
-    }
-
     /// The pairs inside one rule that matches the whole text.
     fn read(&self, rule: Rule) -> Built<Pairs<'a, Rule>> {
         let pairs = grammar::Grammar::parse(rule, &self.source.text)
