@@ -4,9 +4,12 @@
 
 mod support;
 
+use mechc::analysis::{self, Times};
+use mechc::program::Program;
+use mechc::source::Sources;
 use std::f64::consts::TAU;
 use std::fs;
-use support::{Span, run};
+use support::{Span, compile, run};
 
 fn crank_rocker(every: f64, to: f64) -> support::Outcome {
     let text = fs::read_to_string("tests/cases/four_bar.mech").expect("a text");
@@ -131,5 +134,60 @@ fn a_driver_in_step_with_the_output_hides_nothing() {
     for every in [0.5, 1.0, 0.1] {
         let outcome = run("four_bar", &text, Span { every: Some(every), to: Some(4.0) });
         assert_eq!(outcome.codes(), ["E0602"], "every {every}: {}", outcome.text());
+    }
+}
+
+/// A parallelogram whose crank turns all the way round, with the rows of a run that goes on beyond bifurcations.
+fn passing(analysis: &str) -> (Vec<String>, Vec<Vec<f64>>, Vec<f64>) {
+    let text = format!(
+        "mechanism parallelogram {{
+            ground {{ point A = (0, 0) point B = (2 m, 0) }}
+            body crank   at (0, 0, 60 deg)     {{ point A = (0, 0) point C = (1 m, 0) }}
+            body coupler at (0.5 m, 0.87 m, 0) {{ point C = (0, 0) point D = (2 m, 0) }}
+            body rocker  at (2 m, 0, 60 deg)   {{ point B = (0, 0) point D = (1 m, 0) }}
+            joint A: revolute(ground.A, crank.A)
+            joint C: revolute(crank.C, coupler.C)
+            joint D: revolute(coupler.D, rocker.D)
+            joint B: revolute(ground.B, rocker.B)
+            driver motor: rotation(A) = 60 deg + 90 deg/s * t + 10 deg * sin(2 rad/s * t)
+            {analysis}
+        }}"
+    );
+    let mut sources = Sources::default();
+    let (determined, _) = compile(&mut sources, "parallelogram", &text);
+    let determined = determined.expect("determined");
+    let [from, to, every] = determined.system().analysis.expect("an analysis");
+    let times = Times::grid(from, to, every).expect("a grid");
+    let program = Program::new(determined.system());
+    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
+    let columns = started.columns();
+    let mut motion = started.motion(times.span());
+    motion.pass_bifurcations();
+    let rows = times.iter().map(|t| motion.row_at(t).expect("it goes on").to_vec()).collect();
+    let remarks = motion.take_remarks();
+    assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
+    let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
+    (columns, rows, passed)
+}
+
+#[test]
+fn a_parallelogram_goes_through_its_change_points() {
+    for analysis in ["analysis from 0 s to 20 s every 10 ms", "analysis from 0 s to 20 s every 1 s"] {
+        let (columns, rows, passed) = passing(analysis);
+        let at = |name: &str| columns.iter().position(|column| column == name).expect("a column");
+        for row in &rows {
+            for end in ["", ".d", ".dd"] {
+                let (crank, rocker) = (row[at(&format!("crank.phi{end}"))], row[at(&format!("rocker.phi{end}"))]);
+                assert!((crank - rocker).abs() < 1e-9, "rocker.phi{end} at t = {}: {crank} and {rocker}", row[0]);
+                assert!(row[at(&format!("coupler.phi{end}"))].abs() < 1e-9, "coupler.phi{end} at t = {}", row[0]);
+            }
+        }
+        // the crank is in line with the ground at every half turn
+        let crank = |t: f64| 60.0 + 90.0 * t + 10.0 * mechc::math::sin(2.0 * t);
+        assert_eq!(passed.len(), 10, "{passed:?}");
+        for (k, t) in passed.into_iter().enumerate() {
+            let wanted = 180.0 * (k + 1) as f64;
+            assert!((crank(t) - wanted).abs() < 1e-7, "the change point {} is told at {t}", k + 1);
+        }
     }
 }

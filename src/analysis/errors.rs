@@ -474,7 +474,31 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize
     );
     with_places(diagnostic, system, joints, "these leave it open")
         .note(owners(system, columns, "could go either way"))
-        .help("change a length a little, or stop before that time")
+        .help("go on along the branch that continues smoothly with `--pass-bifurcations`; or change a length a little")
+        .datum("t", t)
+}
+
+/// A driver that turns back exactly in a dead point.
+pub fn driver_rests(system: &ConstraintSystem, driver: usize, joints: &[usize], t: f64, passed: bool) -> Diagnostic {
+    let declaration = system.declaration_of(driver);
+    let code = if passed { Code::W0602 } else { Code::E0602 };
+    let message =
+        format!("driver `{}` rests in a dead point at {}: two motions go on from there", declaration.name, at(t));
+    let diagnostic =
+        Diagnostic::new(code, message).at(declaration.span, "comes to rest, and the mechanism may go either way");
+    let diagnostic = with_places(diagnostic, system, joints, "these are in line there").datum("t", t);
+    if passed {
+        diagnostic.note("the one that continues smoothly was taken")
+    } else {
+        diagnostic.help("let the driver turn back before that time; or go on smoothly with `--pass-bifurcations`")
+    }
+}
+
+/// A bifurcation beyond which the motion was followed.
+pub fn passed(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
+    let message = format!("two branches of the motion meet at {}; the one that continues smoothly was taken", at(t));
+    with_places(Diagnostic::new(Code::W0602, message), system, joints, "these leave it open")
+        .note(owners(system, columns, "could have gone either way"))
         .datum("t", t)
 }
 

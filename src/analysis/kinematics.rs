@@ -412,6 +412,15 @@ impl<'d> Kinematics<'d> {
         }
     }
 
+    /// Writes a result row of a state whose derivatives were found otherwise than by solving.
+    pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
+        let [_, qd, qdd, qddd] = self.program.inputs.coordinates;
+        self.registers.set_all(qd, &state.qd);
+        self.registers.set_all(qdd, &state.qdd);
+        self.registers.set_all(qddd, &state.qddd);
+        self.write_row(state, row);
+    }
+
     /// The measure behind a column of a result row, which must be one of a measure.
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();

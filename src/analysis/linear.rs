@@ -137,6 +137,11 @@ impl BlockLu {
         }
     }
 
+    /// The smallest pivot of all blocks: little more than the nearness to a singular position, and for nothing.
+    pub fn smallest_pivot(&self) -> f64 {
+        self.parts.iter().map(|part| part.smallest_pivot).fold(1.0, f64::min)
+    }
+
     pub fn blocks(&self) -> usize {
         self.parts.len()
     }

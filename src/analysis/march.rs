@@ -4,6 +4,7 @@
 //! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So
 //! the branch followed does not depend on the output times.
 
+use super::bridge::Bridge;
 use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
@@ -21,6 +22,8 @@ const LARGEST_MOTION: f64 = 0.5;
 const ITERATIONS: usize = 4;
 /// A correction below this leaves nothing to the next one, convergence being quadratic.
 const SETTLED: f64 = 1e-7;
+/// Nearer to a singular position than this more digits are needed.
+const ILL: f64 = 0.01;
 /// Steps over the whole span at least, so that what happens in it is met.
 const FEWEST_STEPS: f64 = 64.0;
 /// The golden ratio's fraction: its multiples never come close to a period.
@@ -37,6 +40,7 @@ const MOST_STEPS: u64 = 1_000_000;
 const STEPS_AHEAD: usize = 1_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
+#[allow(clippy::struct_excessive_bools)] // what has begun, what is wanted, what the row is worth: nothing of them follows from another
 pub struct Motion<'m, 'd> {
     pub(super) kinematics: &'m mut Kinematics<'d>,
     pub(super) state: &'m mut State,
@@ -44,8 +48,8 @@ pub struct Motion<'m, 'd> {
     pub(super) delta: Vec<f64>,
     pub(super) middle: Vec<f64>,
     /// The sign of each block's determinant.
-    signs: Vec<bool>,
-    trial_signs: Vec<bool>,
+    pub(super) signs: Vec<bool>,
+    pub(super) trial_signs: Vec<bool>,
     /// The sign of what is watched.
     pub(super) sides: Vec<bool>,
     pub(super) trial_sides: Vec<bool>,
@@ -77,8 +81,14 @@ pub struct Motion<'m, 'd> {
     /// Declarations of which it has been said that they make an acceleration jump.
     pub(super) warned: Vec<bool>,
     pub(super) remarks: Diagnostics,
+    /// Whether to go on beyond bifurcations.
+    pub(super) pass: bool,
+    /// The last state that was clear of singular positions.
+    pub(super) clear: State,
+    /// The way over the last singular position.
+    pub(super) bridge: Option<Bridge>,
     /// The step that the error allows (s).
-    h: f64,
+    pub(super) h: f64,
     smallest: f64,
     largest: f64,
     /// Where the last step was looked into, from 0 to 1.
@@ -86,6 +96,8 @@ pub struct Motion<'m, 'd> {
     begun: bool,
     /// Whether the row holds digits, and not rounding.
     is_certain: bool,
+    /// Whether it is near a position that may be a bifurcation to pass.
+    is_near: bool,
     pub(super) row: Vec<f64>,
 }
 
@@ -123,6 +135,9 @@ impl<'m, 'd> Motion<'m, 'd> {
             warned: vec![false; kinematics.system().declarations.len()],
             remarks: Diagnostics::default(),
             trial: state.clone(),
+            pass: false,
+            clear: state.clone(),
+            bridge: None,
             delta: vec![0.0; n],
             middle: vec![0.0; n],
             signs: vec![true; blocks],
@@ -135,10 +150,16 @@ impl<'m, 'd> Motion<'m, 'd> {
             probe: 0.0,
             begun: false,
             is_certain: true,
+            is_near: false,
             row: vec![0.0; kinematics.row_length()],
             kinematics,
             state,
         }
+    }
+
+    /// Goes on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
+    pub fn pass_bifurcations(&mut self) {
+        self.pass = true;
     }
 
     /// Goes on to time `t` (s), not before the last one, and gives its row, in the order of `Started::columns`.
@@ -148,6 +169,10 @@ impl<'m, 'd> Motion<'m, 'd> {
     pub fn row_at(&mut self, t: f64) -> Result<&[f64], Box<Diagnostic>> {
         if !self.begun {
             self.begin()?;
+        }
+        if let Some(row) = self.row_on_bridge(t) {
+            row?;
+            return self.checked_row(t);
         }
         if t <= self.state.t {
             self.row_at_rest()?;
@@ -161,9 +186,16 @@ impl<'m, 'd> Motion<'m, 'd> {
             }
             self.step_towards(t)?;
         }
-        if !self.is_certain {
-            return Err(Box::new(self.explain_uncertain(t)));
+        if let Some(row) = self.row_on_bridge(t) {
+            row?;
+        } else if !self.is_certain || self.is_near {
+            self.look_ahead(t)?;
         }
+        self.checked_row(t)
+    }
+
+    /// The row, if it holds numbers alone.
+    fn checked_row(&mut self, t: f64) -> Result<&[f64], Box<Diagnostic>> {
         if self.row.iter().all(|value| value.is_finite()) { Ok(&self.row) } else { Err(Box::new(self.explain_row(t))) }
     }
 
@@ -199,20 +231,33 @@ impl<'m, 'd> Motion<'m, 'd> {
         errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
     }
 
-    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it.
-    fn explain_uncertain(&mut self, t: f64) -> Diagnostic {
+    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
+    /// that is passed, and then the row lies on the way over it.
+    fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         let ahead = t + self.span / FEWEST_STEPS;
+        let (is_certain, row) = (self.is_certain, self.row.clone());
         for _ in 0..STEPS_AHEAD {
-            if let Err(diagnostic) = self.step_towards(ahead) {
-                return *diagnostic;
+            match self.step_towards(ahead) {
+                // what comes behind the row does not concern it
+                Err(_) if is_certain => break,
+                stepped => stepped?,
             }
-            if self.state.t >= ahead {
+            if let Some(row) = self.row_on_bridge(t) {
+                return row;
+            }
+            // a step that failed leaves the factors of where it failed
+            self.kinematics.restore(self.state);
+            if self.state.t >= ahead || (is_certain && self.state.t > t && self.is_clear()) {
                 break;
             }
         }
+        if is_certain {
+            self.row = row;
+            return Ok(());
+        }
         self.kinematics.restore(self.state);
         let singular = self.kinematics.worst();
-        singular::name_uncertain(self.kinematics.system(), &singular.left, t)
+        Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
     }
 
     /// Derivatives at the start.
@@ -260,6 +305,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
             self.is_certain = Self::trustworthy(self.kinematics, &self.trial).is_ok();
+            self.is_near = self.pass && !self.is_clear();
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         let between = self.correction_between(h)?;
@@ -309,7 +355,7 @@ impl<'m, 'd> Motion<'m, 'd> {
                 *q += delta;
             }
             self.kinematics.set_position(&self.trial.q)?;
-            if size <= SETTLED && self.kinematics.violated().is_none() {
+            if size <= SETTLED && size <= self.settled() && self.kinematics.violated().is_none() {
                 if let Some(index) = self.kinematics.broken_check() {
                     return Err(Fault::Check { index });
                 }
@@ -318,6 +364,16 @@ impl<'m, 'd> Motion<'m, 'd> {
             }
         }
         Err(Fault::TooFar)
+    }
+
+    /// A correction below this leaves nothing to the next one: near a singular position what it leaves is larger by as much as
+    /// that is near, and no correction is smaller than rounding.
+    fn settled(&mut self) -> f64 {
+        if self.kinematics.linear().smallest_pivot() > 10.0 * ILL {
+            return SETTLED;
+        }
+        let sigma = self.kinematics.nearness(ILL);
+        if sigma < ILL { f64::max(SETTLED * sigma, 10.0 * f64::EPSILON / sigma) } else { SETTLED }
     }
 
     /// No step ends too near to a singular position.
@@ -382,6 +438,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.hardest = self.hardest.max(largest(&b.qdd)).max(harder);
         }
         self.state.copy_from(&self.trial);
+        self.keep_if_clear();
         self.signs.copy_from_slice(&self.trial_signs);
         // the predictor's error grows with h³, the curve's between with h⁶
         let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
@@ -397,7 +454,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.h = 0.5 * h;
         let vanishes = self.state.t + self.h <= self.state.t;
         if self.h < self.smallest || vanishes {
-            return Err(Box::new(singular::explain(self.kinematics, self.state, fault, h, target)));
+            return self.pass_or_explain(fault, h, target);
         }
         Ok(())
     }

@@ -9,6 +9,7 @@
 //! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there.
 
 mod assembly;
+mod bridge;
 mod edges;
 mod errors;
 mod kinematics;

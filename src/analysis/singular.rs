@@ -55,8 +55,20 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     diagnostic.datum("residual", residual)
 }
 
+/// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.
+pub(super) fn explain_contact(kinematics: &mut Kinematics<'_>, state: &State, passed: bool) -> Diagnostic {
+    kinematics.restore(state);
+    let (system, singular) = (kinematics.system(), kinematics.worst());
+    let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
+    match driver_in(system, &singular.left) {
+        Some(row) => errors::driver_rests(system, row, &joints, state.t, passed),
+        None if passed => errors::passed(system, &joints, &columns, state.t),
+        None => errors::bifurcation(system, &joints, &columns, state.t),
+    }
+}
+
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
-fn centers_that_meet(kinematics: &Kinematics<'_>) -> Option<usize> {
+pub(super) fn centers_that_meet(kinematics: &Kinematics<'_>) -> Option<usize> {
     let watches = &kinematics.system().watches;
     let meet = |k: &usize| watches[*k].kind == WatchKind::LineOfCenters && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(meet)

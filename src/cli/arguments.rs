@@ -228,6 +228,10 @@ pub(super) struct RunArguments {
     #[arg(long)]
     pub allow_redundant: bool,
 
+    /// Go on beyond a bifurcation, along the branch that continues smoothly
+    #[arg(long)]
+    pub pass_bifurcations: bool,
+
     /// Print to standard error where the time went
     #[arg(long)]
     pub timings: bool,

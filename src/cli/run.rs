@@ -24,7 +24,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
     reporter.print(&started.remarks());
     let table = Table { output, format: format(arguments), timings };
-    let ended = table.write(&mut started, &times)?;
+    let ended = table.write(&mut started, &times, arguments.pass_bifurcations)?;
     reporter.print(&ended.remarks);
     Reporter::say(&ended.timings);
     ended.result
@@ -49,10 +49,13 @@ struct Table {
 
 impl Table {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
-    fn write(mut self, started: &mut Started<'_>, times: &Times) -> Result<Ended, Failure> {
+    fn write(mut self, started: &mut Started<'_>, times: &Times, pass: bool) -> Result<Ended, Failure> {
         let columns = started.columns();
         let mut progress = Progress::new(times.len(), self.output.is_standard());
         let mut motion = started.motion(times.span());
+        if pass {
+            motion.pass_bifurcations();
+        }
         let (mut stopped, mut rows) = (Ok(()), 0);
         let timings = &mut self.timings;
         let written = (|| {

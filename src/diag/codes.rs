@@ -103,6 +103,7 @@ catalogue! {
     E0610 Error "a position that is too near to a singular one"
     E0611 Error "a redundant equation that ceases to hold"
     W0601 Warning "an acceleration that jumps"
+    W0602 Warning "a bifurcation that was passed"
     N0601 Note "the estimates were far from the assembled start"
     // the command line and files
     E0701 Error "a file that cannot be read"

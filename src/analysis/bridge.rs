@@ -1,0 +1,227 @@
+//! Over a singular position: from the last state that is well clear of it to one as far beyond, never solving at it.
+//!
+//! Beyond a lock-up there is no such state. Beyond a bifurcation the prediction from before leads to the branch that goes on
+//! smoothly, since the other ones are far from it there. Between the two states the motion is the quintic through both,
+//! which also tells when the singular position is reached.
+
+use super::errors;
+use super::kinematics::{Fault, State};
+use super::march::Motion;
+use super::singular;
+use crate::diag::Diagnostic;
+
+/// A state nearer than this to a singular position is not clear of it.
+///
+/// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
+const CLEAR: f64 = 8e-3;
+/// How far beyond the singular position the first state is looked for, as parts of the way up to it.
+const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
+/// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
+const LARGEST_CORRECTION: f64 = 1e-2;
+/// Velocities extrapolated from both sides agree to this part of the fastest.
+const SAME_VELOCITY: f64 = 1e-3;
+/// Times at which the minimum of an even contact is looked for.
+const LOOKS: usize = 80;
+/// The golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// The way over a singular position.
+#[derive(Clone, Debug)]
+pub(super) struct Bridge {
+    pub from: State,
+    pub to: State,
+    /// When the singular position is reached (s).
+    pub at: f64,
+}
+
+impl Bridge {
+    /// A row of its own: bridges are rare.
+    fn new(from: &State, to: &State) -> Bridge {
+        Bridge { from: from.clone(), to: to.clone(), at: from.t }
+    }
+
+    /// The state at a time between, by the quintic with value, slope and curvature of both ends.
+    fn state_at(&self, t: f64) -> State {
+        let h = self.to.t - self.from.t;
+        let x = (t - self.from.t) / h;
+        let mut state = self.from.clone();
+        state.t = t;
+        for k in 0..state.q.len() {
+            let (a, b) = (&self.from, &self.to);
+            let (slope, bend) = (h * a.qd[k], 0.5 * h * h * a.qdd[k]);
+            let value = b.q[k] - a.q[k] - slope - bend;
+            let first = h * b.qd[k] - slope - 2.0 * bend;
+            let second = 0.5 * h * h * b.qdd[k] - bend;
+            let c = [
+                a.q[k],
+                slope,
+                bend,
+                10.0 * value - 4.0 * first + second,
+                -15.0 * value + 7.0 * first - 2.0 * second,
+                6.0 * value - 3.0 * first + second,
+            ];
+            let derivative = |order: usize| -> f64 {
+                let factor = |j: usize| (j + 1 - order..=j).map(|i| i as f64).product::<f64>();
+                (order..c.len()).rev().fold(0.0, |sum, j| sum * x + c[j] * factor(j))
+            };
+            state.q[k] = derivative(0);
+            state.qd[k] = derivative(1) / h;
+            state.qdd[k] = derivative(2) / (h * h);
+            state.qddd[k] = derivative(3) / (h * h * h);
+        }
+        state
+    }
+}
+
+impl Motion<'_, '_> {
+    /// Keeps the state that was just accepted if it is clear of every singular position.
+    pub(super) fn keep_if_clear(&mut self) {
+        if self.is_clear() {
+            self.clear.copy_from(self.state);
+        }
+    }
+
+    /// Whether the position that was factored is clear of every singular one.
+    pub(super) fn is_clear(&mut self) -> bool {
+        self.kinematics.linear().smallest_pivot() > 10.0 * CLEAR || self.kinematics.nearness(CLEAR) >= CLEAR
+    }
+
+    /// What there is to do where no further step can be made: goes on beyond a bifurcation if that is wanted.
+    ///
+    /// # Errors
+    /// Why and where the motion cannot go on.
+    pub(super) fn pass_or_explain(&mut self, fault: Fault, h: f64, target: f64) -> Result<(), Box<Diagnostic>> {
+        let is_singular = matches!(fault, Fault::Singular | Fault::TooFar | Fault::Watch { .. });
+        let bridge = if is_singular { self.bridge_ahead() } else { None };
+        let Some(bridge) = bridge else {
+            return Err(Box::new(singular::explain(self.kinematics, self.state, fault, h, target)));
+        };
+        let middle = bridge.state_at(bridge.at);
+        let diagnostic = singular::explain_contact(self.kinematics, &middle, self.pass);
+        if !self.pass {
+            return Err(Box::new(diagnostic));
+        }
+        self.remarks.push(diagnostic);
+        self.state.copy_from(&bridge.to);
+        self.clear.copy_from(&bridge.to);
+        self.kinematics.restore(self.state);
+        self.kinematics.linear().signs(&mut self.signs);
+        self.kinematics.sides(&mut self.sides);
+        self.h = (bridge.to.t - bridge.from.t).min(self.span);
+        self.bridge = Some(bridge);
+        Ok(())
+    }
+
+    /// A state beyond the singular position that the steps have come up to, if the motion goes on there.
+    fn bridge_ahead(&mut self) -> Option<Bridge> {
+        self.kinematics.restore(self.state);
+        // without a line of centres there is nothing beyond
+        if self.state.t <= self.clear.t || singular::centers_that_meet(self.kinematics).is_some() {
+            return None;
+        }
+        self.come_closer();
+        let (near, way) = (self.state.t, self.state.t - self.clear.t);
+        BEYOND.into_iter().find_map(|part| self.bridge_to(near + part * way))
+    }
+
+    /// Brings the clear state as near to the singular position as it may be: the shorter the bridge, the better its middle.
+    fn come_closer(&mut self) {
+        let way = self.state.t - self.clear.t;
+        self.kinematics.restore(&self.clear);
+        let enough = way * CLEAR / self.kinematics.nearness(1.0);
+        if enough >= way {
+            return;
+        }
+        let h = way - enough;
+        self.trial.t = self.clear.t + h;
+        for k in 0..self.trial.q.len() {
+            self.trial.q[k] = self.clear.q[k] + h * (self.clear.qd[k] + 0.5 * h * self.clear.qdd[k]);
+        }
+        if self.correct().is_ok() && self.kinematics.derivatives(&mut self.trial).is_ok() {
+            self.clear.copy_from(&self.trial);
+        }
+    }
+
+    fn bridge_to(&mut self, t: f64) -> Option<Bridge> {
+        let h = t - self.clear.t;
+        self.trial.t = t;
+        let mut longest: f64 = 0.0;
+        for k in 0..self.trial.q.len() {
+            let step = h * (self.clear.qd[k] + 0.5 * h * self.clear.qdd[k]);
+            self.trial.q[k] = self.clear.q[k] + step;
+            longest = longest.max(step.abs() / self.kinematics.linear().column_scale(k));
+        }
+        let correction = self.correct().ok()?;
+        self.kinematics.derivatives(&mut self.trial).ok()?;
+        let is_clear = self.kinematics.nearness(CLEAR) >= 0.3 * CLEAR;
+        if correction > LARGEST_CORRECTION * longest || !is_clear || !self.agrees(h) {
+            return None;
+        }
+        let mut bridge = Bridge::new(&self.clear, &self.trial);
+        bridge.at = self.singular_time(&bridge);
+        Some(bridge)
+    }
+
+    /// Whether velocities extrapolated from both sides meet in the middle.
+    fn agrees(&self, h: f64) -> bool {
+        let (a, b) = (&self.clear, &self.trial);
+        let scaled = |k: usize, value: f64| value.abs() / self.kinematics.linear().column_scale(k);
+        let fastest = (0..a.qd.len()).map(|k| scaled(k, a.qd[k])).fold(0.0, f64::max);
+        let off = |k: usize| scaled(k, a.qd[k] + 0.5 * h * a.qdd[k] - b.qd[k] + 0.5 * h * b.qdd[k]);
+        (0..a.qd.len()).all(|k| off(k) <= SAME_VELOCITY * fastest)
+    }
+
+    /// When the singular position is reached: where a determinant changes its sign, or else where it comes nearest to zero.
+    fn singular_time(&mut self, bridge: &Bridge) -> f64 {
+        let (mut low, mut high) = (bridge.from.t, bridge.to.t);
+        self.set(&bridge.to);
+        self.kinematics.linear().signs(&mut self.trial_signs);
+        let crossing = (0..self.signs.len()).find(|&k| self.signs[k] != self.trial_signs[k]);
+        if let Some(block) = crossing {
+            loop {
+                let middle = 0.5 * (low + high);
+                if middle <= low || middle >= high {
+                    return middle;
+                }
+                self.set(&bridge.state_at(middle));
+                self.kinematics.linear().signs(&mut self.trial_signs);
+                if self.trial_signs[block] == self.signs[block] { low = middle } else { high = middle }
+            }
+        }
+        let sigma = |motion: &mut Self, t: f64| {
+            motion.set(&bridge.state_at(t));
+            motion.kinematics.nearness(1.0)
+        };
+        let (mut left, mut right) = (high - GOLDEN * (high - low), low + GOLDEN * (high - low));
+        let (mut at_left, mut at_right) = (sigma(self, left), sigma(self, right));
+        for _ in 0..LOOKS {
+            if at_left < at_right {
+                (high, right, at_right) = (right, left, at_left);
+                left = high - GOLDEN * (high - low);
+                at_left = sigma(self, left);
+            } else {
+                (low, left, at_left) = (left, right, at_right);
+                right = low + GOLDEN * (high - low);
+                at_right = sigma(self, right);
+            }
+        }
+        0.5 * (low + high)
+    }
+
+    /// Evaluates and factors at a state, which may be singular.
+    fn set(&mut self, state: &State) {
+        self.kinematics.restore(state);
+    }
+
+    /// The row of a time on a bridge, if it is on one.
+    pub(super) fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
+        let bridge = self.bridge.as_ref().filter(|bridge| t > bridge.from.t && t < bridge.to.t)?;
+        let state = bridge.state_at(t);
+        self.kinematics.restore(&state);
+        if self.kinematics.violated().is_some() {
+            return Some(Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t))));
+        }
+        self.kinematics.write_given_row(&state, &mut self.row);
+        Some(Ok(()))
+    }
+}
