@@ -87,7 +87,7 @@ fn faults_of_form(code: Code, text: &str) -> Vec<String> {
     for Part { heading, prose, blocks } in &page.parts {
         let example = EXAMPLES.contains(&heading.as_str());
         wants(example || !prose.trim().is_empty(), format!("`{heading}` says nothing"));
-        let right = if example { blocks.len() == 1 || (in_words && blocks.is_empty()) } else { blocks.is_empty() };
+        let right = blocks.len() == usize::from(example && !in_words);
         wants(right, format!("`{heading}` has {} fenced blocks", blocks.len()));
         for block in blocks {
             let known = matches!(block.language.as_str(), "mech" | "console");
