@@ -72,33 +72,3 @@ fn every_input_gets_its_diagnostics() {
         .collect();
     assert!(failed.is_empty(), "{} inputs:\n{}", failed.len(), failed.join("\n"));
 }
-
-/// Codes that a file alone cannot raise; the sessions in `tests/cli.rs` do.
-const OF_THE_COMMAND_LINE: &[&str] = &[
-    "E0102", "E0611", "W0502", "W0602", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "N0701", "N0702",
-];
-
-/// Codes that only texts raise which are too large to be written down; `tests/robustness.rs` makes them.
-const OF_LARGE_INPUTS: &[&str] = &["E0505"];
-
-#[test]
-fn every_code_of_the_catalogue_is_shown() {
-    let snapshots: String =
-        files("tests/ui", "snap").iter().map(|path| fs::read_to_string(path).expect("a text")).collect();
-    let sessions: String = std::iter::once("tests/cli.rs".into())
-        .chain(files("tests/cli", "trycmd"))
-        .map(|path| fs::read_to_string(path).expect("a text"))
-        .collect();
-    let generated = fs::read_to_string("tests/robustness.rs").expect("a text");
-    for code in mechc::diag::Code::ALL {
-        let code = code.as_str();
-        let shown = if OF_LARGE_INPUTS.contains(&code) {
-            generated.contains(code)
-        } else if OF_THE_COMMAND_LINE.contains(&code) {
-            sessions.contains(code)
-        } else {
-            snapshots.contains(&format!("[{code}]"))
-        };
-        assert!(shown, "no test shows {code}");
-    }
-}

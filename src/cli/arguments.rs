@@ -8,6 +8,7 @@ Examples:
   mechc run examples/slider_crank.mech -o slider_crank.csv
   mechc run examples/slider_crank.mech --set rod_length=200mm --every 0.5ms
   mechc formula '(1.5 * sin(t) + 3 * t^2)^2' --at 0 --at 1.5
+  mechc explain E0203
 
 Exit codes:
   0  done (warnings may have been printed)
@@ -76,6 +77,14 @@ pub(super) enum Command {
         mechc import pendulum.adm | mechc run - --from 0 --to 5 --every 10ms"
     )]
     Import(ImportArguments),
+    /// The page of a diagnostic's code: what it means, an example, why, and the mend
+    #[command(
+        long_about = "The page of a diagnostic's code.\n\n\
+        Every message of mechc begins with a code, as in error[E0203]. Its page says what the code means, shows a small file \
+        that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.",
+        after_help = "Examples:\n  mechc explain E0203\n  mechc explain e0602 | less\n  mechc explain"
+    )]
+    Explain(ExplainArguments),
 }
 
 /// What all commands that read a .mech file share.
@@ -246,6 +255,16 @@ pub(super) struct FormulaArguments {
     /// A time to evaluate it at, in seconds or with a unit. Repeatable; sorted, and each printed once
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub messages: Messages,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct ExplainArguments {
+    /// The code, in capitals or not; without it all codes are listed
+    #[arg(value_name = "CODE")]
+    pub code: Option<String>,
 
     #[command(flatten)]
     pub messages: Messages,

@@ -6,6 +6,7 @@ mod arguments;
 mod check;
 mod dump;
 mod emit;
+mod explain;
 mod failure;
 mod files;
 mod formula;
@@ -31,6 +32,7 @@ pub fn main() -> ExitCode {
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
+        Command::Explain(explain) => reported(&explain.messages, |_| explain::explain(&explain)),
         Command::Import(import) => reported(&import.messages, |reporter| import::import(&import, reporter)),
     })
 }

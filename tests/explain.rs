@@ -1,0 +1,300 @@
+//! The catalogue: a page per code whose examples do what it says of them, a place that raises it, a test that shows it, and
+//! the index of all of them.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::diag::{Code, Severity};
+use std::fs;
+use std::path::Path;
+use support::{Span, files, run, stem};
+
+/// The parts of a page below its introduction; the last one may be missing.
+const PARTS: [&str; 4] = ["An example that fails", "Why", "Mended", "See also"];
+
+/// The parts that hold an example, one each.
+const EXAMPLES: [&str; 2] = ["An example that fails", "Mended"];
+
+/// Pages that describe their examples in words, and why.
+const IN_WORDS: &[(Code, &str)] = &[(Code::E0505, "only a chain of more than 4000 coordinates raises it")];
+
+/// The longest line of prose and of a file.
+const WIDTH: usize = 110;
+
+/// A page, taken apart.
+struct Page {
+    title: String,
+    /// Heading, prose and fenced blocks; the introduction has no heading.
+    parts: Vec<Part>,
+}
+
+#[derive(Default)]
+struct Part {
+    heading: String,
+    prose: String,
+    blocks: Vec<Block>,
+}
+
+#[derive(Default)]
+struct Block {
+    language: String,
+    text: String,
+}
+
+impl Page {
+    fn read(text: &str) -> Page {
+        let mut lines = text.lines();
+        let title = lines.next().unwrap_or_default().to_owned();
+        let mut parts = vec![Part::default()];
+        while let Some(line) = lines.next() {
+            let part = parts.last_mut().expect("never empty");
+            if let Some(heading) = line.strip_prefix("## ") {
+                parts.push(Part { heading: heading.to_owned(), ..Part::default() });
+            } else if let Some(language) = line.strip_prefix("```") {
+                let text = lines.by_ref().take_while(|line| *line != "```").map(|line| line.to_owned() + "\n");
+                part.blocks.push(Block { language: language.to_owned(), text: text.collect() });
+            } else {
+                part.prose += line;
+                part.prose += "\n";
+            }
+        }
+        Page { title, parts }
+    }
+
+    /// The example of a part; `None` for one in words.
+    fn example(&self, heading: &str) -> Option<&Block> {
+        self.parts.iter().find(|part| part.heading == heading)?.blocks.first()
+    }
+}
+
+/// What is wrong with the form of a page.
+fn faults_of_form(code: Code, text: &str) -> Vec<String> {
+    let page = Page::read(text);
+    let mut faults = Vec::new();
+    let mut wants = |right: bool, what: String| {
+        if !right {
+            faults.push(what);
+        }
+    };
+    wants(
+        page.title == format!("# {code}: {}", code.title()),
+        "the first line is not the catalogue's title".to_owned(),
+    );
+    let headings: Vec<&str> = page.parts.iter().skip(1).map(|part| part.heading.as_str()).collect();
+    wants(headings == PARTS || headings == PARTS[..3], format!("the parts are {headings:?}"));
+    let in_words = IN_WORDS.iter().any(|(one, _)| *one == code);
+    for Part { heading, prose, blocks } in &page.parts {
+        let example = EXAMPLES.contains(&heading.as_str());
+        wants(example || !prose.trim().is_empty(), format!("`{heading}` says nothing"));
+        let right = blocks.len() == usize::from(example && !in_words);
+        wants(right, format!("`{heading}` has {} fenced blocks", blocks.len()));
+        for block in blocks {
+            let known = matches!(block.language.as_str(), "mech" | "console");
+            wants(known, format!("`{heading}` has a block of `{}`", block.language));
+        }
+        // what a session prints is as wide as it is
+        let files = blocks.iter().filter(|block| block.language == "mech").flat_map(|block| block.text.lines());
+        for line in prose.lines().chain(files) {
+            wants(line.chars().count() <= WIDTH, format!("a long line: {line}"));
+            wants(line.trim_end() == line && !line.contains('\t'), format!("blanks or tabs: {line:?}"));
+        }
+        for named in codes_in(prose) {
+            wants(Code::named(&named).is_some(), format!("there is no code {named}"));
+        }
+    }
+    wants(text.ends_with('\n') && !text.ends_with("\n\n"), "the last line does not end the page".to_owned());
+    faults
+}
+
+/// What looks like a code in a text, in order.
+fn codes_in(text: &str) -> Vec<String> {
+    let looks_right = |word: &&str| {
+        word.len() == 5 && word.starts_with(['E', 'W', 'N']) && word[1..].bytes().all(|byte| byte.is_ascii_digit())
+    };
+    text.split(|c: char| !c.is_alphanumeric()).filter(looks_right).map(str::to_owned).collect()
+}
+
+/// The codes that an example raises.
+fn raised(code: Code, example: &Block) -> Vec<String> {
+    if example.language == "console" {
+        // the sessions are held against what is printed by `sessions_of_the_pages`
+        return example.text.lines().filter(|line| !line.starts_with("$ ")).flat_map(codes_in).collect();
+    }
+    let outcome = run(&format!("{code}.mech"), &example.text, Span::default());
+    outcome.codes().into_iter().map(str::to_owned).collect()
+}
+
+/// What is wrong with the examples of a page.
+fn faults_of_examples(code: Code) -> Vec<String> {
+    let page = Page::read(code.page());
+    let mut faults = Vec::new();
+    if let Some(failing) = page.example(EXAMPLES[0]) {
+        let codes = raised(code, failing);
+        if codes.is_empty() || codes.iter().any(|one| one != code.as_str()) {
+            faults.push(format!("the failing example raises {codes:?}"));
+        }
+    }
+    if let Some(mended) = page.example(EXAMPLES[1]) {
+        let codes = raised(code, mended);
+        if !codes.is_empty() {
+            faults.push(format!("the mended example raises {codes:?}"));
+        } else if mended.language == "mech" && run("mended.mech", &mended.text, Span::default()).rows.is_empty() {
+            faults.push("the mended example has no analysis".to_owned());
+        }
+    }
+    faults
+}
+
+/// Fails with all faults of all pages, so that a writer of pages sees them together.
+fn expect_no_faults(faults_of: impl Fn(Code) -> Vec<String>) {
+    let faults: Vec<String> = Code::ALL
+        .iter()
+        .flat_map(|code| faults_of(*code).into_iter().map(move |fault| format!("{code}.md: {fault}")))
+        .collect();
+    assert!(faults.is_empty(), "{}", faults.join("\n"));
+}
+
+#[test]
+fn pages_have_their_form() {
+    expect_no_faults(|code| faults_of_form(code, code.page()));
+}
+
+#[test]
+fn examples_raise_what_their_page_is_about_and_mended_they_raise_nothing() {
+    expect_no_faults(faults_of_examples);
+}
+
+#[test]
+fn sessions_of_the_pages() {
+    trycmd::TestCases::new().case("src/diag/explain/*.md");
+}
+
+#[test]
+fn faults_of_a_page_are_found() {
+    let good = Code::E0203.page();
+    let faulty = [
+        good.replace("# E0203", "# E0204"),
+        good.replace("## Why", "## Wherefore"),
+        good.replace("```mech", "```text"),
+        good.replacen("```mech", "```mech\n```\n```mech", 1),
+        good.replace("E0204", "E0299"),
+        good.replace("E0204", &"word ".repeat(30)),
+        good.trim_end().to_owned(),
+    ];
+    assert_eq!(faults_of_form(Code::E0203, good), [""; 0]);
+    for text in faulty {
+        assert!(!faults_of_form(Code::E0203, &text).is_empty(), "nothing is found in:\n{text}");
+    }
+}
+
+#[test]
+fn no_page_is_without_a_code() {
+    let pages: Vec<String> = files("src/diag/explain", "md").iter().map(|path| stem(path)).collect();
+    let mut codes: Vec<&str> = Code::ALL.iter().map(|code| code.as_str()).collect();
+    codes.sort_unstable();
+    assert_eq!(pages, codes);
+}
+
+#[test]
+fn severities_are_those_of_the_letters() {
+    for code in Code::ALL {
+        let wanted = match code.as_str().as_bytes()[0] {
+            b'E' => Severity::Error,
+            b'W' => Severity::Warning,
+            _ => Severity::Note,
+        };
+        assert_eq!(code.severity(), wanted, "{code}");
+    }
+}
+
+#[test]
+fn every_code_is_raised_somewhere() {
+    let sources: String = files("src", "rs")
+        .iter()
+        .filter(|path| !path.ends_with("diag/codes.rs"))
+        .map(|path| fs::read_to_string(path).expect("a text"))
+        .collect();
+    for code in Code::ALL {
+        // as the first argument of what makes a diagnostic, rather than compared with one
+        assert!(sources.contains(&format!("Code::{code},")), "nothing raises {code}");
+    }
+}
+
+/// Codes that a file alone cannot raise; the sessions in `tests/cli.rs` do.
+const OF_THE_COMMAND_LINE: &[&str] = &[
+    "E0102", "E0611", "W0502", "W0602", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "N0701", "N0702",
+];
+
+/// Codes that only texts raise which are too large to be written down; `tests/robustness.rs` makes them.
+const OF_LARGE_INPUTS: &[&str] = &["E0505"];
+
+#[test]
+fn every_code_is_shown_by_a_test() {
+    let snapshots: String =
+        files("tests/ui", "snap").iter().map(|path| fs::read_to_string(path).expect("a text")).collect();
+    let sessions: String = std::iter::once("tests/cli.rs".into())
+        // the session of `explain` lists all codes, and shows none at work
+        .chain(files("tests/cli", "trycmd").into_iter().filter(|path| stem(path) != "explain"))
+        .map(|path| fs::read_to_string(path).expect("a text"))
+        .collect();
+    let generated = fs::read_to_string("tests/robustness.rs").expect("a text");
+    for code in Code::ALL {
+        let code = code.as_str();
+        let shown = if OF_LARGE_INPUTS.contains(&code) {
+            generated.contains(code)
+        } else if OF_THE_COMMAND_LINE.contains(&code) {
+            sessions.contains(code)
+        } else {
+            snapshots.contains(&format!("[{code}]"))
+        };
+        assert!(shown, "no test shows {code}");
+    }
+}
+
+#[test]
+fn explain_prints_the_page_as_it_is() {
+    for code in Code::ALL {
+        for name in [code.to_string(), code.as_str().to_lowercase()] {
+            let mut mechc = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
+            mechc.args(["explain", &name]).assert().success().stdout(code.page()).stderr("");
+        }
+    }
+}
+
+/// The whole catalogue as a page of the documentation.
+fn index() -> String {
+    let mut text = "# All codes\n\n\
+        Every message of `mechc` has a code, which never changes its meaning: `E` for an error, `W` for a warning, `N` for a \
+        note.\nEach code has a page with an example that fails, the reason and the mend; `mechc explain E0203` prints \
+        it.\n\n\
+        The list is generated: `UPDATE_GOLDENS=1 cargo test --test explain` writes it.\n"
+        .to_owned();
+    for area in Code::ALL.chunk_by(|a, b| a.area() == b.area()) {
+        let (first, rest) = area[0].area().split_at(1);
+        text += &format!(
+            "\n## {}{rest}\n\n| code | severity | what it means |\n| --- | --- | --- |\n",
+            first.to_uppercase()
+        );
+        for code in area {
+            let severity = match code.severity() {
+                Severity::Error => "error",
+                Severity::Warning => "warning",
+                Severity::Note => "note",
+            };
+            text += &format!("| [{code}](../src/diag/explain/{code}.md) | {severity} | {} |\n", code.title());
+        }
+    }
+    text
+}
+
+#[test]
+fn the_index_is_that_of_the_catalogue() {
+    let path = Path::new("docs/codes.md");
+    if std::env::var_os("UPDATE_GOLDENS").is_some() {
+        fs::write(path, index()).expect("written");
+    }
+    let golden = fs::read_to_string(path).expect("the index");
+    let hint = "UPDATE_GOLDENS=1 cargo test --test explain writes it";
+    assert!(golden == index(), "{} is not the catalogue as it is now; {hint}", path.display());
+}
