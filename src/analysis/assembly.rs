@@ -6,9 +6,11 @@
 use super::edges::behind_start;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
+use super::least_squares::{Values, minimize};
+use super::open_loop;
 use super::singular;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, WatchKind};
 use std::f64::consts::PI;
 
 /// Passes over the explicit coordinates at most; each settles what depends on the one before.
@@ -21,8 +23,6 @@ const LARGEST_STEP: f64 = 0.3;
 const SMALLEST_DAMPING: f64 = 1e-3;
 /// A correction below this leaves nothing to the next one.
 const SETTLED: f64 = 1e-7;
-/// Steps of the least-squares method at most.
-const LEAST_SQUARES_STEPS: usize = 300;
 /// Systems up to this size are assembled as a whole by the least-squares method, larger ones block by block.
 const LARGEST_DENSE: usize = 300;
 /// How far estimates are perturbed, scaled, one attempt after another.
@@ -31,6 +31,8 @@ const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 const SINGULAR_START: f64 = 1e-5;
 /// Times nearby at which a singular start is looked at, as parts of the span.
 const NEARBY: [f64; 4] = [3e-3, -3e-3, 1e-2, -1e-2];
+/// How far a free motion is followed to look beside a singular start, scaled.
+const BESIDE: f64 = 0.02;
 /// A position that differs by less than this, scaled, is the same.
 const MOVED: f64 = 1e-4;
 /// Equations that are open by less than this hold nearly.
@@ -199,25 +201,17 @@ fn by_least_squares(
     Err(Box::new(explain(kinematics, &q, t)))
 }
 
-/// The rows that stay open, worst first.
+/// Which loop stays open.
 fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
     if let Err(fault) = kinematics.set_position(q) {
         return errors::no_value(kinematics.system(), fault, t);
     }
-    let _ = kinematics.factor();
-    let mut rows: Vec<(usize, f64, f64)> = (0..q.len())
-        .map(|row| {
-            let off = kinematics.phi(row).abs();
-            let norm = kinematics.linear().row_norm(row);
-            (row, off, if norm > 0.0 { off / norm } else { off })
-        })
-        .collect();
-    rows.sort_by(|a, b| b.2.total_cmp(&a.2));
-    let worst = rows.first().map_or(0.0, |row| row.2);
-    rows.retain(|row| row.2 > 0.3 * worst);
-    // a length or a driver is more often wrong than a pin
-    rows.sort_by_key(|row| matches!(kinematics.system().declaration_of(row.0).kind, DeclarationKind::Joint(word) if word != "revolute_revolute"));
-    errors::cannot_assemble(kinematics.system(), &rows, t)
+    open_loop::explain(kinematics.determined(), q, t).unwrap_or_else(|| {
+        let _ = kinematics.factor();
+        let open = |row: usize| kinematics.residual(row);
+        let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
+        errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
+    })
 }
 
 /// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
@@ -248,30 +242,52 @@ fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result
         return Ok(());
     }
     let vectors = kinematics.worst();
-    let elsewhere = independent_nearby(kinematics, q, t);
+    let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t);
     Err(Box::new(singular::name_start(system, (&vectors.left, &vectors.right), elsewhere, t)))
 }
 
-/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
-fn independent_nearby(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Option<bool> {
-    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
-    for part in NEARBY {
-        kinematics.set_time(t + part * span);
-        let near = least_squares(kinematics, q.to_vec());
-        let moved = near
-            .iter()
-            .zip(q)
-            .enumerate()
-            .any(|(k, (a, b))| (a - b).abs() > MOVED * kinematics.linear().column_scale(k));
-        let holds = kinematics.set_position(&near).is_ok() && {
-            let _ = kinematics.factor();
-            kinematics.hold_nearly(OPEN_NEARBY)
-        };
-        if moved && holds {
-            return Some(kinematics.nearness(SINGULAR_START) > SINGULAR_START);
+/// Whether the equations are independent in a position nearby; none if there is no other one.
+fn independent_elsewhere(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
+    independent_later(kinematics, q, t).or_else(|| {
+        kinematics.set_time(t);
+        independent_beside(kinematics, q, free)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
+fn independent_beside(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64]) -> Option<bool> {
+    for way in [BESIDE, -BESIDE] {
+        let scale = |k: usize| kinematics.linear().column_scale(k);
+        let start = (0..q.len()).map(|k| q[k] + way * free[k] * scale(k)).collect();
+        if let Some(independent) = independent_at(kinematics, q, start) {
+            return Some(independent);
         }
     }
     None
+}
+
+/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
+fn independent_later(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Option<bool> {
+    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
+    for part in NEARBY {
+        kinematics.set_time(t + part * span);
+        if let Some(independent) = independent_at(kinematics, q, q.to_vec()) {
+            return Some(independent);
+        }
+    }
+    None
+}
+
+/// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
+fn independent_at(kinematics: &mut Kinematics<'_>, q: &[f64], start: Vec<f64>) -> Option<bool> {
+    let near = least_squares(kinematics, start);
+    let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
+    let moved = (0..q.len()).any(far);
+    let holds = kinematics.set_position(&near).is_ok() && {
+        let _ = kinematics.factor();
+        kinematics.hold_nearly(OPEN_NEARBY)
+    };
+    (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
 }
 
 /// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
@@ -301,125 +317,12 @@ fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
 }
 
 fn levenberg_marquardt(kinematics: &mut Kinematics<'_>, q: &mut [f64], rows: &[u32], columns: &[u32]) {
-    let m = rows.len();
-    let mut place = vec![usize::MAX; q.len()];
-    for (k, &column) in columns.iter().enumerate() {
-        place[column as usize] = k;
-    }
-    let scale: Vec<f64> = columns.iter().map(|&column| kinematics.linear().column_scale(column as usize)).collect();
-    let Some((mut residual, mut jacobian, weights)) = linearize(kinematics, q, rows, &place, &scale, None) else {
-        return;
-    };
-    let mut damping = 1e-3;
-    for _ in 0..LEAST_SQUARES_STEPS {
-        let norm = square(&residual);
-        if norm.sqrt() < 1e-15 {
-            return;
-        }
-        let step = damped_solution(&jacobian, &residual, damping, [m, m]);
-        let before: Vec<f64> = q.to_vec();
-        let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
-        let cut = if longest > LARGEST_STEP { LARGEST_STEP / longest } else { 1.0 };
-        for (k, &column) in columns.iter().enumerate() {
-            q[column as usize] += cut * step[k] * scale[k];
-        }
-        match linearize(kinematics, q, rows, &place, &scale, Some(&weights)) {
-            Some((new_residual, new_jacobian, _)) if square(&new_residual) < norm => {
-                let gained = 1.0 - square(&new_residual) / norm;
-                (residual, jacobian) = (new_residual, new_jacobian);
-                damping = f64::max(damping * 0.3, 1e-12);
-                if gained < 1e-10 {
-                    return;
-                }
-            }
-            _ => {
-                q.copy_from_slice(&before);
-                damping *= 4.0;
-                if damping > 1e12 {
-                    return;
-                }
-            }
-        }
-    }
-}
-
-fn square(v: &[f64]) -> f64 {
-    v.iter().map(|x| x * x).sum()
-}
-
-/// Scaled residual and dense Jacobian of some rows by some columns; `None` where Φ is not finite. Without weights the
-/// rows' norms there become the weights.
-#[allow(clippy::type_complexity)] // three plain arrays
-fn linearize(
-    kinematics: &mut Kinematics<'_>,
-    q: &[f64],
-    rows: &[u32],
-    place: &[usize],
-    scale: &[f64],
-    weights: Option<&[f64]>,
-) -> Option<(Vec<f64>, Vec<f64>, Vec<f64>)> {
-    kinematics.set_position(q).ok()?;
-    let pattern = &kinematics.system().phi_q;
-    let m = rows.len();
-    let mut jacobian = vec![0.0; m * m];
-    let mut residual = vec![0.0; m];
-    let mut used = vec![1.0; m];
-    for (k, &row) in rows.iter().enumerate() {
-        let row = row as usize;
-        let line = &mut jacobian[k * m..(k + 1) * m];
-        for (position, &(column, _)) in pattern.range(row).zip(pattern.row(row)) {
-            if let Some(&scale) = scale.get(place[column as usize]) {
-                line[place[column as usize]] = kinematics.phi_q(position) * scale;
-            }
-        }
-        let norm = square(line).sqrt();
-        used[k] = weights.map_or(if norm > 0.0 { norm } else { 1.0 }, |weights| weights[k]);
-        for x in line {
-            *x /= used[k];
-        }
-        residual[k] = kinematics.phi(row) / used[k];
-    }
-    jacobian.iter().all(|x| x.is_finite()).then_some((residual, jacobian, used))
-}
-
-/// The x of least |J x + r|² + λ|x|², by Householder reflections of J above √λ I.
-pub(super) fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, [m, n]: [usize; 2]) -> Vec<f64> {
-    let height = m + n;
-    // column by column, with the right side as the last one
-    let mut a = vec![0.0; height * (n + 1)];
-    for i in 0..m {
-        for j in 0..n {
-            a[j * height + i] = jacobian[i * n + j];
-        }
-        a[n * height + i] = -residual[i];
-    }
-    for j in 0..n {
-        a[j * height + m + j] = damping.sqrt();
-    }
-    for k in 0..n {
-        let (done, rest) = a.split_at_mut((k + 1) * height);
-        let column = &mut done[k * height..];
-        let norm = square(&column[k..]).sqrt();
-        let pivot = if column[k] > 0.0 { -norm } else { norm };
-        column[k] -= pivot;
-        let length = square(&column[k..]);
-        for other in rest.chunks_exact_mut(height) {
-            let share: f64 = column[k..].iter().zip(&other[k..]).map(|(x, y)| x * y).sum();
-            for (x, y) in column[k..].iter().zip(&mut other[k..]) {
-                *y -= 2.0 * share / length * x;
-            }
-        }
-        column[k] = pivot;
-    }
-    let mut x = vec![0.0; n];
-    for i in (0..n).rev() {
-        let mut sum = a[n * height + i];
-        for j in i + 1..n {
-            sum -= a[j * height + i] * x[j];
-        }
-        x[i] = sum / a[i * height + i];
-    }
-    x
+    // where the equations have no value there, the position stays as it is
+    let _ = minimize(kinematics.system(), columns, q, None, |q, weights| {
+        kinematics.set_position(q).ok()?;
+        let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));
+        Values { system: kinematics.system(), phi, phi_q }.linear(rows, columns, weights)
+    });
 }
 
 /// Numbers in [−1, 1] that are the same on every run (G. Steele et al., *SplitMix*, 2014).

@@ -10,18 +10,23 @@
 
 mod assembly;
 mod bridge;
+mod determine;
 mod edges;
 mod errors;
+mod evaluator;
+mod freedom;
 mod kinematics;
+mod least_squares;
 mod linear;
 mod march;
+mod open_loop;
 mod redundancy;
 mod singular;
 mod times;
 
 pub use assembly::Moved;
+pub use determine::determine;
 pub use march::Motion;
-pub use redundancy::determine;
 pub use times::Times;
 
 use crate::diag::{Diagnostic, Diagnostics};

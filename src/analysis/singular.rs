@@ -1,5 +1,6 @@
 //! Why an analysis cannot go on: which formula, which lock-up, which bifurcation.
 
+use super::determine::explain_dependent;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
@@ -126,6 +127,11 @@ pub(super) fn name_start(
         (Some(true), None) => StartVerdict::Bifurcation,
         (None, _) => StartVerdict::Unknown,
     };
+    if verdict == StartVerdict::Always
+        && let Some(diagnostic) = explain_dependent(system)
+    {
+        return diagnostic;
+    }
     let free = motion_in_words(system, right);
     errors::singular_start(system, &declarations, &columns_in(right), verdict, t).note(free)
 }
@@ -144,7 +150,7 @@ pub(super) enum StartVerdict {
 }
 
 /// A motion as a reader sees it: how far one body turns for each degree of another.
-fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
+pub(super) fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     let largest = right.iter().fold(0.0, |m: f64, v| m.max(v.abs()));
     let rate = |k: usize| right[k];
     let of_kind = |wanted: CoordinateKind| {
@@ -158,11 +164,7 @@ fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     let turning = of_kind(CoordinateKind::Angle);
     let name = |k: usize| format!("`{}`", system.owner_name(k));
     let Some((&first, others)) = turning.split_first() else {
-        let sliding = of_kind(CoordinateKind::Length);
-        let mut names: Vec<String> = sliding.iter().map(|&k| name(k)).collect();
-        names.dedup();
-        names.truncate(3);
-        return format!("left free: {} can move", names.join(", "));
+        return slide_in_words(system, right, &of_kind(CoordinateKind::Length));
     };
     let others: Vec<String> = others
         .iter()
@@ -181,6 +183,24 @@ fn motion_in_words(system: &ConstraintSystem, right: &[f64]) -> String {
     } else {
         format!("left free: {}", others.join(", "))
     }
+}
+
+/// A motion without turning: which bodies move, and which way the first of them.
+fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -> String {
+    let Some(body) = sliding.first().and_then(|&k| system.body_of(k)) else {
+        return "left free: the contacts can move".to_owned();
+    };
+    let [x, y] = [right[3 * body], right[3 * body + 1]];
+    let largest = f64::max(x.abs(), y.abs());
+    let [x, y] = [x, y].map(|way| errors::three_digits(if way.abs() > SEEN * largest { way / largest } else { 0.0 }));
+    let mut names: Vec<String> = sliding.iter().map(|&k| format!("`{}`", system.owner_name(k))).collect();
+    names.dedup();
+    let more = match names.as_slice() {
+        [_] => String::new(),
+        [_, others @ ..] => format!(", and with it {}", errors::cut_list(others)),
+        [] => return String::new(),
+    };
+    format!("left free: {} can move along ({x}, {y}){more}", names[0])
 }
 
 fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {

@@ -36,6 +36,8 @@ pub struct ConstraintSystem {
     pub params: Vec<Param>,
     /// The bodies, each with three coordinates; those of the joints come after them.
     pub bodies: Vec<Body>,
+    /// Their points and the ground's: the equations know of none, but what is said of them does.
+    pub points: Vec<Point>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
@@ -84,6 +86,17 @@ pub struct Body {
     pub name: String,
     /// The name's place.
     pub span: Span,
+}
+
+/// A point fixed in a body or in the ground.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Index of its body; none for the ground.
+    pub body: Option<usize>,
+    /// Its name; a literal point has none.
+    pub name: Option<String>,
+    /// In the frame of its body (m); holds parameters only.
+    pub at: [ExprId; 2],
 }
 
 /// What a coordinate measures.
@@ -167,6 +180,8 @@ pub struct Declaration {
     pub kind: DeclarationKind,
     /// How many rows it wrote.
     pub rows: usize,
+    /// Where it takes hold: indices of points, one for each of its two bodies where there is one.
+    pub points: Vec<usize>,
 }
 
 /// An equation.

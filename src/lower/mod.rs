@@ -15,7 +15,7 @@ use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Watch,
 };
-use crate::model::{ConditionKind, EquationForm, Frame, Mechanism, Named, Quantity};
+use crate::model::{ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -45,6 +45,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     lowering.joint_rows();
     lowering.equation_rows();
     lowering.conditions();
+    let points = lowering.points();
     let measures = lowering.measures();
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
@@ -65,6 +66,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .iter()
             .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span })
             .collect(),
+        points,
         coordinates: lowering.coordinates,
         declarations: lowering.declarations,
         rows: lowering.rows,
@@ -140,6 +142,19 @@ impl Lowering<'_> {
         }
     }
 
+    fn points(&mut self) -> Vec<ir::Point> {
+        let model = self.model;
+        let point = |point: &crate::model::Point| ir::Point {
+            body: match point.frame {
+                Frame::Ground => None,
+                Frame::Body(body) => Some(body.index()),
+            },
+            name: point.name.clone(),
+            at: point.at.map(|id| self.formula(id)),
+        };
+        model.points.iter().map(point).collect()
+    }
+
     fn body_coordinates(&mut self) {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
@@ -174,9 +189,17 @@ impl Lowering<'_> {
         result
     }
 
-    fn declare(&mut self, name: &crate::model::Declared, kind: DeclarationKind, phi: &[ExprId]) {
+    fn declare(
+        &mut self,
+        declared: &crate::model::Declared,
+        kind: DeclarationKind,
+        phi: &[ExprId],
+        points: &[PointId],
+    ) {
         let declaration = self.declarations.len();
-        self.declarations.push(Declaration { name: name.name.clone(), span: name.span, kind, rows: phi.len() });
+        let (name, span) = (declared.name.clone(), declared.span);
+        let points = points.iter().map(|point| point.index()).collect();
+        self.declarations.push(Declaration { name, span, kind, rows: phi.len(), points });
         self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
     }
 
@@ -184,7 +207,8 @@ impl Lowering<'_> {
         let model = self.model;
         for joint in &model.joints {
             let phi = self.joint(joint);
-            self.declare(&joint.declared, DeclarationKind::Joint(joint.kind.word()), &phi);
+            let kind = DeclarationKind::Joint(joint.kind.word());
+            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
         }
     }
 
@@ -193,17 +217,17 @@ impl Lowering<'_> {
         let model = self.model;
         for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
             for equation in model.equations.iter().filter(|equation| equation.driver == drivers) {
-                let phi = match equation.form {
+                let (phi, points) = match equation.form {
                     EquationForm::Difference(left, right) => {
                         let (left, right) = (self.formula(left), self.formula(right));
-                        self.graph.sub(left, right)
+                        (self.graph.sub(left, right), Vec::new())
                     }
                     EquationForm::SquaredDistance(p, q, distance) => {
                         let distance = self.formula(distance);
-                        self.squared_distance_row(p, q, distance)
+                        (self.squared_distance_row(p, q, distance), vec![p, q])
                     }
                 };
-                self.declare(&equation.declared, kind, &[phi]);
+                self.declare(&equation.declared, kind, &[phi], &points);
             }
         }
     }

@@ -354,6 +354,30 @@ impl JointKind {
         }
     }
 
+    /// The points where it takes hold of its bodies; a curve has none.
+    #[must_use]
+    pub fn points(self, mechanism: &Mechanism) -> Vec<PointId> {
+        let on_profile = |profile: Profile| match profile {
+            Profile::Circle(circle) => Some(mechanism[circle].center),
+            Profile::Curve(_) => None,
+        };
+        let (first, second) = match self {
+            JointKind::Revolute(p, q) | JointKind::Weld(p, q, _) | JointKind::RevoluteRevolute(p, q, _) => {
+                (Some(p), Some(q))
+            }
+            JointKind::Translational(a, b) => (Some(mechanism[a].origin), Some(mechanism[b].origin)),
+            JointKind::RevoluteTranslational(p, a, _) => (Some(p), Some(mechanism[a].origin)),
+            JointKind::Gear { circles: [c, d], .. } => (Some(mechanism[c].center), Some(mechanism[d].center)),
+            JointKind::RackPinion { pinion, rack, .. } => {
+                (Some(mechanism[pinion].center), Some(mechanism[rack].origin))
+            }
+            JointKind::PointFollower(p, profile) => (Some(p), on_profile(profile)),
+            JointKind::Cam(k, m) => (on_profile(k), on_profile(m)),
+            JointKind::FlatFollower(profile, a) => (on_profile(profile), Some(mechanism[a].origin)),
+        };
+        first.into_iter().chain(second).collect()
+    }
+
     /// The frames of its first and of its second feature.
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {

@@ -1,7 +1,7 @@
 //! What is said of a mechanism that is not determined.
 
+use super::Part;
 use super::count::table;
-use super::matching::Matching;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
 
@@ -11,7 +11,7 @@ const LISTED: usize = 8;
 /// Drivers that one message suggests at most.
 const MOST_DRIVERS: usize = 3;
 
-pub fn count(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
+pub fn count(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diagnostic {
     let ndof = system.ndof();
     let message = match ndof {
         1 => "1 degree of freedom is left".to_owned(),
@@ -23,18 +23,17 @@ pub fn count(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     let diagnostic = Diagnostic::new(Code::E0502, format!("{message} in mechanism `{}`", system.name))
         .at(system.span, label)
         .note(table(system));
-    let diagnostic = with_data(diagnostic, system, &competing(system, matching), &matching.free_columns(&system.phi_q));
+    let diagnostic = with_data(diagnostic, system, &competing(system, too_many), &too_few.columns);
     if ndof > 0 {
-        diagnostic.help(drivers_to_add(system, matching, ndof))
+        diagnostic.help(drivers_to_add(system, &too_few.columns, ndof))
     } else {
         diagnostic.help(what_to_take_away(system))
     }
 }
 
 /// Joints whose motion nothing fixes, as drivers to write.
-fn drivers_to_add(system: &ConstraintSystem, matching: &Matching, ndof: isize) -> String {
+fn drivers_to_add(system: &ConstraintSystem, free: &[u32], ndof: isize) -> String {
     let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
-    let free = matching.free_columns(&system.phi_q);
     let mut quantities: Vec<String> = Vec::new();
     let mut first_row = 0;
     for declaration in &system.declarations {
@@ -90,9 +89,9 @@ fn what_to_take_away(system: &ConstraintSystem) -> String {
     }
 }
 
-pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
-    let columns = matching.free_columns(&system.phi_q);
-    let competing = competing(system, matching);
+pub fn structure(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diagnostic {
+    let columns = &too_few.columns;
+    let competing = competing(system, too_many);
     let mut free: Vec<_> = columns.iter().map(|&column| system.owner_span(column as usize)).collect();
     free.dedup();
     let mut diagnostic =
@@ -109,16 +108,12 @@ pub fn structure(system: &ConstraintSystem, matching: &Matching) -> Diagnostic {
     let diagnostic = diagnostic
         .note(format!("nothing fixes {}", shown.join(", ")))
         .help("move one of the equations to the part that lacks one");
-    with_data(diagnostic, system, &competing, &columns)
+    with_data(diagnostic, system, &competing, columns)
 }
 
 /// The declarations among whose equations there is one too many.
-fn competing<'s>(system: &'s ConstraintSystem, matching: &Matching) -> Vec<&'s Declaration> {
-    let mut declarations: Vec<usize> = matching
-        .overdetermined_rows(&system.phi_q)
-        .into_iter()
-        .map(|row| system.rows[row as usize].declaration)
-        .collect();
+fn competing<'s>(system: &'s ConstraintSystem, too_many: &Part) -> Vec<&'s Declaration> {
+    let mut declarations: Vec<usize> = too_many.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
     declarations.dedup();
     declarations.into_iter().map(|k| &system.declarations[k]).collect()
 }

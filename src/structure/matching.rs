@@ -6,7 +6,7 @@
 //! maximum transversal*, 1981). The blocks are the strongly connected components of the
 //! matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither recurses.
 
-use super::Block;
+use super::{Block, Part};
 use crate::ir::SparseRows;
 
 const NONE: u32 = u32::MAX;
@@ -176,8 +176,23 @@ impl Matching {
         self.column_of_row.iter().all(|&column| column != NONE) && self.row_of_column.iter().all(|&row| row != NONE)
     }
 
+    /// The part that has too many rows and the one that has too few (A. Dulmage and N. Mendelsohn, *Coverings of bipartite
+    /// graphs*, 1958).
+    pub fn unequal_parts(&self, pattern: &SparseRows) -> [Part; 2] {
+        let rows = self.overdetermined_rows(pattern);
+        let mut columns: Vec<u32> =
+            rows.iter().flat_map(|&row| pattern.row(row as usize)).map(|&(column, _)| column).collect();
+        columns.sort_unstable();
+        columns.dedup();
+        let free = self.free_columns(pattern);
+        let mut holding: Vec<u32> = free.iter().map(|&column| self.row_of_column[column as usize]).collect();
+        holding.retain(|&row| row != NONE);
+        holding.sort_unstable();
+        [Part { rows, columns }, Part { rows: holding, columns: free }]
+    }
+
     /// Rows among which there is one too many: all that alternating paths reach from the unmatched ones.
-    pub fn overdetermined_rows(&self, pattern: &SparseRows) -> Vec<u32> {
+    fn overdetermined_rows(&self, pattern: &SparseRows) -> Vec<u32> {
         let mut open: Vec<u32> = unmatched(&self.column_of_row);
         let mut seen = vec![false; self.column_of_row.len()];
         while let Some(row) = open.pop() {
@@ -196,7 +211,7 @@ impl Matching {
     }
 
     /// Columns that nothing fixes: all that alternating paths reach from the unmatched ones.
-    pub fn free_columns(&self, pattern: &SparseRows) -> Vec<u32> {
+    fn free_columns(&self, pattern: &SparseRows) -> Vec<u32> {
         let columns = self.row_of_column.len();
         let users = Users::new(pattern, self.column_of_row.len(), columns);
         let mut open: Vec<u32> = unmatched(&self.row_of_column);

@@ -59,20 +59,22 @@ fn is_explicit(system: &ConstraintSystem, block: &Block) -> bool {
 /// Why a system is not determined.
 #[derive(Clone, Debug)]
 pub struct Refused {
+    /// The system.
+    pub system: ConstraintSystem,
     /// The count's or the structure's diagnostic.
     pub diagnostic: Diagnostic,
-    /// Where every coordinate has its equation, and there are more.
-    pub too_many: Option<Overdetermined>,
+    /// The part that has more equations than coordinates: these stand for themselves, and hold no other coordinates.
+    pub too_many: Part,
+    /// The part that has fewer equations than coordinates; these may hold coordinates of other parts too.
+    pub too_few: Part,
 }
 
-/// A system in which every coordinate has an equation that could fix it, and a part has more equations than coordinates.
-#[derive(Clone, Debug)]
-pub struct Overdetermined {
-    /// The equations.
-    pub system: ConstraintSystem,
-    /// Those of the part, in order.
+/// Equations and coordinates of a system.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct Part {
+    /// Rows of `Φ`, ascending.
     pub rows: Vec<u32>,
-    /// Its coordinates: the rows hold no others.
+    /// Coordinates, ascending.
     pub columns: Vec<u32>,
 }
 
@@ -82,19 +84,14 @@ pub struct Overdetermined {
 /// Why it is not.
 pub fn prove(system: ConstraintSystem) -> Result<Determined, Box<Refused>> {
     let matching = matching::maximum(&system.phi_q, system.rows.len(), system.coordinates.len());
-    if system.ndof() != 0 {
-        let diagnostic = errors::count(&system, &matching);
-        let rows = matching.overdetermined_rows(&system.phi_q);
-        let is_fixed = matching.free_columns(&system.phi_q).is_empty();
-        let mut columns: Vec<u32> =
-            rows.iter().flat_map(|&row| system.phi_q.row(row as usize)).map(|&(column, _)| column).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        let too_many = (is_fixed && !rows.is_empty()).then_some(Overdetermined { system, rows, columns });
-        return Err(Box::new(Refused { diagnostic, too_many }));
-    }
     if !matching.is_perfect() {
-        return Err(Box::new(Refused { diagnostic: errors::structure(&system, &matching), too_many: None }));
+        let [too_many, too_few] = matching.unequal_parts(&system.phi_q);
+        let diagnostic = if system.ndof() == 0 {
+            errors::structure(&system, &too_many, &too_few)
+        } else {
+            errors::count(&system, &too_many, &too_few)
+        };
+        return Err(Box::new(Refused { system, diagnostic, too_many, too_few }));
     }
     let mut blocks = matching.blocks(&system.phi_q);
     for block in &mut blocks {

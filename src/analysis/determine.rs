@@ -1,0 +1,114 @@
+//! Whether a system is determined, and if not what is the matter: equations too many, coordinates too free, or both.
+//!
+//! `structure` says it by pattern, without values. Here what it refuses is assembled as far as that goes, and looked at with
+//! values: which equations say nothing new, which contradict each other, and which motions are left.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use super::freedom::Freedom;
+use super::redundancy::{Dependent, dependents};
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::{Check, ConstraintSystem};
+use crate::structure::{self, Determined, Part, Refused};
+
+/// Larger parts are not looked at with values: their equations would be a dense matrix.
+const LARGEST: usize = 300;
+
+/// Shows that a system is determined, where need be without the equations that are redundant.
+///
+/// # Errors
+/// Why it is not: too few equations, too many, or some that conflict. Redundant ones are refused unless they are allowed.
+pub fn determine(system: ConstraintSystem, allow_redundant: bool) -> Result<(Determined, Diagnostics), Diagnostics> {
+    let refused = match structure::prove(system) {
+        Ok(determined) => return Ok((determined, Diagnostics::default())),
+        Err(refused) => *refused,
+    };
+    let anatomy = Anatomy::of(&refused.system, &refused.too_many);
+    let is_enough = anatomy.dependents.len().cast_signed() == -refused.system.ndof();
+    let holds = anatomy.dependents.iter().all(|dependent| dependent.open.is_none());
+    if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
+        return Err(explain(refused, &anatomy));
+    }
+    let said = errors::left_out(&refused.system, &anatomy.dependents);
+    let mut system = refused.system;
+    leave_out(&mut system, &anatomy.dependents);
+    match structure::prove(system) {
+        Ok(determined) => Ok((determined, said)),
+        Err(refused) => Err(refused.diagnostic.into()),
+    }
+}
+
+/// What is the matter with a system that was refused.
+fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
+    let Refused { system, diagnostic, too_few, .. } = refused;
+    let is_free = !too_few.columns.is_empty() || anatomy.freedom.as_ref().is_some_and(|freedom| freedom.degrees() > 0);
+    match (anatomy.dependents.as_slice(), &anatomy.freedom) {
+        ([], None) => diagnostic.into(),
+        ([], Some(freedom)) => errors::too_few(diagnostic, &system, freedom).into(),
+        (dependents, _) if !is_free => errors::too_many(&system, dependents),
+        (dependents, freedom) => {
+            let first = match freedom {
+                Some(freedom) => errors::too_many_and_too_few(&system, dependents, freedom),
+                None => diagnostic,
+            };
+            first.into()
+        }
+    }
+}
+
+/// A system whose equations depend on each other wherever it is, though they are as many as the coordinates; none where
+/// that cannot be told.
+pub(super) fn explain_dependent(system: &ConstraintSystem) -> Option<Diagnostic> {
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system));
+    let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
+    (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
+}
+
+/// What values say of a system.
+struct Anatomy {
+    dependents: Vec<Dependent>,
+    /// What is left free, where that is known.
+    freedom: Option<Freedom>,
+}
+
+impl Anatomy {
+    /// Of a system of which a part has too many equations.
+    fn of(system: &ConstraintSystem, too_many: &Part) -> Anatomy {
+        let (t, span) = system.analysis.map_or((0.0, 1.0), |[from, to, _]| (from, to - from));
+        let mut evaluator = Evaluator::new(system);
+        let mut found = Vec::new();
+        if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {
+            found = dependents(&mut evaluator, too_many, [t, span]).unwrap_or_default();
+        }
+        let mut kept = everything(system);
+        kept.rows.retain(|&row| found.iter().all(|dependent| dependent.row != row as usize));
+        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
+        let freedom = if is_small { Freedom::of(&mut evaluator, &kept, t) } else { None };
+        Anatomy { dependents: found, freedom }
+    }
+}
+
+fn everything(system: &ConstraintSystem) -> Part {
+    Part { rows: (0..system.rows.len() as u32).collect(), columns: (0..system.coordinates.len() as u32).collect() }
+}
+
+/// Makes checks of the equations that are left out.
+fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
+    let q: Vec<f64> = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
+    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
+    rows.sort_unstable();
+    let checks = rows
+        .iter()
+        .map(|&row| {
+            let slopes = system
+                .phi_q
+                .row(row)
+                .iter()
+                .map(|&(column, slope)| system.value_at(slope, &q) * system.coordinates[column as usize].scale);
+            let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
+            let scale = if norm > 0.0 { norm } else { 1.0 };
+            Check { phi: system.rows[row].phi, declaration: system.rows[row].declaration, scale }
+        })
+        .collect();
+    system.leave_out(&rows, checks);
+}

@@ -1,0 +1,161 @@
+//! A start that cannot be assembled, or not as it is drawn.
+
+use super::{LISTED, at, cut_list, degrees, length, named, three_digits};
+use crate::analysis::assembly::Moved;
+use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
+
+/// Gears may be off by this part of the larger radius.
+const LARGEST_MISFIT: f64 = 1e-6;
+
+pub fn too_large(system: &ConstraintSystem, size: usize, largest: usize) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0505,
+        format!("{size} coordinates have to be solved together; this version solves up to {largest} of them"),
+    )
+    .at(system.span, "one closed chain of bodies")
+}
+
+/// A loop that does not close.
+pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
+    let declaration = &system.declarations[open.at];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
+    let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` stays open by {by}", at(t));
+    let mut diagnostic = Diagnostic::new(Code::E0601, message)
+        .at(declaration.span, format!("open by {by}"))
+        .datum("t", t)
+        .datum("residual", open.residual);
+    let others: Vec<usize> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
+    for (k, &other) in others.iter().take(LISTED).enumerate() {
+        let text = if k == 0 { "the same loop" } else { "" };
+        diagnostic = diagnostic.also(system.declarations[other].span, text);
+    }
+    for (too_short, what) in [(true, "too short"), (false, "too long")] {
+        let links = open.links.iter().filter(|link| link.too_short == too_short);
+        let names: Vec<String> = links.map(|link| link_in_words(system, link)).collect();
+        if !names.is_empty() {
+            diagnostic = diagnostic.note(format!("{what}: {}", cut_list(&names)));
+        }
+    }
+    let driver = open.declarations.iter().find(|&&k| system.declarations[k].kind == DeclarationKind::Driver);
+    let driver = driver
+        .map_or(String::new(), |&k| format!(", or begin with another value of `{}`", system.declarations[k].name));
+    let mend = if open.links.is_empty() {
+        format!(
+            "look at what these joints hold{driver}; estimates in `at` that are nearer to the position meant may help too"
+        )
+    } else {
+        format!("change one of these lengths by {by} or more{driver}")
+    };
+    diagnostic.help(mend)
+}
+
+/// `coupler` (40 mm from `front` to `back`)
+fn link_in_words(system: &ConstraintSystem, link: &Link) -> String {
+    let length = length(link.length);
+    match link.of {
+        LinkOf::Declaration(k) => format!("`{}` ({length})", system.declarations[k].name),
+        LinkOf::Body(body, [from, to]) => {
+            let body = body.map_or("the ground".to_owned(), |body| format!("`{}`", system.bodies[body].name));
+            let [from, to] = [from, to].map(|k| &system.declarations[k].name);
+            format!("{body} ({length} from `{from}` to `{to}`)")
+        }
+    }
+}
+
+/// A position that does not come, for no reason that can be told.
+pub fn cannot_assemble(system: &ConstraintSystem, row: usize, residual: f64, t: f64) -> Diagnostic {
+    let message = format!("the mechanism cannot be assembled at {}: {} stays open", at(t), named(system, row));
+    Diagnostic::new(Code::E0601, message)
+        .at(system.declaration_of(row).span, format!("is not met, by {} of the mechanism's size", three_digits(residual)))
+        .help("give estimates in `at` that are nearer to the position meant; or check the lengths and the driver's first value")
+        .datum("t", t)
+        .datum("residual", residual)
+}
+
+/// A remark where assembly moved a body so far that its branch may not be the one meant.
+pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option<Diagnostic> {
+    if moved.perturbed {
+        let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
+        return Some(
+            Diagnostic::new(Code::N0601, message)
+                .at(system.span, "one of several positions was taken")
+                .help("give estimates in `at` that are nearer to the position meant"),
+        );
+    }
+    let (far, turned) = (moved.length > system.length, moved.angle > std::f64::consts::FRAC_PI_2);
+    if !far && !turned {
+        return None;
+    }
+    let body = if far { moved.length_body } else { moved.angle_body };
+    let body = &system.bodies[body];
+    let how =
+        if far { format!("moved by {}", length(moved.length)) } else { format!("turned by {}", degrees(moved.angle)) };
+    Some(
+        Diagnostic::new(Code::N0601, format!("the assembly at {} {how} the body `{}`", at(t), body.name))
+            .at(body.span, "far from its estimate")
+            .help("if this is not the branch meant, give better estimates in `at`"),
+    )
+}
+
+/// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.
+pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
+    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - wanted;
+    if off.abs() <= LARGEST_MISFIT * radius {
+        return None;
+    }
+    let joint = &system.declarations[fit.declaration];
+    if distance < -LARGEST_MISFIT * radius {
+        let message =
+            format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
+        return Some(
+            Diagnostic::new(Code::W0501, message)
+                .at(joint.span, "it turns the other way there")
+                .help("left and right are seen along the direction of the rack's axis"),
+        );
+    }
+    let (what, why) = match joint.kind {
+        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii"),
+        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii"),
+        _ => ("centre and axis", "the radius"),
+    };
+    let message = format!(
+        "the {what} of `{}` are {} apart at {}, {why} is {}",
+        joint.name,
+        digits_that_differ(distance, wanted),
+        at(t),
+        digits_that_differ(wanted, distance)
+    );
+    Some(
+        Diagnostic::new(Code::W0501, message)
+            .at(joint.span, format!("off by {}", length(off)))
+            .help("a gear or rack does not hold its distance: the joints of its bodies must"),
+    )
+}
+
+/// A length (m) with as many digits as tell it from another.
+fn digits_that_differ(value: f64, other: f64) -> String {
+    if value.abs() < 1e-12 {
+        return "0 mm".to_owned();
+    }
+    let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
+    let rounded: f64 = format!("{:.digits$e}", value * 1e3).parse().unwrap_or(value);
+    format!("{rounded} mm")
+}
+
+impl Moved {
+    /// In a sentence.
+    #[must_use]
+    pub fn in_words(&self, system: &ConstraintSystem) -> String {
+        format!(
+            "assembled: moved by at most {} (`{}`) and {} (`{}`) from the estimates",
+            length(self.length),
+            system.bodies[self.length_body].name,
+            degrees(self.angle),
+            system.bodies[self.angle_body].name,
+        )
+    }
+}

@@ -1,0 +1,141 @@
+//! A motion that cannot go on: formulas without a value, jumps, haste.
+
+use super::{at, ceases_to_hold, in_units, named, named_all, no_contact, short, with_places};
+use crate::analysis::kinematics::Fault;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{ConditionKind, ConstraintSystem, DeclarationKind};
+
+/// Columns that one message names at most.
+const MOST_COLUMNS: usize = 12;
+
+/// A formula that has no value, or not one that it may have.
+pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
+    match fault {
+        Fault::NotFinite { row } => {
+            let declaration = system.declaration_of(row);
+            let message =
+                format!("the formula of {} or a derivative of it is not finite at {}", named(system, row), at(t));
+            Diagnostic::new(Code::E0605, message).at(declaration.span, "infinite or not a number").datum("t", t)
+        }
+        Fault::Condition { index } => condition(system, index, t),
+        Fault::Watch { index } => no_contact(system, index, t),
+        Fault::Check { index } => ceases_to_hold(system, index, t),
+        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Edge { .. } => cannot_follow(system, t, None),
+    }
+}
+
+pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let measure = &system.measures[index];
+    Diagnostic::new(Code::E0605, format!("measure `{}` or a derivative of it is not finite at {}", measure.name, at(t)))
+        .at(measure.span, "infinite or not a number")
+        .datum("t", t)
+}
+
+fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+    let condition = &system.conditions[index];
+    let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
+    let owner = &condition.owner;
+    match condition.kind {
+        ConditionKind::Distance => diagnostic(Code::E0606, &format!("the distance of `{owner}` is not positive"))
+            .at(condition.span, "reaches zero")
+            .help("a distance must stay above zero"),
+        ConditionKind::Interval => diagnostic(Code::E0606, &format!("the interval of a motion in `{owner}` is empty"))
+            .at(condition.span, "reaches zero"),
+        ConditionKind::Range(table) => {
+            let table = &system.graph.tables()[table.index()];
+            let ends = [table.knots.first(), table.knots.last()];
+            let [first, last] = ends.map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])));
+            diagnostic(Code::E0608, &format!("table `{}` is left in `{owner}`", table.name))
+                .at(condition.span, format!("out of its range, {} to {}", short(first), short(last)))
+                .help("add rows, or let it repeat: `periodic spline`")
+        }
+    }
+}
+
+/// A position that would have to change in no time.
+///
+/// It is a corner if only the tangents of a contact do not agree.
+pub fn position_jump(
+    system: &ConstraintSystem,
+    behind: &[usize],
+    is_corner: bool,
+    (column, by): (usize, f64),
+    t: f64,
+) -> Diagnostic {
+    let is_contact =
+        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
+    if let Some(&joint) = behind.iter().find(|k| is_corner && is_contact(k)) {
+        let joint = &system.declarations[joint];
+        let message = format!("the contact of `{}` comes to a corner of its curve at {}", joint.name, at(t));
+        return Diagnostic::new(Code::E0609, message)
+            .at(joint.span, "the tangent of the curve jumps there")
+            .help("round the corner: a curve under a cam or flat follower needs a tangent everywhere")
+            .datum("t", t);
+    }
+    let message = format!("{} jumps at {}", named_all(system, behind), at(t));
+    let how = format!("`{}` would have to jump by {}", system.coordinates[column].name, in_units(system, column, by));
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+        .help("let the two branches meet there, or lead from one to the other with `step5(t, t0, v0, t1, v1)`")
+        .datum("t", t)
+}
+
+/// A velocity that would have to change in no time.
+pub fn velocity_jump(
+    system: &ConstraintSystem,
+    behind: &[usize],
+    column: usize,
+    [before, after]: [f64; 2],
+    t: f64,
+) -> Diagnostic {
+    let message = format!("the velocity of {} jumps at {}: there is no acceleration", named_all(system, behind), at(t));
+    let velocity = |value: f64| format!("{}/s", in_units(system, column, value));
+    let how = format!("`{}.d` jumps from {} to {}", system.coordinates[column].name, velocity(before), velocity(after));
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+        .help("motions that begin and end at rest: `step`, `harmonic`; smooth to the acceleration: `step5`, `cycloidal`, `modsine`")
+        .datum("t", t)
+}
+
+/// An acceleration that has two values at one time.
+pub fn acceleration_jump(system: &ConstraintSystem, behind: &[usize], columns: &[String], t: f64) -> Diagnostic {
+    let message = format!("the acceleration of {} jumps at {}", named_all(system, behind), at(t));
+    let mut shown: Vec<String> = columns.iter().take(MOST_COLUMNS).map(|name| format!("`{name}`")).collect();
+    if columns.len() > MOST_COLUMNS {
+        shown.push(format!("{} more", columns.len() - MOST_COLUMNS));
+    }
+    let of_contact =
+        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
+    let help = if behind.iter().any(of_contact) {
+        "at such a time a row holds the later side; a curve under a cam or flat follower needs a third derivative: `step7`"
+    } else {
+        "at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`"
+    };
+    with_places(Diagnostic::new(Code::W0601, message), system, behind, "jumps there, and maybe again later")
+        .note(format!("columns that jump: {}", shown.join(", ")))
+        .help(help)
+        .datum("t", t)
+}
+
+pub fn cannot_follow(system: &ConstraintSystem, t: f64, driver: Option<usize>) -> Diagnostic {
+    let message = format!("the motion cannot be followed beyond {}", at(t));
+    let diagnostic = Diagnostic::new(Code::E0604, message)
+        .help("look for a driver that jumps there, or becomes too fast")
+        .datum("t", t);
+    match driver {
+        Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
+        None => diagnostic.at(system.span, "in this mechanism"),
+    }
+}
+
+/// A motion that would take too many steps to the next output time.
+pub fn too_fast(system: &ConstraintSystem, t: f64, target: f64, steps: u64, driver: Option<usize>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0604, format!("the motion is too fast to follow near {}", at(t)))
+        .note(format!("{steps} steps did not reach the next output time, {}", at(target)))
+        .help(
+            "a driver grows without bound there, or was meant in another unit; else take smaller steps with `--every`",
+        )
+        .datum("t", t);
+    match driver {
+        Some(row) => diagnostic.at(system.declaration_of(row).span, "the fastest driver there"),
+        None => diagnostic.at(system.span, "in this mechanism"),
+    }
+}

@@ -1,0 +1,93 @@
+//! `Φ` and `Φ_q` of a system that need not be determined, at any position and time: what explains a fault works with these,
+//! and not with the solver.
+
+use super::errors;
+use super::least_squares::{Linear, Values, minimize};
+use crate::ir::ConstraintSystem;
+use crate::math;
+use crate::program::{Program, Registers, Stage};
+
+/// A system with what evaluates it, and a position.
+pub(super) struct Evaluator<'s> {
+    pub system: &'s ConstraintSystem,
+    /// The coordinates [m, rad].
+    pub q: Vec<f64>,
+    program: Program,
+    registers: Registers,
+}
+
+impl<'s> Evaluator<'s> {
+    /// At the estimates.
+    pub fn new(system: &'s ConstraintSystem) -> Evaluator<'s> {
+        let program = Program::new(system);
+        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let registers = program.start(&params);
+        let q = program.outputs.estimates.iter().map(|&register| registers.get(register)).collect();
+        Evaluator { system, q, program, registers }
+    }
+
+    /// Some rows by some columns at a time (s); none where they are not finite. Without weights rows come to unit norm.
+    pub fn linear(&mut self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>, t: f64) -> Option<Linear> {
+        self.registers.set(self.program.inputs.time, t);
+        self.registers.set_all(self.program.inputs.coordinates[0], &self.q);
+        self.program.run(Stage::Time, &mut self.registers);
+        self.program.run(Stage::Position, &mut self.registers);
+        let (registers, outputs) = (&self.registers, &self.program.outputs);
+        let phi = |row: usize| registers.get(outputs.phi[row]);
+        let phi_q = |position: usize| registers.get(outputs.phi_q[position]);
+        Values { system: self.system, phi, phi_q }.linear(rows, columns, weights)
+    }
+
+    /// Brings some rows as near to zero as can be by moving some columns, and gives them there with the weights used.
+    pub fn assemble(&mut self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>, t: f64) -> Option<Linear> {
+        let mut q = self.q.clone();
+        let linear = minimize(self.system, columns, &mut q, weights, |q, weights| {
+            self.q.copy_from_slice(q);
+            self.linear(rows, columns, weights, t)
+        })?;
+        self.q = q;
+        // the last step may have been taken back
+        self.linear(rows, columns, Some(&linear.weights), t)
+    }
+
+    /// An entry of `Φ` where it was evaluated last.
+    pub fn phi(&self, row: usize) -> f64 {
+        self.registers.get(self.program.outputs.phi[row])
+    }
+
+    /// The entries of a row of `Φ_q` where it was evaluated last: column and slope.
+    pub fn slopes(&self, row: usize) -> impl Iterator<Item = (usize, f64)> {
+        let pattern = &self.system.phi_q;
+        pattern
+            .range(row)
+            .zip(pattern.row(row))
+            .map(|(position, &(column, _))| (column as usize, self.registers.get(self.program.outputs.phi_q[position])))
+    }
+
+    /// How far a body would have to be moved (m), or turned (rad), for a row to hold: moved if the row is about places.
+    pub fn gap(&self, row: usize) -> f64 {
+        let kind = errors::gap_kind(self.system, row);
+        let of_kind = self.slopes(row).filter(|&(column, _)| self.system.coordinates[column].kind == kind);
+        let mut steepest: f64 = 0.0;
+        let (mut owner, mut along) = (None, 0.0);
+        for (column, slope) in of_kind {
+            if owner != Some(self.system.coordinates[column].owner) {
+                (owner, along) = (Some(self.system.coordinates[column].owner), 0.0);
+            }
+            along += slope * slope;
+            steepest = steepest.max(along);
+        }
+        self.phi(row).abs() / steepest.sqrt()
+    }
+
+    /// Where a point is (m).
+    pub fn place_of(&self, point: usize) -> [f64; 2] {
+        let point = &self.system.points[point];
+        let [x, y] = point.at.map(|id| self.system.value_at(id, &[]));
+        let Some(body) = point.body else {
+            return [x, y];
+        };
+        let (sin, cos) = math::sin_cos(self.q[3 * body + 2]);
+        [self.q[3 * body] + x * cos - y * sin, self.q[3 * body + 1] + x * sin + y * cos]
+    }
+}
