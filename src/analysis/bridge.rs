@@ -14,14 +14,24 @@ use crate::diag::Diagnostic;
 ///
 /// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
 const CLEAR: f64 = 8e-3;
+/// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
+const SOLVABLE: f64 = 1e-3;
 /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
 const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
 /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
-const LARGEST_CORRECTION: f64 = 1e-2;
-/// Velocities extrapolated from both sides agree to this part of the fastest.
-const SAME_VELOCITY: f64 = 1e-3;
+const LARGEST_CORRECTION: f64 = 0.05;
+/// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
+/// branches leaves more, be it that both touch each other.
+const LARGEST_BETWEEN: f64 = 1e-4;
+const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Times at which the minimum of an even contact is looked for.
 const LOOKS: usize = 80;
+/// Newton steps to the minimum's place, and the distance of the places that its slope is taken from, as a part of the bridge.
+const NEWTON_STEPS: usize = 8;
+const SPREAD: f64 = 0.08;
+/// The minimum's slope by central differences of sixth order, and its curvature, by the distance of the places in `SPREAD`.
+const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
+const CURVATURE: [f64; 4] = [-490.0 / 180.0, 270.0 / 180.0, -27.0 / 180.0, 2.0 / 180.0];
 /// The golden section.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -105,7 +115,7 @@ impl Motion<'_, '_> {
         self.state.copy_from(&bridge.to);
         self.clear.copy_from(&bridge.to);
         self.kinematics.restore(self.state);
-        self.kinematics.linear().signs(&mut self.signs);
+        self.begin_determinants();
         self.kinematics.sides(&mut self.sides);
         self.h = (bridge.to.t - bridge.from.t).min(self.span);
         self.bridge = Some(bridge);
@@ -145,38 +155,41 @@ impl Motion<'_, '_> {
     fn bridge_to(&mut self, t: f64) -> Option<Bridge> {
         let h = t - self.clear.t;
         self.trial.t = t;
-        let mut longest: f64 = 0.0;
+        let mut way: f64 = 0.0;
         for k in 0..self.trial.q.len() {
-            let step = h * (self.clear.qd[k] + 0.5 * h * self.clear.qdd[k]);
-            self.trial.q[k] = self.clear.q[k] + step;
-            longest = longest.max(step.abs() / self.kinematics.linear().column_scale(k));
+            let (first, second) = (h * self.clear.qd[k], 0.5 * h * h * self.clear.qdd[k]);
+            self.trial.q[k] = self.clear.q[k] + first + second;
+            // a motion that turns back has a way too
+            way = way.max((first.abs() + second.abs()) / self.kinematics.linear().column_scale(k));
         }
         let correction = self.correct().ok()?;
         self.kinematics.derivatives(&mut self.trial).ok()?;
         let is_clear = self.kinematics.nearness(CLEAR) >= 0.3 * CLEAR;
-        if correction > LARGEST_CORRECTION * longest || !is_clear || !self.agrees(h) {
+        let mut bridge = Bridge::new(&self.clear, &self.trial);
+        if correction > LARGEST_CORRECTION * way || !is_clear || !self.holds(&bridge, LARGEST_BETWEEN * way) {
             return None;
         }
-        let mut bridge = Bridge::new(&self.clear, &self.trial);
         bridge.at = self.singular_time(&bridge);
         Some(bridge)
     }
 
-    /// Whether velocities extrapolated from both sides meet in the middle.
-    fn agrees(&self, h: f64) -> bool {
-        let (a, b) = (&self.clear, &self.trial);
-        let scaled = |k: usize, value: f64| value.abs() / self.kinematics.linear().column_scale(k);
-        let fastest = (0..a.qd.len()).map(|k| scaled(k, a.qd[k])).fold(0.0, f64::max);
-        let off = |k: usize| scaled(k, a.qd[k] + 0.5 * h * a.qdd[k] - b.qd[k] + 0.5 * h * b.qdd[k]);
-        (0..a.qd.len()).all(|k| off(k) <= SAME_VELOCITY * fastest)
+    /// Whether the curve over a bridge leaves corrections of at most `limit`, scaled, with the factors of its end.
+    fn holds(&mut self, bridge: &Bridge, limit: f64) -> bool {
+        PLACES.into_iter().all(|place| {
+            let state = bridge.state_at(bridge.from.t + place * (bridge.to.t - bridge.from.t));
+            self.kinematics.set_time(state.t);
+            self.kinematics.set_position(&state.q).is_ok() && self.kinematics.correction(&mut self.delta) <= limit
+        })
     }
 
     /// When the singular position is reached: where a determinant changes its sign, or else where it comes nearest to zero.
     fn singular_time(&mut self, bridge: &Bridge) -> f64 {
         let (mut low, mut high) = (bridge.from.t, bridge.to.t);
         self.set(&bridge.to);
-        self.kinematics.linear().signs(&mut self.trial_signs);
-        let crossing = (0..self.signs.len()).find(|&k| self.signs[k] != self.trial_signs[k]);
+        let is_beyond = |motion: &Self, k: usize| {
+            motion.kinematics.linear().determinant(k).positive != motion.determinants[k].positive
+        };
+        let crossing = (0..self.determinants.len()).find(|&k| is_beyond(self, k));
         if let Some(block) = crossing {
             loop {
                 let middle = 0.5 * (low + high);
@@ -184,8 +197,7 @@ impl Motion<'_, '_> {
                     return middle;
                 }
                 self.set(&bridge.state_at(middle));
-                self.kinematics.linear().signs(&mut self.trial_signs);
-                if self.trial_signs[block] == self.signs[block] { low = middle } else { high = middle }
+                if is_beyond(self, block) { high = middle } else { low = middle }
             }
         }
         let sigma = |motion: &mut Self, t: f64| {
@@ -205,7 +217,45 @@ impl Motion<'_, '_> {
                 at_right = sigma(self, right);
             }
         }
-        0.5 * (low + high)
+        self.least_time(bridge, 0.5 * (low + high))
+    }
+
+    /// When the determinant that is least at about `t` has its minimum: its sign tells the sides of zero apart, so that it is
+    /// smooth where singular values have an edge, and its slope vanishes there to more digits than it does.
+    fn least_time(&mut self, bridge: &Bridge, t: f64) -> f64 {
+        self.set(&bridge.state_at(t));
+        let Some(block) = self.kinematics.linear().worst_block() else { return t };
+        let unit = self.determinants[block];
+        let mut value = |t: f64| {
+            let state = bridge.state_at(t);
+            self.trial.copy_from(&state);
+            // the curve is not exact; at the singular position itself it is better than nothing
+            if self.correct().is_err() {
+                self.set(&state);
+            }
+            self.kinematics.linear().determinant(block).beside(unit)
+        };
+        let spread = SPREAD * (bridge.to.t - bridge.from.t);
+        let mut at = t;
+        for _ in 0..NEWTON_STEPS {
+            let (mut slope, mut curvature) = (0.0, CURVATURE[0] * value(at));
+            for k in 0..SLOPE.len() {
+                let way = (k + 1) as f64 * spread;
+                let (before, after) = (value(at - way), value(at + way));
+                slope += SLOPE[k] * (after - before);
+                curvature += CURVATURE[k + 1] * (after + before);
+            }
+            let step = spread * slope / curvature;
+            at -= step;
+            // it is that minimum, or none that this finds
+            if at.is_nan() || (at - t).abs() > spread {
+                return t;
+            }
+            if step.abs() <= f64::EPSILON * spread {
+                break;
+            }
+        }
+        at
     }
 
     /// Evaluates and factors at a state, which may be singular.
@@ -219,9 +269,25 @@ impl Motion<'_, '_> {
         let state = bridge.state_at(t);
         self.kinematics.restore(&state);
         if self.kinematics.violated().is_some() {
-            return Some(Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t))));
+            return Some(if self.solved_row(&state) {
+                Ok(())
+            } else {
+                Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t)))
+            });
         }
         self.kinematics.write_given_row(&state, &mut self.row);
         Some(Ok(()))
+    }
+
+    /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it; whether nine digits are left.
+    fn solved_row(&mut self, state: &State) -> bool {
+        self.trial.copy_from(state);
+        let is_solved = self.correct().is_ok()
+            && self.kinematics.nearness(SOLVABLE) >= SOLVABLE
+            && self.kinematics.derivatives(&mut self.trial).is_ok();
+        if is_solved {
+            self.kinematics.write_row(&self.trial, &mut self.row);
+        }
+        is_solved
     }
 }

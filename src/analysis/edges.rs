@@ -366,6 +366,7 @@ impl Motion<'_, '_> {
         }
         self.kinematics.factor()?;
         self.same_branch()?;
+        self.begin_determinants();
         self.kinematics.derivatives(self.state)?;
         self.kinematics.write_row(self.state, &mut self.row);
         if self.compare(0.0, 0.0).is_none() {

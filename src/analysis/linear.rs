@@ -13,6 +13,11 @@ const PIVOT_MARGIN: f64 = 100.0;
 /// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
 const LEAST_PIVOT: f64 = 1e-18;
 
+/// 2^-256: a determinant below it is told in units of it, since that of a large block would underflow.
+const UNIT: f64 = 1.0 / UNITS;
+/// 2^256.
+const UNITS: f64 = (1_u128 << 127) as f64 * (1_u128 << 127) as f64 * 4.0;
+
 /// One irreducible block with its place in the common storage.
 struct Part {
     /// Offset of its rows and columns in the lists below.
@@ -23,8 +28,41 @@ struct Part {
     matrix: usize,
     /// Smallest pivot, relative to rows of unit norm.
     smallest_pivot: f64,
-    /// Sign of the determinant.
-    positive: bool,
+    determinant: Determinant,
+}
+
+/// The determinant of a block whose rows have unit norm: at most 1, and smooth along a motion.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Determinant {
+    pub positive: bool,
+    /// Its size, in units of `UNIT` to the power of `units`.
+    size: f64,
+    units: u32,
+}
+
+impl Determinant {
+    pub const ONE: Determinant = Determinant { positive: true, size: 1.0, units: 0 };
+
+    /// Its value, measured such that that of `other` is neither too large nor too small for it.
+    pub fn beside(self, other: Determinant) -> f64 {
+        let size = match i64::from(self.units) - i64::from(other.units) {
+            0 => self.size,
+            1 => self.size * UNIT,
+            -1 => self.size * UNITS,
+            smaller if smaller > 0 => 0.0,
+            _ => f64::INFINITY,
+        };
+        if self.positive { size } else { -size }
+    }
+
+    fn multiply(&mut self, pivot: f64) {
+        self.positive ^= pivot < 0.0;
+        self.size *= pivot.abs();
+        if self.size < UNIT {
+            self.size *= UNITS;
+            self.units += 1;
+        }
+    }
 }
 
 /// An entry of `Φ_q`: its position in the pattern, and where it goes.
@@ -82,7 +120,7 @@ impl BlockLu {
                 explicit: block.explicit,
                 matrix,
                 smallest_pivot: 0.0,
-                positive: true,
+                determinant: Determinant::ONE,
             });
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
@@ -130,16 +168,27 @@ impl BlockLu {
         self.row_norm[row]
     }
 
-    /// Writes the sign of each block's determinant.
-    pub fn signs(&self, signs: &mut [bool]) {
-        for (sign, part) in signs.iter_mut().zip(&self.parts) {
-            *sign = part.positive;
+    /// Writes each block's determinant.
+    pub fn determinants(&self, determinants: &mut [Determinant]) {
+        for (determinant, part) in determinants.iter_mut().zip(&self.parts) {
+            *determinant = part.determinant;
         }
+    }
+
+    /// The determinant of a block.
+    pub fn determinant(&self, block: usize) -> Determinant {
+        self.parts[block].determinant
     }
 
     /// The smallest pivot of all blocks: little more than the nearness to a singular position, and for nothing.
     pub fn smallest_pivot(&self) -> f64 {
         self.parts.iter().map(|part| part.smallest_pivot).fold(1.0, f64::min)
+    }
+
+    /// The block with the smallest pivot.
+    pub fn worst_block(&self) -> Option<usize> {
+        let pivot = |k: usize| self.parts[k].smallest_pivot;
+        (0..self.parts.len()).min_by(|&a, &b| pivot(a).total_cmp(&pivot(b)))
     }
 
     pub fn blocks(&self) -> usize {
@@ -157,10 +206,10 @@ impl BlockLu {
             }
             let dense = &mut self.dense[matrix..matrix + size * size];
             let pivots = &mut self.pivots[at..at + size];
-            let (smallest, positive) = factor_dense(dense, pivots, size);
+            let (smallest, determinant) = factor_dense(dense, pivots, size);
             self.parts[k].smallest_pivot = smallest;
             // the matching fixes the order of columns, so that a sign means the same at every state
-            self.parts[k].positive = positive;
+            self.parts[k].determinant = determinant;
             // also refuses a pivot that is not a number
             regular &= smallest > 1e-14;
         }
@@ -358,9 +407,9 @@ fn normalize(v: &mut [f64]) -> f64 {
     norm
 }
 
-/// LU with partial pivoting in place, row by row; gives the smallest pivot and the determinant's sign.
-fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
-    let (mut smallest, mut positive) = (f64::INFINITY, true);
+/// LU with partial pivoting in place, row by row; gives the smallest pivot and the determinant.
+fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, Determinant) {
+    let (mut smallest, mut determinant) = (f64::INFINITY, Determinant::ONE);
     for k in 0..n {
         let mut best = k;
         for i in k + 1..n {
@@ -370,14 +419,14 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
         }
         pivots[k] = best as u32;
         if best != k {
-            positive = !positive;
+            determinant.positive = !determinant.positive;
             let (upper, lower) = a.split_at_mut(best * n);
             upper[k * n..k * n + n].swap_with_slice(&mut lower[..n]);
         }
         let (upper, lower) = a.split_at_mut((k + 1) * n);
         let pivot_row = &mut upper[k * n..];
         let pivot = pivot_row[k];
-        positive ^= pivot < 0.0;
+        determinant.multiply(pivot);
         // a pivot that is not a number must win
         smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
         if pivot.abs() < LEAST_PIVOT {
@@ -394,7 +443,7 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, bool) {
             }
         }
     }
-    (smallest, positive)
+    (smallest, determinant)
 }
 
 fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {

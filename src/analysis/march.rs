@@ -1,14 +1,16 @@
 //! From one output time to the next, in steps that the solver chooses by its own error.
 //!
 //! Each step predicts `q + h q̇ + h²/2 q̈`, corrects by Newton, and is accepted only if the way between is smooth: the
-//! first correction is small, so is one between the ends, and no block's determinant changes its sign. Else it is halved. So
-//! the branch followed does not depend on the output times.
+//! first correction is small, so is one between the ends, and no block's determinant changes its sign or touches zero. Else it
+//! is halved. So the branch followed does not depend on the output times.
 
 use super::bridge::Bridge;
 use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
+use super::linear::Determinant;
 use super::singular;
+use super::touch::Before;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
 
@@ -47,9 +49,12 @@ pub struct Motion<'m, 'd> {
     pub(super) trial: State,
     pub(super) delta: Vec<f64>,
     pub(super) middle: Vec<f64>,
-    /// The sign of each block's determinant.
-    pub(super) signs: Vec<bool>,
-    pub(super) trial_signs: Vec<bool>,
+    /// Each block's determinant at the state, at the state that is tried, and at the one before.
+    pub(super) determinants: Vec<Determinant>,
+    pub(super) trial_determinants: Vec<Determinant>,
+    pub(super) determinants_before: Vec<Determinant>,
+    /// What else is known of the way up to the state.
+    pub(super) way_before: Before,
     /// The sign of what is watched.
     pub(super) sides: Vec<bool>,
     pub(super) trial_sides: Vec<bool>,
@@ -101,6 +106,16 @@ pub struct Motion<'m, 'd> {
     pub(super) row: Vec<f64>,
 }
 
+/// What a motion goes back to where it was only looked ahead.
+struct Bookmark {
+    state: State,
+    clear: State,
+    determinants: Vec<Determinant>,
+    sides: Vec<bool>,
+    met: Option<Edge>,
+    h: f64,
+}
+
 /// How well a step went.
 struct Accepted {
     first_correction: f64,
@@ -140,8 +155,10 @@ impl<'m, 'd> Motion<'m, 'd> {
             bridge: None,
             delta: vec![0.0; n],
             middle: vec![0.0; n],
-            signs: vec![true; blocks],
-            trial_signs: vec![true; blocks],
+            determinants: vec![Determinant::ONE; blocks],
+            trial_determinants: vec![Determinant::ONE; blocks],
+            determinants_before: vec![Determinant::ONE; blocks],
+            way_before: Before::UNKNOWN,
             sides: vec![true; watches],
             trial_sides: vec![true; watches],
             h: span / FEWEST_STEPS,
@@ -235,7 +252,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     /// that is passed, and then the row lies on the way over it.
     fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         let ahead = t + self.span / FEWEST_STEPS;
-        let (is_certain, row) = (self.is_certain, self.row.clone());
+        let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
         for _ in 0..STEPS_AHEAD {
             match self.step_towards(ahead) {
                 // what comes behind the row does not concern it
@@ -251,13 +268,39 @@ impl<'m, 'd> Motion<'m, 'd> {
                 break;
             }
         }
+        // the next row lies before what was looked at
+        self.go_back(here);
         if is_certain {
             self.row = row;
             return Ok(());
         }
-        self.kinematics.restore(self.state);
         let singular = self.kinematics.worst();
         Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
+    }
+
+    /// What the next step begins from.
+    fn bookmark(&self) -> Bookmark {
+        Bookmark {
+            state: self.state.clone(),
+            clear: self.clear.clone(),
+            determinants: self.determinants.clone(),
+            sides: self.sides.clone(),
+            met: self.met,
+            h: self.h,
+        }
+    }
+
+    fn go_back(&mut self, to: Bookmark) {
+        self.state.copy_from(&to.state);
+        self.clear.copy_from(&to.clear);
+        (self.sides, self.met, self.h) = (to.sides, to.met, to.h);
+        if !self.kinematics.switches().is_empty() {
+            self.settle(Some(behind_start(self.state.t, self.span)));
+        }
+        self.kinematics.restore(self.state);
+        self.begin_determinants();
+        // as they were accepted, should the position be so near to a singular one that they are rounding
+        self.determinants = to.determinants;
     }
 
     /// Derivatives at the start.
@@ -270,7 +313,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.settle(Some(behind_start(self.state.t, self.span)));
             self.kinematics.restore(self.state);
         }
-        self.kinematics.linear().signs(&mut self.signs);
+        self.begin_determinants();
         self.kinematics.sides(&mut self.sides);
         if let Err(fault) = self.kinematics.derivatives(self.state) {
             return Err(Box::new(self.explain_start(fault)));
@@ -295,7 +338,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
     fn try_step(&mut self, h: f64, t: f64, wanted: bool, to_edge_of_motion: bool) -> Result<Accepted, Fault> {
-        self.predict(h, t)?;
+        let motion = self.predict(h, t)?;
         let first_correction = self.correct()?;
         if !to_edge_of_motion && self.meets_edge() {
             return Err(Fault::Edge { t });
@@ -312,22 +355,24 @@ impl<'m, 'd> Motion<'m, 'd> {
         if !to_edge_of_motion {
             self.look_between(h, between)?;
         }
+        self.look_for_touch(h, motion)?;
         Ok(Accepted { first_correction, between })
     }
 
     /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
     /// kept its sign.
     pub(super) fn same_branch(&mut self) -> Result<(), Fault> {
-        self.kinematics.linear().signs(&mut self.trial_signs);
+        self.kinematics.linear().determinants(&mut self.trial_determinants);
         self.kinematics.sides(&mut self.trial_sides);
         if let Some(index) = (0..self.sides.len()).find(|&k| self.sides[k] != self.trial_sides[k]) {
             return Err(Fault::Watch { index });
         }
-        if self.trial_signs == self.signs { Ok(()) } else { Err(Fault::Singular) }
+        let mut pairs = self.trial_determinants.iter().zip(&self.determinants);
+        if pairs.all(|(trial, now)| trial.positive == now.positive) { Ok(()) } else { Err(Fault::Singular) }
     }
 
-    /// Taylor's predictor, which costs nothing: both derivatives are known.
-    pub(super) fn predict(&mut self, h: f64, t: f64) -> Result<(), Fault> {
+    /// Taylor's predictor, which costs nothing: both derivatives are known. Gives the largest motion, scaled.
+    pub(super) fn predict(&mut self, h: f64, t: f64) -> Result<f64, Fault> {
         self.trial.t = t;
         for k in 0..self.trial.q.len() {
             self.delta[k] = h * (self.state.qd[k] + 0.5 * h * self.state.qdd[k]);
@@ -335,7 +380,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
         // what follows without iteration has no branches, and may go as far as the predictor is right
         let motion = self.kinematics.linear().largest_implicit(&self.delta);
-        if motion <= LARGEST_MOTION { Ok(()) } else { Err(Fault::TooFar) }
+        if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
     }
 
     /// Newton, until the full Φ is below the tolerance; gives the first correction.
@@ -439,7 +484,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
         self.state.copy_from(&self.trial);
         self.keep_if_clear();
-        self.signs.copy_from_slice(&self.trial_signs);
+        self.keep_determinants(h);
         // the predictor's error grows with h³, the curve's between with h⁶
         let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
         if calm {

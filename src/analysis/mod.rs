@@ -23,6 +23,7 @@ mod open_loop;
 mod redundancy;
 mod singular;
 mod times;
+mod touch;
 
 pub use assembly::Moved;
 pub use determine::determine;

@@ -1,0 +1,144 @@
+//! A determinant that touches zero within a step, without changing its sign: a singular position of even order.
+//!
+//! Two zeros of one block that coincide, or a driver that turns back in its dead point ever so gently. Both ends of the step
+//! show nothing. But before such a place a determinant falls, ever more slowly, so that the line through its last two values
+//! meets zero before it does. Only a step on which that happens is looked into.
+
+use super::kinematics::Fault;
+use super::linear::Determinant;
+use super::march::Motion;
+
+/// A determinant that falls within a step to this part of its lesser value at the ends may touch zero there. Shorter steps
+/// tell: beside a zero they meet it, over a mere minimum the ends come down to it.
+const DEEP: f64 = 0.01;
+/// Between its values at the ends of an interval a parabola that touches zero falls to a fifth of the greater one, if the
+/// golden section takes it for the place of the minimum.
+const SHALLOW: f64 = 0.5;
+/// A position nearer to a singular one than this is as good as singular.
+const NEAREST: f64 = 1e-6;
+/// Sections of a step at most.
+const SECTIONS: usize = 60;
+/// The golden section.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
+/// What is known of the way up to a state.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Before {
+    /// The length of the last step (s); 0 where there was none on this branch of the formulas.
+    h: f64,
+    /// The smallest pivot of all blocks at the state.
+    smallest_pivot: f64,
+}
+
+impl Before {
+    /// Nothing is known, at a start.
+    pub(super) const UNKNOWN: Before = Before { h: 0.0, smallest_pivot: 0.0 };
+}
+
+impl Motion<'_, '_> {
+    /// Takes the determinants where the state was factored, there being none before to compare with.
+    pub(super) fn begin_determinants(&mut self) {
+        self.kinematics.linear().determinants(&mut self.determinants);
+        self.way_before = Before::UNKNOWN;
+    }
+
+    /// Takes the determinants of the state that was just accepted, after a step of length `h`.
+    pub(super) fn keep_determinants(&mut self, h: f64) {
+        std::mem::swap(&mut self.determinants_before, &mut self.determinants);
+        self.determinants.copy_from_slice(&self.trial_determinants);
+        self.way_before = Before { h, smallest_pivot: self.kinematics.linear().smallest_pivot() };
+    }
+
+    /// Refuses a step of length `h` within which a determinant comes so near to zero that it may touch it. The curve between
+    /// the ends must have been drawn; the factors of its end are left as they are.
+    pub(super) fn look_for_touch(&mut self, h: f64, motion: f64) -> Result<(), Fault> {
+        if !self.may_touch(h, motion) {
+            return Ok(());
+        }
+        self.factor_within(h, 0.5)?;
+        for block in 0..self.determinants.len() {
+            let (a, b) = self.determinants_at_ends(block);
+            // a parabola that touches zero has half of its value at one of the ends or less in the middle
+            if self.within(block) <= SHALLOW * f64::max(a, b) {
+                self.search(block, h)?;
+                self.factor_within(h, 0.5)?;
+            }
+        }
+        self.kinematics.restore(&self.trial);
+        Ok(())
+    }
+
+    /// Whether a determinant may touch zero within a step of length `h`, by what is known without looking.
+    fn may_touch(&self, h: f64, motion: f64) -> bool {
+        let before = self.way_before;
+        if before.h <= 0.0 {
+            return true;
+        }
+        // a singular value changes by no more than the motion, or little more
+        if before.smallest_pivot < motion && self.kinematics.linear().smallest_pivot() < motion {
+            return true;
+        }
+        let meets_zero = |(now, then): (&Determinant, &Determinant)| {
+            let (now, then) = (now.beside(*now).abs(), then.beside(*now).abs());
+            (then - now) * h > now * before.h
+        };
+        self.determinants.iter().zip(&self.determinants_before).any(meets_zero)
+    }
+
+    /// Golden section for the least determinant of a block, on the curve.
+    fn search(&mut self, block: usize, h: f64) -> Result<(), Fault> {
+        let (mut low, mut high) = (0.0, 1.0);
+        let (mut at_low, mut at_high) = self.determinants_at_ends(block);
+        let deep = DEEP * f64::min(at_low, at_high);
+        let (mut left, mut right) = (1.0 - GOLDEN, GOLDEN);
+        let (mut at_left, mut at_right) = (self.sample(block, h, left)?, self.sample(block, h, right)?);
+        for _ in 0..SECTIONS {
+            let least = f64::min(at_left, at_right);
+            if least <= deep {
+                return Err(Fault::Singular);
+            }
+            if least > SHALLOW * f64::max(at_low, at_high) {
+                return Ok(());
+            }
+            if at_left < at_right {
+                (high, at_high, right, at_right) = (right, at_right, left, at_left);
+                left = high - GOLDEN * (high - low);
+                at_left = self.sample(block, h, left)?;
+            } else {
+                (low, at_low, left, at_left) = (left, at_left, right, at_right);
+                right = low + GOLDEN * (high - low);
+                at_right = self.sample(block, h, right)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// The determinants of a block at the ends of the step, both positive where it is singular at neither.
+    fn determinants_at_ends(&self, block: usize) -> (f64, f64) {
+        let (a, b) = (self.determinants[block], self.trial_determinants[block]);
+        (a.beside(a).abs(), b.beside(a).abs())
+    }
+
+    /// The determinant of a block where a position within the step was factored, negative beyond a singular position.
+    fn within(&self, block: usize) -> f64 {
+        let (end, within) = (self.determinants[block], self.kinematics.linear().determinant(block));
+        let value = within.beside(end);
+        if end.positive { value } else { -value }
+    }
+
+    fn sample(&mut self, block: usize, h: f64, x: f64) -> Result<f64, Fault> {
+        self.factor_within(h, x)?;
+        Ok(self.within(block))
+    }
+
+    /// Factors at a place of the curve, given as a part of the step.
+    fn factor_within(&mut self, h: f64, x: f64) -> Result<(), Fault> {
+        for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
+            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
+        }
+        self.kinematics.set_time(self.state.t + x * h);
+        self.kinematics.set_position(&self.middle)?;
+        self.kinematics.factor()?;
+        if self.kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
+    }
+}
