@@ -164,3 +164,13 @@ fn levers_that_nearly_are_parallelograms_go_through() {
         }
     }
 }
+
+#[test]
+fn rows_beside_a_near_miss_are_those_of_their_times_though_bifurcations_are_passed() {
+    let (outcome, passed) = passing(&push(1.2345, 0.75e-4), 0.01);
+    assert!(passed.is_empty(), "{passed:?}");
+    for (k, (t, phi)) in outcome.column("t").into_iter().zip(outcome.column("crank.phi")).enumerate() {
+        assert!((t - 0.01 * k as f64).abs() < 1e-12, "row {k} is at {t}");
+        assert!((phi - crank(t, 1.2345, 0.75e-4)).abs() < 1e-9, "at t = {t}: {phi}");
+    }
+}

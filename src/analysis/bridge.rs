@@ -187,7 +187,7 @@ impl Motion<'_, '_> {
         let (mut low, mut high) = (bridge.from.t, bridge.to.t);
         self.set(&bridge.to);
         let is_beyond = |motion: &Self, k: usize| {
-            motion.kinematics.linear().determinant(k).positive != motion.determinants[k].positive
+            motion.kinematics.linear().determinant(k).is_positive() != motion.determinants[k].is_positive()
         };
         let crossing = (0..self.determinants.len()).find(|&k| is_beyond(self, k));
         if let Some(block) = crossing {

@@ -28,38 +28,38 @@ struct Part {
     matrix: usize,
     /// Smallest pivot, relative to rows of unit norm.
     smallest_pivot: f64,
-    determinant: Determinant,
 }
 
 /// The determinant of a block whose rows have unit norm: at most 1, and smooth along a motion.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Determinant {
-    pub positive: bool,
-    /// Its size, in units of `UNIT` to the power of `units`.
-    size: f64,
+    /// In units of `UNIT` to the power of `units`.
+    value: f64,
     units: u32,
 }
 
 impl Determinant {
-    pub const ONE: Determinant = Determinant { positive: true, size: 1.0, units: 0 };
+    pub const ONE: Determinant = Determinant { value: 1.0, units: 0 };
+
+    pub fn is_positive(self) -> bool {
+        self.value.is_sign_positive()
+    }
 
     /// Its value, measured such that that of `other` is neither too large nor too small for it.
     pub fn beside(self, other: Determinant) -> f64 {
-        let size = match i64::from(self.units) - i64::from(other.units) {
-            0 => self.size,
-            1 => self.size * UNIT,
-            -1 => self.size * UNITS,
+        match i64::from(self.units) - i64::from(other.units) {
+            0 => self.value,
+            1 => self.value * UNIT,
+            -1 => self.value * UNITS,
             smaller if smaller > 0 => 0.0,
-            _ => f64::INFINITY,
-        };
-        if self.positive { size } else { -size }
+            _ => f64::INFINITY.copysign(self.value),
+        }
     }
 
     fn multiply(&mut self, pivot: f64) {
-        self.positive ^= pivot < 0.0;
-        self.size *= pivot.abs();
-        if self.size < UNIT {
-            self.size *= UNITS;
+        self.value *= pivot;
+        if self.value.abs() < UNIT {
+            self.value *= UNITS;
             self.units += 1;
         }
     }
@@ -114,14 +114,7 @@ impl BlockLu {
         let mut matrix = 0;
         for (k, block) in blocks.iter().enumerate() {
             let size = block.rows.len();
-            parts.push(Part {
-                at: rows.len(),
-                size,
-                explicit: block.explicit,
-                matrix,
-                smallest_pivot: 0.0,
-                determinant: Determinant::ONE,
-            });
+            parts.push(Part { at: rows.len(), size, explicit: block.explicit, matrix, smallest_pivot: 0.0 });
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
                 part_of_column[column as usize] = k as u32;
@@ -170,14 +163,20 @@ impl BlockLu {
 
     /// Writes each block's determinant.
     pub fn determinants(&self, determinants: &mut [Determinant]) {
-        for (determinant, part) in determinants.iter_mut().zip(&self.parts) {
-            *determinant = part.determinant;
+        for (block, determinant) in determinants.iter_mut().enumerate() {
+            *determinant = self.determinant(block);
         }
     }
 
-    /// The determinant of a block.
+    /// The determinant of a block. The matching fixes the order of columns, so that a sign means the same at every state.
     pub fn determinant(&self, block: usize) -> Determinant {
-        self.parts[block].determinant
+        let Part { at, size, matrix, .. } = self.parts[block];
+        let mut determinant = Determinant::ONE;
+        for (k, &swapped) in self.pivots[at..at + size].iter().enumerate() {
+            let pivot = self.dense[matrix + k * (size + 1)];
+            determinant.multiply(if swapped as usize == k { pivot } else { -pivot });
+        }
+        determinant
     }
 
     /// The smallest pivot of all blocks: little more than the nearness to a singular position, and for nothing.
@@ -206,10 +205,8 @@ impl BlockLu {
             }
             let dense = &mut self.dense[matrix..matrix + size * size];
             let pivots = &mut self.pivots[at..at + size];
-            let (smallest, determinant) = factor_dense(dense, pivots, size);
+            let smallest = factor_dense(dense, pivots, size);
             self.parts[k].smallest_pivot = smallest;
-            // the matching fixes the order of columns, so that a sign means the same at every state
-            self.parts[k].determinant = determinant;
             // also refuses a pivot that is not a number
             regular &= smallest > 1e-14;
         }
@@ -407,9 +404,9 @@ fn normalize(v: &mut [f64]) -> f64 {
     norm
 }
 
-/// LU with partial pivoting in place, row by row; gives the smallest pivot and the determinant.
-fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, Determinant) {
-    let (mut smallest, mut determinant) = (f64::INFINITY, Determinant::ONE);
+/// LU with partial pivoting in place, row by row; gives the smallest pivot.
+fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {
+    let mut smallest = f64::INFINITY;
     for k in 0..n {
         let mut best = k;
         for i in k + 1..n {
@@ -419,18 +416,16 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, Determinan
         }
         pivots[k] = best as u32;
         if best != k {
-            determinant.positive = !determinant.positive;
             let (upper, lower) = a.split_at_mut(best * n);
             upper[k * n..k * n + n].swap_with_slice(&mut lower[..n]);
         }
         let (upper, lower) = a.split_at_mut((k + 1) * n);
         let pivot_row = &mut upper[k * n..];
         let pivot = pivot_row[k];
-        determinant.multiply(pivot);
         // a pivot that is not a number must win
         smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
         if pivot.abs() < LEAST_PIVOT {
-            pivot_row[k] = LEAST_PIVOT;
+            pivot_row[k] = LEAST_PIVOT.copysign(pivot);
         }
         let pivot = pivot_row[k];
         for row in lower.chunks_exact_mut(n) {
@@ -443,7 +438,7 @@ fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> (f64, Determinan
             }
         }
     }
-    (smallest, determinant)
+    smallest
 }
 
 fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {

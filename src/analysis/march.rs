@@ -368,7 +368,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             return Err(Fault::Watch { index });
         }
         let mut pairs = self.trial_determinants.iter().zip(&self.determinants);
-        if pairs.all(|(trial, now)| trial.positive == now.positive) { Ok(()) } else { Err(Fault::Singular) }
+        if pairs.all(|(trial, now)| trial.is_positive() == now.is_positive()) { Ok(()) } else { Err(Fault::Singular) }
     }
 
     /// Taylor's predictor, which costs nothing: both derivatives are known. Gives the largest motion, scaled.

@@ -45,7 +45,7 @@ impl Motion<'_, '_> {
     /// Takes the determinants of the state that was just accepted, after a step of length `h`.
     pub(super) fn keep_determinants(&mut self, h: f64) {
         std::mem::swap(&mut self.determinants_before, &mut self.determinants);
-        self.determinants.copy_from_slice(&self.trial_determinants);
+        std::mem::swap(&mut self.determinants, &mut self.trial_determinants);
         self.way_before = Before { h, smallest_pivot: self.kinematics.linear().smallest_pivot() };
     }
 
@@ -79,7 +79,7 @@ impl Motion<'_, '_> {
             return true;
         }
         let meets_zero = |(now, then): (&Determinant, &Determinant)| {
-            let (now, then) = (now.beside(*now).abs(), then.beside(*now).abs());
+            let (then, now) = (then.beside(*now).abs(), now.beside(*now).abs());
             (then - now) * h > now * before.h
         };
         self.determinants.iter().zip(&self.determinants_before).any(meets_zero)
@@ -123,7 +123,7 @@ impl Motion<'_, '_> {
     fn within(&self, block: usize) -> f64 {
         let (end, within) = (self.determinants[block], self.kinematics.linear().determinant(block));
         let value = within.beside(end);
-        if end.positive { value } else { -value }
+        if end.is_positive() { value } else { -value }
     }
 
     fn sample(&mut self, block: usize, h: f64, x: f64) -> Result<f64, Fault> {
