@@ -309,3 +309,12 @@ fn a_search_for_a_contact_ends() {
     let outcome = run("far", text, Span::default());
     assert!(outcome.codes().iter().all(|code| code.starts_with('E')), "{}", outcome.text());
 }
+
+#[test]
+#[ignore = "the first billionth of an analysis counts as its first moment, however long that is"]
+fn a_start_stays_at_its_time_however_long_the_analysis() {
+    // the motion from 1 s to 2 s lies within the first billionth of the analysis
+    let text = pendulum("", "step5(t, 1, 0, 2, 1)").replace("to 0.2 every 0.1", "to 1e10 every 1e9");
+    let outcome = run("ages", &text, Span::default());
+    assert_eq!(outcome.column("bar.phi").first(), Some(&0.0), "{}", outcome.text());
+}

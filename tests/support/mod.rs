@@ -2,6 +2,8 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+pub mod shape;
+
 use mechc::analysis::{self, Times};
 use mechc::check::Surroundings;
 use mechc::diag::{Color, Diagnostic, Diagnostics, Format, Severity, render};

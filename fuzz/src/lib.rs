@@ -1,0 +1,236 @@
+//! What both targets share: the pipeline over one text, with all that must hold of whatever comes out of it.
+
+pub mod generate;
+#[path = "../../tests/support/shape.rs"]
+mod shape;
+
+use mechc::analysis::{self, Started};
+use mechc::check::{self, Surroundings};
+use mechc::diag::{Color, Diagnostic, Format, render};
+use mechc::emit;
+use mechc::lower;
+use mechc::program::{Frozen, Program, Stage};
+use mechc::source::Sources;
+use mechc::structure::Determined;
+use mechc::syntax::{self, ast};
+use shape::file_shape;
+use std::time::{Duration, Instant};
+
+/// Texts longer than this (bytes) are passed over: what is long takes long, and finds nothing that is not found shorter.
+pub const LONGEST: usize = 8192;
+
+/// Mechanisms of one file that are followed.
+const MOST_MECHANISMS: usize = 2;
+
+/// Larger systems are proven, but not moved.
+const MOST_COORDINATES: usize = 90;
+
+/// Parts of the file's span at which rows are asked for. A motion may be as fast as its file says: the first are so near
+/// to the start that even such a one gets there, and the last are only asked for if those before them took no time.
+const PARTS: [f64; 6] = [0.0, 1e-6, 1e-4, 1e-2, 0.1, 1.0];
+
+/// What the rows so far may have taken for the next one to be asked for.
+const PATIENCE: Duration = Duration::from_millis(20);
+
+/// What may be left of an equation where a row is printed, scaled. The analysis promises 1e-12 on one side of every
+/// edge; both sides agree to 1e-9.
+const OPEN: f64 = 2e-9;
+
+/// How far beside an edge its sides are looked at, as a part of the time (s).
+const BESIDE: f64 = 1e-9;
+
+/// What became of a text.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub struct Ran {
+    /// It follows the grammar.
+    pub is_read: bool,
+    /// Mechanisms without a mistake.
+    pub sound: usize,
+    /// Those that are determined.
+    pub determined: usize,
+    /// Those that assemble.
+    pub started: usize,
+    /// Rows computed.
+    pub rows: usize,
+}
+
+/// A text through all rooms.
+///
+/// # Panics
+/// Something does not hold that must hold of every text.
+pub fn run(text: &str) -> Ran {
+    let mut ran = Ran::default();
+    let mut sources = Sources::default();
+    let file = sources.add("text.mech", text);
+    let tree = match syntax::parse(&sources, file) {
+        Ok(tree) => tree,
+        Err(faults) => {
+            assert!(faults.has_errors(), "refused without a reason");
+            say(faults.iter(), &sources);
+            return ran;
+        }
+    };
+    ran.is_read = true;
+    reads_back(&tree);
+    let found = check::check_file(&tree);
+    say(found.iter(), &sources);
+    if found.has_errors() {
+        return ran;
+    }
+    for mechanism in tree.mechanisms.iter().take(MOST_MECHANISMS) {
+        follow(mechanism, &sources, &mut ran);
+    }
+    ran
+}
+
+/// What is formatted is the same tree, and stays as it is when formatted again.
+fn reads_back(tree: &ast::File) {
+    let once = syntax::format(tree);
+    let mut sources = Sources::default();
+    let file = sources.add("formatted.mech", once.as_str());
+    let again = match syntax::parse(&sources, file) {
+        Ok(again) => again,
+        Err(_) if tree.mechanisms.is_empty() => return,
+        Err(faults) => panic!("the formatted text is refused: {faults:?}\n{once}"),
+    };
+    assert_eq!(file_shape(&again), file_shape(tree), "another tree:\n{once}");
+    assert_eq!(syntax::format(&again), once, "formatting twice is not formatting once");
+}
+
+/// Every diagnostic can be rendered in every form.
+fn say<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>, sources: &Sources) {
+    for diagnostic in diagnostics {
+        for format in [Format::Human, Format::Short, Format::Json] {
+            let said = render(diagnostic, sources, format, Color::Never);
+            assert!(said.contains(diagnostic.code.as_str()), "a diagnostic without its code: {said}");
+        }
+        for label in &diagnostic.labels {
+            let text = &sources.get(label.span.file).text;
+            assert!(
+                text.get(label.span.start as usize..label.span.end as usize).is_some(),
+                "a label beside the text: {label:?}"
+            );
+        }
+    }
+}
+
+fn follow(mechanism: &ast::Mechanism, sources: &Sources, ran: &mut Ran) {
+    // no files: what the fuzzer makes up must not read any
+    let (model, found) = check::check(mechanism, &Surroundings::default(), sources);
+    say(found.iter(), sources);
+    let Some(model) = model else {
+        assert!(found.has_errors(), "refused without a reason");
+        return;
+    };
+    assert!(!found.has_errors(), "an error, and yet a model");
+    ran.sound += 1;
+    let _ = model.to_string();
+    let system = lower::lower(&model);
+    let _ = system.to_string();
+    let determined = match analysis::determine(system, false) {
+        Ok((determined, remarks)) => {
+            say(remarks.iter(), sources);
+            determined
+        }
+        Err(why) => {
+            say(why.iter(), sources);
+            match analysis::determine(lower::lower(&model), true) {
+                Ok((determined, remarks)) => {
+                    say(remarks.iter(), sources);
+                    determined
+                }
+                Err(why) => return say(why.iter(), sources),
+            }
+        }
+    };
+    ran.determined += 1;
+    let program = Program::new(determined.system());
+    let emitted = emit::rust(determined.system(), &program, "text.mech");
+    assert!(emitted.contains("pub fn phi"), "no code:\n{emitted}");
+    if determined.system().coordinates.len() > MOST_COORDINATES {
+        return;
+    }
+    let [from, to, _] = determined.system().analysis.unwrap_or([0.0, 1.0, 0.1]);
+    match analysis::start(&determined, &program, from, analysis::TOLERANCE) {
+        Ok(mut started) => {
+            ran.started += 1;
+            say(started.remarks().iter(), sources);
+            ran.rows += rows(&determined, &program, &mut started, [from, to], sources);
+        }
+        Err(why) => say(std::iter::once(&*why), sources),
+    }
+}
+
+/// A few rows, each finite and on `Φ`.
+fn rows(
+    determined: &Determined,
+    program: &Program,
+    started: &mut Started<'_>,
+    [from, to]: [f64; 2],
+    sources: &Sources,
+) -> usize {
+    let (begun, span, columns) = (Instant::now(), to - from, started.columns());
+    assert!(started.conditioning() > 0.0, "started in a singular position");
+    let mut motion = started.motion(span);
+    let mut known = 0;
+    for part in PARTS {
+        let t = if part == 1.0 { to } else { from + part * span };
+        match motion.row_at(t) {
+            Ok(row) => {
+                assert_eq!(row.len(), columns.len(), "a row is as long as its header");
+                assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");
+                assert!(row.iter().all(|value| value.is_finite()), "not finite: {columns:?} {row:?}");
+                let n = determined.system().coordinates.len();
+                let measures = determined.system().measures.len();
+                holds(determined, program, t, &row[1..=n], &row[1 + n + measures..][..n]);
+                known += 1;
+            }
+            Err(why) => {
+                say(std::iter::once(&*why), sources);
+                break;
+            }
+        }
+        if begun.elapsed() > PATIENCE {
+            break;
+        }
+    }
+    say(motion.take_remarks().iter(), sources);
+    known
+}
+
+/// The equations hold at a row, computed anew. On an edge its formulas may have a value of their own (`sign(0)`), and
+/// what counts is one of its sides.
+fn holds(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f64]) {
+    let found = [0.0, BESIDE, -BESIDE].map(|ahead| open(determined, program, t, q, qd, ahead * (1.0 + t.abs())));
+    assert!(found.iter().any(Option::is_none), "open at {t} s: {}", found[0].as_deref().unwrap_or_default());
+}
+
+/// The equation that does not hold, if there is one; the switches as they are some time (s) later or before.
+fn open(determined: &Determined, program: &Program, t: f64, q: &[f64], qd: &[f64], ahead: f64) -> Option<String> {
+    let system = determined.system();
+    let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+    let mut registers = program.start(&params);
+    let mut evaluate = |ahead: f64| {
+        registers.set(program.inputs.time, t + ahead);
+        let q: Vec<f64> = q.iter().zip(qd).map(|(q, qd)| q + ahead * qd).collect();
+        registers.set_all(program.inputs.coordinates[0], &q);
+        program.run(Stage::Time, &mut registers);
+        program.run(Stage::Position, &mut registers);
+        registers.freeze(Frozen { time: true, motion: true });
+    };
+    evaluate(ahead);
+    evaluate(0.0);
+    (0..system.rows.len()).find_map(|row| {
+        let slopes = || system.phi_q.range(row).zip(system.phi_q.row(row));
+        let slope = |position: usize| registers.get(program.outputs.phi_q[position]);
+        let norm = slopes().map(|(k, &(column, _))| slope(k) * system.coordinates[column as usize].scale);
+        let norm = norm.map(|s| s * s).sum::<f64>().sqrt();
+        let steps = slopes().map(|(k, &(column, _))| (slope(k) * q[column as usize]).abs());
+        let terms = program.outputs.terms[row].iter().map(|&register| registers.get(register).abs());
+        let rounding = 64.0 * f64::EPSILON * terms.chain(steps).fold(0.0, f64::max);
+        let off = registers.get(program.outputs.phi[row]).abs();
+        // also where it is no number
+        let holds = off <= OPEN * norm + rounding;
+        (!holds).then(|| format!("`{}` by {off}, norm {norm}", system.declaration_of(row).name))
+    })
+}

@@ -1,0 +1,104 @@
+//! Trees without their places: what two texts of one meaning share.
+
+use mechc::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, File, ItemKind, Mechanism, TableRows};
+
+/// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
+/// `and` and `or` flat, `else if` nested.
+pub fn shape(e: &Expr) -> String {
+    let pairs = |first: &Expr, rest: Vec<(String, &Expr)>| {
+        rest.into_iter().fold(shape(first), |before, (sign, e)| format!("({sign} {before} {})", shape(e)))
+    };
+    match &e.kind {
+        ExprKind::Literal { value, unit: None } => format!("{value:?}"),
+        ExprKind::Literal { value, unit: Some((unit, power)) } => format!("<{value:?} {}^{power}>", unit.text),
+        ExprKind::Name(name) => name.text.clone(),
+        ExprKind::Member { owner, feature } => format!("{}.{}", owner.text, feature.text),
+        ExprKind::Call { name, arguments } => format!("{}{}", name.text, shapes(arguments)),
+        ExprKind::Paren(inner) => shape(inner),
+        ExprKind::Tuple(list) => shapes(list),
+        ExprKind::Negate(inner) => format!("(neg {})", shape(inner)),
+        ExprKind::Not(inner) => format!("(not {})", shape(inner)),
+        ExprKind::Sum(first, rest) => pairs(first, rest.iter().map(|(sign, e)| (format!("{sign:?}"), e)).collect()),
+        ExprKind::Product(first, rest) => pairs(first, rest.iter().map(|(f, e)| (format!("{f:?}"), e)).collect()),
+        ExprKind::Power(base, exponent) => format!("(power {} {})", shape(base), shape(exponent)),
+        ExprKind::Compare(a, comparison, b) => format!("({comparison:?} {} {})", shape(a), shape(b)),
+        ExprKind::And(_) | ExprKind::Or(_) => {
+            let word = if matches!(e.kind, ExprKind::And(_)) { "and" } else { "or" };
+            let mut list = Vec::new();
+            operands(e, word, &mut list);
+            format!("({word} {})", list.join(" "))
+        }
+        ExprKind::If { arms, otherwise } => arms
+            .iter()
+            .rev()
+            .fold(shape(otherwise), |rest, (c, value)| format!("(if {} {} {rest})", shape(c), shape(value))),
+    }
+}
+
+fn operands(e: &Expr, word: &str, list: &mut Vec<String>) {
+    match (&e.bare().kind, word) {
+        (ExprKind::And(inner), "and") | (ExprKind::Or(inner), "or") => {
+            for e in inner {
+                operands(e, word, list);
+            }
+        }
+        _ => list.push(shape(e)),
+    }
+}
+
+fn shapes(list: &[Expr]) -> String {
+    format!("[{}]", list.iter().map(shape).collect::<Vec<_>>().join(", "))
+}
+
+/// All declarations of a file, a line each.
+pub fn file_shape(file: &File) -> Vec<String> {
+    file.mechanisms.iter().flat_map(mechanism_shape).collect()
+}
+
+fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
+    let mut lines = vec![format!("{:?} mechanism {}", mechanism.docs, mechanism.name.text)];
+    for item in &mechanism.items {
+        lines.push(format!("{:?} {}", item.docs, item_shape(&item.kind)));
+        if let ItemKind::Ground { features } | ItemKind::Body { features, .. } = &item.kind {
+            lines.extend(features.iter().map(feature_shape));
+        }
+    }
+    lines
+}
+
+fn item_shape(kind: &ItemKind) -> String {
+    match kind {
+        ItemKind::Param { name, value } => format!("param {} {}", name.text, shape(value)),
+        ItemKind::Function { name, argument, value } => format!("fn {} {} {}", name.text, argument.text, shape(value)),
+        ItemKind::Table { name, periodic, rows } => match rows {
+            TableRows::Listed(rows) => format!("table {} {periodic} {}", name.text, shapes(rows)),
+            TableRows::File { path, units } => {
+                let units = units.as_ref().map(|[a, b]| [&a.text, &b.text]);
+                format!("table {} {periodic} {:?} {units:?}", name.text, path.text)
+            }
+        },
+        ItemKind::Ground { .. } => "ground".to_owned(),
+        ItemKind::Body { name, pose, .. } => format!("body {} {:?}", name.text, pose.as_ref().map(shape)),
+        ItemKind::Joint { name, kind, arguments, .. } => {
+            format!("joint {} {}{}", name.text, kind.text, shapes(arguments))
+        }
+        ItemKind::Equation { driver, name, left, right } => {
+            format!("equation {driver} {} {} {}", name.text, shape(left), shape(right))
+        }
+        ItemKind::Measure { name, value } => format!("measure {} {}", name.text, shape(value)),
+        ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
+    }
+}
+
+fn feature_shape(feature: &Feature) -> String {
+    let text = match &feature.kind {
+        FeatureKind::Point { at } => format!("point {}", shape(at)),
+        FeatureKind::AxisAlong { origin, direction } => format!("along {} {}", shape(origin), shape(direction)),
+        FeatureKind::AxisTo { origin, target } => format!("to {} {}", shape(origin), shape(target)),
+        FeatureKind::Circle { center, radius } => format!("circle {} {}", shape(center), shape(radius)),
+        FeatureKind::Curve { argument, at, estimate } => {
+            format!("curve {} {} {:?}", argument.text, shape(at), estimate.as_ref().map(shape))
+        }
+    };
+    format!("    {:?} {} {text}", feature.docs, feature.name.text)
+}
