@@ -6,7 +6,7 @@ use mechc::math;
 use std::f64::consts::TAU;
 
 /// Elements of one mechanism at most.
-const MOST_ELEMENTS: usize = 6;
+const MOST_ELEMENTS: usize = 4;
 
 type Point = [f64; 2];
 
@@ -141,9 +141,9 @@ impl<'b> Draft<'b> {
         let time = if self.units { "(t / 1 s)" } else { "t" };
         let fast = match self.byte() {
             0..=200 => 1.0,
-            201..=240 => 7.0,
+            201..=240 => 3.0,
             // what is faster takes long, by its own fault
-            _ => self.number().clamp(-50.0, 50.0),
+            _ => self.number().clamp(-3.0, 3.0),
         };
         let time = format!("({fast} * {time})");
         let (a, b) = (self.size() - 0.125, self.size());
@@ -162,7 +162,7 @@ impl<'b> Draft<'b> {
                 self.declarations.push(format!("fn {name}(u) = u^2 + {a} * sin(u)"));
                 format!("{name}({time})")
             }
-            11 => format!("(if {time} < {a} then 0 else ({time} - {a})^{})", 1 + self.pick(4)),
+            11 => format!("(if {time} < {a} then 0 else ({time} - {a})^{})", 1 + self.pick(3)),
             12 => format!("mod({time} + {a}, {b})^2 * (mod({time} + {a}, {b}) - {b})^2"),
             13 => format!("(abs({time} - {a}) - {a})"),
             14 => format!("min({time}, {a})"),
@@ -592,7 +592,7 @@ impl<'b> Draft<'b> {
             text += &format!("{head} {{\n{}\n}}\n", body.features.join("\n"));
         }
         // the first billionth of an analysis is one moment to it, which must not be seconds
-        let to = self.size().clamp(-20.0, 20.0);
+        let to = self.size().clamp(-4.0, 4.0);
         let (from, to) = if late { (0.5, 0.5 + to) } else { (0.0, to) };
         let every = self.seconds((to - from) / 8.0);
         let (from, to) = (self.seconds(from), self.seconds(to));
