@@ -15,14 +15,17 @@ use crate::ir::CoordinateKind;
 /// So many units in the last place of an output time it may be off from the edge that it is meant to be.
 const SLACK: f64 = 4.0;
 /// The span is looked through for edges of time in parts no smaller than this one of it.
-const FINEST: f64 = 1e-8;
+pub(super) const FINEST: f64 = 1e-8;
 /// Parts that are looked at in one step at most: where a formula stands on its edge all the time nothing is ever decided.
 const MOST_PARTS: usize = 2000;
 /// A step is looked through in parts no smaller than this one of it, and in so many at most.
 const FINEST_BETWEEN: f64 = 2e-4;
 const MOST_PARTS_BETWEEN: usize = 500;
-/// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on.
+/// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on. Motions of a
+/// second may come at the start of an analysis of years, and nothing may move farther than this meanwhile, scaled.
 const AHEAD: f64 = 1e-9;
+const LONGEST_AHEAD: f64 = 1e-9;
+const FARTHEST_AHEAD: f64 = 1e-7;
 /// A position that changes by more than this at an edge, scaled, jumps.
 const POSITION_JUMP: f64 = 1e-9;
 /// A velocity that changes by more than this part of the fastest, scaled, jumps.
@@ -49,7 +52,7 @@ pub(super) fn shortly_after(t: f64) -> f64 {
 
 /// A time just behind a start at `t`, for a motion over a span (s): what happens up to there happens at the start.
 pub(super) fn behind_start(t: f64, span: f64) -> f64 {
-    shortly_after(t) + AHEAD * span
+    shortly_after(t) + f64::min(AHEAD * span, LONGEST_AHEAD)
 }
 
 /// Where a switch changes.
@@ -73,6 +76,12 @@ pub(super) struct Restless {
 impl Restless {
     /// One that has never been so.
     pub(super) const NEVER: Restless = Restless { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
+
+    /// From a time `t` on (s), for twice as long as before.
+    fn leave_alone(&mut self, t: f64, span: f64) {
+        self.length = (2.0 * self.length).clamp(FINEST * span, LONGEST_REST * span);
+        (self.last, self.until) = (t + self.length, t + self.length);
+    }
 }
 
 impl Motion<'_, '_> {
@@ -179,24 +188,25 @@ impl Motion<'_, '_> {
         !self.in_time.conditions_hold(|register| self.kinematics.value(register))
     }
 
-    /// Whether the position that was just set is beyond an edge of the motion.
-    pub(super) fn meets_edge(&self) -> bool {
-        let switches = self.kinematics.switches().iter().zip(&self.restless);
-        let mut of_motion = switches.filter(|(switch, restless)| !switch.on_time && restless.until <= self.state.t);
-        of_motion.any(|(switch, _)| self.kinematics.would_switch(switch))
+    /// The switch of the motion beyond whose edge the position is that was just set.
+    pub(super) fn edge_met(&self) -> Option<usize> {
+        let mut switches = self.kinematics.switches().iter().zip(&self.restless);
+        switches.position(|(switch, restless)| {
+            !switch.on_time && restless.until <= self.state.t && self.kinematics.would_switch(switch)
+        })
     }
 
     /// Finds the edge of the motion that lies before a time; says whether it could.
     pub(super) fn locate(&mut self, next: f64) -> bool {
         let (mut low, mut high) = (self.state.t, next);
-        let mut found = self.solve_at(next).is_ok() && self.meets_edge();
+        let mut found = self.solve_at(next).is_ok() && self.edge_met().is_some();
         while found || high < next {
             let middle = 0.5 * (low + high);
             if middle <= low || middle >= high {
                 break;
             }
             match self.solve_at(middle) {
-                Ok(()) if !self.meets_edge() => low = middle,
+                Ok(()) if self.edge_met().is_none() => low = middle,
                 Ok(()) => (high, found) = (middle, true),
                 // beyond the edge a formula need not go on
                 Err(_) => (high, found) = (middle, false),
@@ -271,8 +281,8 @@ impl Motion<'_, '_> {
         }
         self.kinematics.set_time(self.state.t + x * h);
         self.kinematics.set_position(&self.middle)?;
-        if self.meets_edge() {
-            return Err(Fault::Edge { t: self.state.t + x * h });
+        if let Some(switch) = self.edge_met() {
+            return Err(Fault::Edge { t: self.state.t + x * h, switch });
         }
         self.kinematics.sides(&mut self.trial_sides);
         match (0..self.sides.len()).find(|&k| self.sides[k] != self.trial_sides[k]) {
@@ -309,11 +319,18 @@ impl Motion<'_, '_> {
             if self.kinematics.switch(switch).to_bits() == before.to_bits() {
                 continue;
             }
-            let at_once = t - restless.last <= f64::max(4.0 * restless.length, FINEST * self.span);
-            restless.length = if at_once { f64::max(2.0 * restless.length, FINEST * self.span) } else { 0.0 };
-            restless.length = restless.length.min(LONGEST_REST * self.span);
-            (restless.last, restless.until) = (t + restless.length, t + restless.length);
+            if t - restless.last <= f64::max(4.0 * restless.length, FINEST * self.span) {
+                restless.leave_alone(t, self.span);
+            } else {
+                *restless = Restless { last: t, length: 0.0, until: t };
+            }
         }
+    }
+
+    /// Leaves a switch alone that changes on the curve between, however short the step, and at no position that is solved
+    /// for: its formula stands on the edge there, and rounding decides.
+    pub(super) fn leave_alone(&mut self, switch: usize) {
+        self.restless[switch].leave_alone(self.state.t, self.span);
     }
 
     /// Keeps the earlier side: the state, its row, the switches.
@@ -333,7 +350,7 @@ impl Motion<'_, '_> {
         if let Some(after) = after {
             self.kinematics.settle_time(after);
         }
-        let ahead = AHEAD * self.span;
+        let ahead = self.way_ahead();
         for k in 0..self.middle.len() {
             self.middle[k] = self.state.q[k] + ahead * (self.state.qd[k] + 0.5 * ahead * self.state.qdd[k]);
         }
@@ -341,6 +358,14 @@ impl Motion<'_, '_> {
         self.kinematics.set_time(self.state.t + ahead);
         self.kinematics.settle_motion(&self.middle);
         self.kinematics.set_time(self.state.t);
+    }
+
+    /// How long the motion is looked ahead (s).
+    fn way_ahead(&self) -> f64 {
+        let linear = self.kinematics.linear();
+        let largest = |a: &[f64]| (0..a.len()).map(|k| a[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
+        let (speed, acceleration) = (largest(&self.state.qd), largest(&self.state.qdd));
+        (AHEAD * self.span).min(FARTHEST_AHEAD / speed).min((FARTHEST_AHEAD / acceleration).sqrt())
     }
 
     /// Computes the state anew where it is, with the switches as they are now, and compares.

@@ -61,8 +61,8 @@ pub(super) enum Fault {
     Check { index: usize },
     /// Derivatives would be more rounding than digits.
     Uncertain,
-    /// The step goes over an edge, which lies before a time (s).
-    Edge { t: f64 },
+    /// The step goes over an edge of a switch, by its number, which lies before a time (s).
+    Edge { t: f64, switch: usize },
 }
 
 /// A mechanism's program with its registers and factors.
@@ -353,6 +353,11 @@ impl<'d> Kinematics<'d> {
             registers.set_all(qddd, &state.qddd);
         }
         self.all_finite(state)
+    }
+
+    /// How fast a row asks to be met, scaled (1/s); the derivatives where the position was set must have been computed.
+    pub fn asked_speed(&self, row: usize) -> f64 {
+        self.registers.get(self.program.outputs.nu[row]).abs() / self.linear.row_norm(row)
     }
 
     /// How much larger the velocities and accelerations of a state are than the right sides they answer to, scaled; at

@@ -5,7 +5,7 @@
 //! is halved. So the branch followed does not depend on the output times.
 
 use super::bridge::Bridge;
-use super::edges::{Edge, Restless, behind_start};
+use super::edges::{Edge, FINEST, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::linear::Determinant;
@@ -232,7 +232,11 @@ impl<'m, 'd> Motion<'m, 'd> {
                 self.accept(h, &accepted);
                 edge.map_or(Ok(()), |edge| self.cross(edge))
             }
-            Err(Fault::Edge { t }) if self.locate(t) => Ok(()),
+            Err(Fault::Edge { t, .. }) if self.locate(t) => Ok(()),
+            Err(Fault::Edge { switch, .. }) if h <= FINEST * self.span => {
+                self.leave_alone(switch);
+                Ok(())
+            }
             Err(fault) => self.shorten(h, fault, t),
         }
     }
@@ -340,8 +344,8 @@ impl<'m, 'd> Motion<'m, 'd> {
     fn try_step(&mut self, h: f64, t: f64, wanted: bool, to_edge_of_motion: bool) -> Result<Accepted, Fault> {
         let motion = self.predict(h, t)?;
         let first_correction = self.correct()?;
-        if !to_edge_of_motion && self.meets_edge() {
-            return Err(Fault::Edge { t });
+        if !to_edge_of_motion && let Some(switch) = self.edge_met() {
+            return Err(Fault::Edge { t, switch });
         }
         self.same_branch()?;
         self.keep_away()?;

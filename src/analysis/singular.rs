@@ -51,7 +51,7 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
     } else if let Some(fault) = without_value(kinematics, state, target) {
         errors::no_value(system, fault, target)
     } else {
-        errors::cannot_follow(system, state.t, fastest_driver(kinematics, state))
+        errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
     };
     diagnostic.datum("residual", residual)
 }
@@ -87,7 +87,7 @@ pub(super) fn explain_haste(kinematics: &mut Kinematics<'_>, state: &State, step
     let system = kinematics.system();
     match without_value(kinematics, state, target) {
         Some(fault) => errors::no_value(system, fault, target),
-        None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state)),
+        None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state, target)),
     }
 }
 
@@ -237,19 +237,19 @@ fn columns_in(right: &[f64]) -> Vec<usize> {
     (0..right.len()).filter(|&column| right[column].abs() > 0.1 * fastest).collect()
 }
 
-/// The row of the driver whose bodies move fastest: where something becomes too fast to follow.
-fn fastest_driver(kinematics: &Kinematics<'_>, state: &State) -> Option<usize> {
+/// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.
+fn fastest_driver(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Option<usize> {
     let system = kinematics.system();
+    kinematics.restore(state);
+    // the speeds that are asked for are known though those of the mechanism may not be
+    let _ = kinematics.derivatives(&mut state.clone());
+    let speeds: Vec<f64> = (0..system.rows.len()).map(|row| kinematics.asked_speed(row)).collect();
+    kinematics.set_time(t);
+    let is_set = kinematics.set_position(&state.q).is_ok();
     let speed = |row: usize| {
-        system
-            .phi_q
-            .row(row)
-            .iter()
-            .map(|&(column, _)| {
-                let scale = kinematics.linear().column_scale(column as usize);
-                (state.qd[column as usize].abs() + state.qdd[column as usize].abs()) / scale
-            })
-            .fold(0.0, f64::max)
+        let jump = if is_set && t > state.t { kinematics.residual(row) / (t - state.t) } else { 0.0 };
+        f64::max(speeds[row], jump)
     };
-    (0..system.rows.len()).filter(|&row| system.is_driver(row)).max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
+    let drivers = (0..system.rows.len()).filter(|&row| system.is_driver(row) && speed(row) > 0.0);
+    drivers.max_by(|&a, &b| speed(a).total_cmp(&speed(b)))
 }
