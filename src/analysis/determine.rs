@@ -12,7 +12,7 @@ use crate::ir::{Check, ConstraintSystem};
 use crate::structure::{self, Determined, Part, Refused};
 
 /// Larger parts are not looked at with values: their equations would be a dense matrix.
-const LARGEST: usize = 300;
+const LARGEST: usize = 600;
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///

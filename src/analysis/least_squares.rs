@@ -2,6 +2,7 @@
 //! each other (K. Levenberg, 1944; D. Marquardt, 1963). Dense: for parts of a mechanism, and never in the time loop.
 
 use crate::ir::ConstraintSystem;
+use crate::math;
 
 /// Steps at most.
 const STEPS: usize = 300;
@@ -86,7 +87,7 @@ pub(super) fn minimize(
         if size.sqrt() < 1e-15 {
             break;
         }
-        let step = damped_solution(&now.jacobian, &now.residual, damping, [now.residual.len(), columns.len()]);
+        let step = damped_solution(&now.jacobian, &now.residual, damping, columns.len());
         let before = q.to_vec();
         let longest = step.iter().fold(0.0, |l: f64, x| l.max(x.abs()));
         let cut = if longest > LARGEST_STEP { LARGEST_STEP / longest } else { 1.0 };
@@ -118,42 +119,44 @@ pub(super) fn square(v: &[f64]) -> f64 {
     v.iter().map(|x| x * x).sum()
 }
 
-/// The x of least |J x + r|² + λ|x|², by Householder reflections of J above √λ I.
-fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, [m, n]: [usize; 2]) -> Vec<f64> {
-    let height = m + n;
-    // column by column, with the right side as the last one
-    let mut a = vec![0.0; height * (n + 1)];
-    for i in 0..m {
-        for j in 0..n {
-            a[j * height + i] = jacobian[i * n + j];
-        }
-        a[n * height + i] = -residual[i];
-    }
-    for j in 0..n {
-        a[j * height + m + j] = damping.sqrt();
-    }
+/// The x of least |J x + r|² + λ|x|²: the rows of J are rotated one by one into √λ I, of which each row is held up to its
+/// last entry, so that what is sparse costs little (J. A. George, M. T. Heath, 1980).
+fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, n: usize) -> Vec<f64> {
+    let mut triangle = vec![0.0; n * n];
+    let mut ends: Vec<usize> = (1..=n).collect();
     for k in 0..n {
-        let (done, rest) = a.split_at_mut((k + 1) * height);
-        let column = &mut done[k * height..];
-        let norm = square(&column[k..]).sqrt();
-        let pivot = if column[k] > 0.0 { -norm } else { norm };
-        column[k] -= pivot;
-        let length = square(&column[k..]);
-        for other in rest.chunks_exact_mut(height) {
-            let share: f64 = column[k..].iter().zip(&other[k..]).map(|(x, y)| x * y).sum();
-            for (x, y) in column[k..].iter().zip(&mut other[k..]) {
-                *y -= 2.0 * share / length * x;
-            }
-        }
-        column[k] = pivot;
+        triangle[k * n + k] = damping.sqrt();
     }
     let mut x = vec![0.0; n];
-    for i in (0..n).rev() {
-        let mut sum = a[n * height + i];
-        for j in i + 1..n {
-            sum -= a[j * height + i] * x[j];
+    for (line, open) in jacobian.chunks_exact(n).zip(residual) {
+        let (mut line, mut right) = (line.to_vec(), -open);
+        let Some(last) = line.iter().rposition(|&entry| entry != 0.0) else {
+            continue;
+        };
+        let mut end = last + 1;
+        for k in 0..n {
+            if k >= end {
+                break;
+            }
+            if line[k] == 0.0 {
+                continue;
+            }
+            end = usize::max(end, ends[k]);
+            ends[k] = end;
+            let row = &mut triangle[k * n..(k + 1) * n];
+            let norm = math::hypot(row[k], line[k]);
+            let (cos, sin) = (row[k] / norm, line[k] / norm);
+            let rotate = |a: &mut f64, b: &mut f64| (*a, *b) = (cos * *a + sin * *b, cos * *b - sin * *a);
+            for (a, b) in row[k..end].iter_mut().zip(&mut line[k..end]) {
+                rotate(a, b);
+            }
+            rotate(&mut x[k], &mut right);
         }
-        x[i] = sum / a[i * height + i];
+    }
+    for k in (0..n).rev() {
+        let row = &triangle[k * n..(k + 1) * n];
+        let known: f64 = (k + 1..ends[k]).map(|j| row[j] * x[j]).sum();
+        x[k] = (x[k] - known) / row[k];
     }
     x
 }

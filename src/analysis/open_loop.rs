@@ -13,7 +13,7 @@ use crate::math;
 use crate::structure::{Determined, Part};
 
 /// Larger systems are looked at block by block.
-const LARGEST: usize = 300;
+const LARGEST: usize = 600;
 /// An equation is part of the loop if its share of the residual is above this part of the largest.
 const TAKES_PART: f64 = 0.01;
 /// How much lighter one joint is made than the others, so that the loop opens there.
