@@ -350,3 +350,42 @@ fn a_contact_that_rests_on_an_edge_does_not_stop_a_fast_motion() {
     // `still` touches at `u = 0` throughout, so that rounding decides which of its branches holds
     run("fast", text, Span { to: None, every: None }).expect_success();
 }
+
+#[test]
+fn what_rests_on_an_edge_stays_there_in_no_time() {
+    let text = "
+        mechanism made {
+        ground {
+        point point2 = (2.4791666666666665, -1.0208333333333333)
+        curve curve6(u) = (-2.3125 + (-2.352721369948153 * u - 1.5637136260590934 * (if u < 0 then u^2 / 2 else u^2)), -2.1666666666666665 + (1.8360817781390586 * u + -2.0037138368842906 * (if u < 0 then u^2 / 2 else u^2))) at 0
+        point point16 = (-2.6458333333333335, -2.6458333333333335)
+        point point17 = (-2.6458333333333335, -2.6458333333333335)
+        point point18 = (-2.6458333333333335, -2.6458333333333335)
+        point point19 = (-2.6458333333333335, -2.6458333333333335)
+        point point20 = (-2.6458333333333335, -2.6458333333333335)
+        }
+        body b1 at (-2.3958333333333335, 2.0833333333333335, 1.4375) {
+        point point3 = (-2.4287332177114456, -5.244304591805233)
+        point point5 = (-4.201223899515751, -0.6474273631706541)
+        point point9 = (-6.892467010188676, -5.39852080918557)
+        axis spline13 = (-3.364158839304768, -4.381806755530929) along (-0.276892338016583, 0.9609009486662557)
+        point point15 = (-4.720440618332038, -0.3807331479030456)
+        }
+        body b8 at (-0.5416666666666666, -1.3541666666666667, 1.9791666666666667) {
+        point point10 = (-4.797954175078146, -0.7355954767837682)
+        circle circle12 = (-4.797954175078146, -0.7355954767837682) radius 3.671875
+        }
+        joint _4: revolute(ground.point2, b1.point3)
+        joint at7: point_follower(b1.point5, ground.curve6)
+        joint j11: revolute(b1.point9, b8.point10)
+        joint _14: rack_pinion(b8.circle12, b1.spline13, 0, left)
+        measure m0 = der(y(b1.point15))
+        measure m1 = der(y(ground.point17))
+        measure m2 = der(y(ground.point19))
+        analysis from 0 to 0.125 every 0.015625
+        }
+    ";
+    let rows = run("rest", text, Span::default()).expect_success().rows;
+    assert_eq!(rows.len(), 9);
+    assert!(rows.iter().all(|row| (1..9).all(|k| (row[k] - rows[0][k]).abs() < 1e-12)), "{rows:?}");
+}

@@ -4,6 +4,7 @@
 //! smoothly, since the other ones are far from it there. Between the two states the motion is the quintic through both,
 //! which also tells when the singular position is reached.
 
+use super::GOLDEN;
 use super::errors;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
@@ -32,8 +33,6 @@ const SPREAD: f64 = 0.08;
 /// The minimum's slope by central differences of sixth order, and its curvature, by the distance of the places in `SPREAD`.
 const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 const CURVATURE: [f64; 4] = [-490.0 / 180.0, 270.0 / 180.0, -27.0 / 180.0, 2.0 / 180.0];
-/// The golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// The way over a singular position.
 #[derive(Clone, Debug)]

@@ -5,6 +5,7 @@
 //! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
 //! that jumps has two.
 
+use super::GOLDEN;
 use super::errors;
 use super::kinematics::Fault;
 use super::march::Motion;
@@ -15,7 +16,7 @@ use crate::ir::CoordinateKind;
 /// So many units in the last place of an output time it may be off from the edge that it is meant to be.
 const SLACK: f64 = 4.0;
 /// The span is looked through for edges of time in parts no smaller than this one of it.
-pub(super) const FINEST: f64 = 1e-8;
+const FINEST: f64 = 1e-8;
 /// Parts that are looked at in one step at most: where a formula stands on its edge all the time nothing is ever decided.
 const MOST_PARTS: usize = 2000;
 /// A step is looked through in parts no smaller than this one of it, and in so many at most.
@@ -42,6 +43,11 @@ const UNCERTAIN: f64 = 16.0;
 const TAKES_PART: f64 = 1e-2;
 /// A restless switch is left alone for this part of the span at most.
 const LONGEST_REST: f64 = 1e-2;
+/// A motion is none if it is no more than this, scaled, or than so many units in the last place.
+const AT_REST: f64 = 1e-12;
+const ROUNDING: f64 = 64.0;
+/// How far the coordinates are moved to learn what a switch is decided by, scaled.
+const NUDGE: f64 = 1e-6;
 /// Corrections of a position at an edge at most.
 const ITERATIONS: usize = 4;
 
@@ -76,12 +82,6 @@ pub(super) struct Restless {
 impl Restless {
     /// One that has never been so.
     pub(super) const NEVER: Restless = Restless { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
-
-    /// From a time `t` on (s), for twice as long as before.
-    fn leave_alone(&mut self, t: f64, span: f64) {
-        self.length = (2.0 * self.length).clamp(FINEST * span, LONGEST_REST * span);
-        (self.last, self.until) = (t + self.length, t + self.length);
-    }
 }
 
 impl Motion<'_, '_> {
@@ -319,18 +319,40 @@ impl Motion<'_, '_> {
             if self.kinematics.switch(switch).to_bits() == before.to_bits() {
                 continue;
             }
-            if t - restless.last <= f64::max(4.0 * restless.length, FINEST * self.span) {
-                restless.leave_alone(t, self.span);
-            } else {
-                *restless = Restless { last: t, length: 0.0, until: t };
-            }
+            let at_once = t - restless.last <= f64::max(4.0 * restless.length, FINEST * self.span);
+            restless.length = if at_once { f64::max(2.0 * restless.length, FINEST * self.span) } else { 0.0 };
+            restless.length = restless.length.min(LONGEST_REST * self.span);
+            (restless.last, restless.until) = (t + restless.length, t + restless.length);
         }
     }
 
-    /// Leaves a switch alone that changes on the curve between, however short the step, and at no position that is solved
-    /// for: its formula stands on the edge there, and rounding decides.
-    pub(super) fn leave_alone(&mut self, switch: usize) {
-        self.restless[switch].leave_alone(self.state.t, self.span);
+    /// Whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
+    /// what it is decided by neither is off the edge nor has it moved since the state.
+    pub(super) fn rests_on_edge(&mut self, switch: usize) -> bool {
+        let switch = &self.kinematics.switches()[switch];
+        let (there, off) = self.kinematics.edge(switch);
+        self.kinematics.set_time(self.state.t);
+        let at = |motion: &mut Self, nudge: f64| {
+            let linear = motion.kinematics.linear();
+            for (k, (middle, q)) in motion.middle.iter_mut().zip(&motion.state.q).enumerate() {
+                // no way along which everything cancels
+                *middle = q + nudge * linear.column_scale(k) * (0.5 + (GOLDEN * k as f64).fract());
+            }
+            // what is wrong with a position shows where it is solved for
+            let _ = motion.kinematics.set_position(&motion.middle);
+            motion.kinematics.edge(switch).0
+        };
+        let (nudged, here) = (at(self, NUDGE), at(self, 0.0));
+        let linear = self.kinematics.linear();
+        let largest =
+            (0..self.state.q.len()).map(|k| self.state.q[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
+        let nothing = f64::max(AT_REST, ROUNDING * f64::EPSILON * largest) * (nudged - here).abs() / NUDGE;
+        off <= nothing && (there - here).abs() <= nothing
+    }
+
+    /// Leaves a switch alone up to a time (s).
+    pub(super) fn leave_alone(&mut self, switch: usize, t: f64) {
+        self.restless[switch].until = t;
     }
 
     /// Keeps the earlier side: the state, its row, the switches.

@@ -148,6 +148,11 @@ impl<'d> Kinematics<'d> {
         !live.is_nan() && (live + 0.0).to_bits() != (now + 0.0).to_bits()
     }
 
+    /// What a switch is decided by where time and position were set, and how far that is from its edge.
+    pub fn edge(&self, switch: &Switch) -> (f64, f64) {
+        self.program.edge(switch, &self.registers)
+    }
+
     /// Whether a switch stands exactly on its edge.
     pub fn is_on_edge(&self, switch: &Switch) -> bool {
         match switch.op {

@@ -4,8 +4,9 @@
 //! first correction is small, so is one between the ends, and no block's determinant changes its sign or touches zero. Else it
 //! is halved. So the branch followed does not depend on the output times.
 
+use super::GOLDEN;
 use super::bridge::Bridge;
-use super::edges::{Edge, FINEST, Restless, behind_start};
+use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::linear::Determinant;
@@ -28,8 +29,6 @@ const SETTLED: f64 = 1e-7;
 const ILL: f64 = 0.01;
 /// Steps over the whole span at least, so that what happens in it is met.
 const FEWEST_STEPS: f64 = 64.0;
-/// The golden ratio's fraction: its multiples never come close to a period.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Smallest step, as a part of the whole span.
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
@@ -232,11 +231,11 @@ impl<'m, 'd> Motion<'m, 'd> {
                 self.accept(h, &accepted);
                 edge.map_or(Ok(()), |edge| self.cross(edge))
             }
-            Err(Fault::Edge { t, .. }) if self.locate(t) => Ok(()),
-            Err(Fault::Edge { switch, .. }) if h <= FINEST * self.span => {
-                self.leave_alone(switch);
+            Err(Fault::Edge { t, switch }) if self.rests_on_edge(switch) => {
+                self.leave_alone(switch, t);
                 Ok(())
             }
+            Err(Fault::Edge { t, .. }) if self.locate(t) => Ok(()),
             Err(fault) => self.shorten(h, fault, t),
         }
     }

@@ -39,6 +39,9 @@ use kinematics::{Kinematics, State};
 /// Bounds each row of Φ unless told otherwise, scaled.
 pub const TOLERANCE: f64 = 1e-12;
 
+/// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
+const GOLDEN: f64 = 0.618_033_988_749_894_9;
+
 /// A mechanism that is assembled at its first time, in a position of full rank.
 pub struct Started<'d> {
     kinematics: Kinematics<'d>,

@@ -4,6 +4,7 @@
 //! show nothing. But before such a place a determinant falls, ever more slowly, so that the line through its last two values
 //! meets zero before it does. Only a step on which that happens is looked into.
 
+use super::GOLDEN;
 use super::kinematics::Fault;
 use super::linear::Determinant;
 use super::march::Motion;
@@ -18,8 +19,6 @@ const SHALLOW: f64 = 0.5;
 const NEAREST: f64 = 1e-6;
 /// Sections of a step at most.
 const SECTIONS: usize = 60;
-/// The golden section.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
 /// What is known of the way up to a state.
 #[derive(Clone, Copy, Debug)]

@@ -69,6 +69,26 @@ impl Program {
         }
     }
 
+    /// What a switch is decided by, and how far that is from the nearest edge.
+    #[must_use]
+    pub fn edge(&self, switch: &Switch, registers: &Registers) -> (f64, f64) {
+        let v = registers.values.as_slice();
+        match switch.op {
+            Op::Compare { a, b, .. } => (v[a as usize] - v[b as usize], (v[a as usize] - v[b as usize]).abs()),
+            Op::Unary { function: Unary::Floor, a, .. } => {
+                (v[a as usize], (v[a as usize] - v[a as usize].round()).abs())
+            }
+            Op::Unary { a, .. } => (v[a as usize], v[a as usize].abs()),
+            Op::Piece { table, a, .. } => {
+                let layout = &self.tables[table as usize];
+                let knots = layout.knots as usize..=(layout.knots + layout.pieces) as usize;
+                let distances = v[knots].iter().map(|knot| (v[a as usize] - knot).abs());
+                (v[a as usize], distances.fold(f64::INFINITY, f64::min))
+            }
+            _ => (v[switch.to as usize], f64::INFINITY),
+        }
+    }
+
     /// The number of the piece that an argument lies in; what is no number lies nowhere.
     fn piece(&self, table: u32, x: f64, v: &[f64]) -> f64 {
         let layout = &self.tables[table as usize];
