@@ -1,11 +1,17 @@
 //! `Φ` and `Φ_q` of a system that need not be determined, at any position and time: what explains a fault works with these,
 //! and not with the solver.
 
+use super::GOLDEN;
 use super::errors;
 use super::least_squares::{Linear, Values, minimize};
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::math;
 use crate::program::{Program, Registers, Stage};
+
+/// An equation that is off by more than this, scaled, by its slope is one whose slope vanishes.
+const HOPELESS: f64 = 30.0;
+/// How far coordinates are nudged, scaled.
+const NUDGE: f64 = 0.02;
 
 /// A system with what evaluates it, and a position.
 pub(super) struct Evaluator<'s> {
@@ -40,6 +46,14 @@ impl<'s> Evaluator<'s> {
 
     /// Brings some rows as near to zero as can be by moving some columns, and gives them there with the weights used.
     pub fn assemble(&mut self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>, t: f64) -> Option<Linear> {
+        let first = self.linear(rows, columns, None, t)?;
+        let vanishes = |line: &[f64]| line.iter().all(|&slope| slope == 0.0);
+        if first.residual.iter().any(|open| open.abs() > HOPELESS)
+            || first.jacobian.chunks(columns.len().max(1)).any(vanishes)
+        {
+            // no small motion changes that row there, but beside it one does
+            self.nudge(columns);
+        }
         let mut q = self.q.clone();
         let linear = minimize(self.system, columns, &mut q, weights, |q, weights| {
             self.q.copy_from_slice(q);
@@ -48,6 +62,14 @@ impl<'s> Evaluator<'s> {
         self.q = q;
         // the last step may have been taken back
         self.linear(rows, columns, Some(&linear.weights), t)
+    }
+
+    /// Moves some columns a little, each by another part of its scale.
+    pub fn nudge(&mut self, columns: &[u32]) {
+        for &column in columns {
+            let part = 0.5 + (GOLDEN * f64::from(column)).fract();
+            self.q[column as usize] += NUDGE * part * self.system.coordinates[column as usize].scale;
+        }
     }
 
     /// An entry of `Φ` where it was evaluated last.
@@ -64,8 +86,29 @@ impl<'s> Evaluator<'s> {
             .map(|(position, &(column, _))| (column as usize, self.registers.get(self.program.outputs.phi_q[position])))
     }
 
+    /// The distance that a declaration prescribes between two points, if it does, and that between them (m).
+    pub fn distance(&self, declaration: usize) -> Option<[f64; 2]> {
+        let system = self.system;
+        let is_distance = match system.declarations[declaration].kind {
+            DeclarationKind::Joint(word) => word == "revolute_revolute",
+            _ => true,
+        };
+        let &[p, q] = system.declarations[declaration].points.as_slice() else {
+            return None;
+        };
+        let row = (0..system.rows.len()).find(|&row| system.rows[row].declaration == declaration)?;
+        let (from, to) = (self.place_of(p), self.place_of(q));
+        let square = (to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1]);
+        // Φ = dᵀd − L²
+        is_distance.then(|| [f64::max(square - self.phi(row), 0.0).sqrt(), square.sqrt()])
+    }
+
     /// How far a body would have to be moved (m), or turned (rad), for a row to hold: moved if the row is about places.
     pub fn gap(&self, row: usize) -> f64 {
+        // what is said of a distance is said of the distance itself, and not of its square
+        if let Some([wanted, found]) = self.distance(self.system.rows[row].declaration) {
+            return (found - wanted).abs();
+        }
         let kind = errors::gap_kind(self.system, row);
         let of_kind = self.slopes(row).filter(|&(column, _)| self.system.coordinates[column].kind == kind);
         let mut steepest: f64 = 0.0;

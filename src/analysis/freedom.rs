@@ -7,6 +7,8 @@ use super::singular;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 use crate::math;
 use crate::structure::Part;
+use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 /// A residual above this is not assembled: motions would be told of no position.
 const ASSEMBLED: f64 = 1e-8;
@@ -223,13 +225,14 @@ impl Freedom {
             let owner = point.body.map_or("ground", |body| system.bodies[body].name.as_str());
             point.name.as_ref().map(|name| format!("{owner}.{name}"))
         };
+        let pinned = pinned_together(system);
         let held = |p: usize, q: usize| {
             let bodies = [system.points[p].body, system.points[q].body];
             let holds = |points: &[usize]| {
                 matches!(points, &[a, b] if [system.points[a].body, system.points[b].body] == bodies
                     || [system.points[b].body, system.points[a].body] == bodies)
             };
-            system.declarations.iter().any(|declaration| holds(&declaration.points))
+            pinned[p] == pinned[q] || system.declarations.iter().any(|declaration| holds(&declaration.points))
         };
         let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
         for p in 0..system.points.len() {
@@ -254,6 +257,36 @@ impl Freedom {
         };
         pairs.iter().filter_map(text).take(SUGGESTED.min(self.degrees() / 2)).collect()
     }
+}
+
+/// For each point, one that stands for all that are pinned together with it, also by way of others.
+fn pinned_together(system: &ConstraintSystem) -> Vec<usize> {
+    let mut stands_for: Vec<usize> = (0..system.points.len()).collect();
+    let mut join = |a: usize, b: usize| {
+        let (from, to) = (stands_for[a], stands_for[b]);
+        for point in &mut stands_for {
+            if *point == from {
+                *point = to;
+            }
+        }
+    };
+    for declaration in &system.declarations {
+        if let (DeclarationKind::Joint("revolute" | "weld"), &[a, b]) =
+            (declaration.kind, declaration.points.as_slice())
+        {
+            join(a, b);
+        }
+    }
+    // a point may stand in a body under several names
+    let mut first_at: FxHashMap<(Option<usize>, [u64; 2]), usize> = FxHashMap::default();
+    for (k, point) in system.points.iter().enumerate() {
+        let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
+        match first_at.entry((point.body, place)) {
+            Entry::Occupied(known) => join(k, *known.get()),
+            Entry::Vacant(free) => drop(free.insert(k)),
+        }
+    }
+    stands_for
 }
 
 /// How much of each coordinate is free.

@@ -119,8 +119,6 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
     } else {
         (CoordinateKind::Angle, angle)
     };
-    // what is said of a distance is said of the distance itself, and not of its square
-    let by = prescribed(evaluator, at).map_or(by, |(_, missing)| missing);
     Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
 }
 
@@ -153,7 +151,8 @@ fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: 
     let system = evaluator.system;
     let mut links = Vec::new();
     for &k in declarations {
-        links.extend(prescribed(evaluator, k).map(|(link, _)| link));
+        let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
+        links.extend(evaluator.distance(k).map(link));
     }
     let bodies = std::iter::once(None).chain((0..system.bodies.len()).map(Some));
     for body in bodies {
@@ -179,25 +178,6 @@ fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: 
         }
     }
     links
-}
-
-/// The distance that a declaration prescribes between two points, if it does, and by how much they miss it (m).
-fn prescribed(evaluator: &Evaluator<'_>, declaration: usize) -> Option<(Link, f64)> {
-    let system = evaluator.system;
-    let is_distance = match system.declarations[declaration].kind {
-        DeclarationKind::Joint(word) => word == "revolute_revolute",
-        _ => true,
-    };
-    let &[p, q] = system.declarations[declaration].points.as_slice() else {
-        return None;
-    };
-    let row = (0..system.rows.len()).find(|&row| system.rows[row].declaration == declaration)?;
-    let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
-    let square = (to[0] - from[0]) * (to[0] - from[0]) + (to[1] - from[1]) * (to[1] - from[1]);
-    // Φ = dᵀd − L²
-    let (length, distance) = (f64::max(square - evaluator.phi(row), 0.0).sqrt(), square.sqrt());
-    let link = Link { of: LinkOf::Declaration(declaration), length, too_short: distance > length };
-    is_distance.then_some((link, (distance - length).abs()))
 }
 
 /// What a declaration pulls at a body or the ground with, its residuals taken for springs.

@@ -23,7 +23,7 @@ pub(super) struct Dependent {
     pub row: usize,
     /// The rows it depends on.
     pub on: Vec<usize>,
-    /// How far it is open at most with the others met (m or rad, by its coordinates), and when (s); none if it holds.
+    /// How far it is open with the others met (m or rad, by its coordinates), and when first (s); none if it holds.
     pub open: Option<(f64, f64)>,
 }
 
@@ -44,13 +44,32 @@ pub(super) fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: 
         evaluator.assemble(&kept, &part.columns, None, t)?;
         for dependent in &mut dependents {
             let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
-            let by = evaluator.gap(dependent.row);
-            if open > OPEN && dependent.open.is_none_or(|(known, _)| by > known) {
-                dependent.open = Some((by, t));
+            if open > OPEN && dependent.open.is_none() {
+                dependent.open = Some((evaluator.gap(dependent.row), t));
             }
         }
     }
+    if dependents.iter().any(|dependent| dependent.open.is_some()) {
+        add_hidden(evaluator, part, t, &mut dependents);
+    }
     Some(dependents)
+}
+
+/// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in
+/// line has none in the place of its tip. Beside that position they have.
+fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Part, t: f64, dependents: &mut [Dependent]) {
+    evaluator.nudge(&part.columns);
+    let Some(linear) = evaluator.linear(&part.rows, &part.columns, None, t) else {
+        return;
+    };
+    let beside = Basis::of(&linear.jacobian, part.columns.len()).dependent;
+    for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_some()) {
+        let found = beside.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
+        let on = found.into_iter().flat_map(|(_, on)| on).map(|&k| part.rows[k] as usize);
+        dependent.on.extend(on);
+        dependent.on.sort_unstable();
+        dependent.on.dedup();
+    }
 }
 
 /// Vectors as far as they are independent of those before them.

@@ -182,6 +182,8 @@ pub struct Declaration {
     pub rows: usize,
     /// Where it takes hold: indices of points, one for each of its two bodies where there is one.
     pub points: Vec<usize>,
+    /// The axes that it joins, as they are written.
+    pub axes: Vec<String>,
 }
 
 /// An equation.

@@ -15,7 +15,7 @@ use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Watch,
 };
-use crate::model::{ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
+use crate::model::{AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -195,11 +195,17 @@ impl Lowering<'_> {
         kind: DeclarationKind,
         phi: &[ExprId],
         points: &[PointId],
+        axes: &[AxisId],
     ) {
         let declaration = self.declarations.len();
         let (name, span) = (declared.name.clone(), declared.span);
         let points = points.iter().map(|point| point.index()).collect();
-        self.declarations.push(Declaration { name, span, kind, rows: phi.len(), points });
+        let written = |&axis: &AxisId| {
+            let axis = &self.model[axis];
+            format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
+        };
+        let axes = axes.iter().map(written).collect();
+        self.declarations.push(Declaration { name, span, kind, rows: phi.len(), points, axes });
         self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
     }
 
@@ -208,7 +214,7 @@ impl Lowering<'_> {
         for joint in &model.joints {
             let phi = self.joint(joint);
             let kind = DeclarationKind::Joint(joint.kind.word());
-            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
+            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
         }
     }
 
@@ -227,7 +233,7 @@ impl Lowering<'_> {
                         (self.squared_distance_row(p, q, distance), vec![p, q])
                     }
                 };
-                self.declare(&equation.declared, kind, &[phi], &points);
+                self.declare(&equation.declared, kind, &[phi], &points, &[]);
             }
         }
     }

@@ -378,6 +378,18 @@ impl JointKind {
         first.into_iter().chain(second).collect()
     }
 
+    /// The axes that it joins.
+    #[must_use]
+    pub fn axes(self) -> Vec<AxisId> {
+        match self {
+            JointKind::Translational(a, b) => vec![a, b],
+            JointKind::RevoluteTranslational(_, a, _)
+            | JointKind::RackPinion { rack: a, .. }
+            | JointKind::FlatFollower(_, a) => vec![a],
+            _ => Vec::new(),
+        }
+    }
+
     /// The frames of its first and of its second feature.
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {

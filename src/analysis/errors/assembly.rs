@@ -1,10 +1,11 @@
 //! A start that cannot be assembled, or not as it is drawn.
 
-use super::{LISTED, at, cut_list, degrees, length, named, three_digits};
+use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::assembly::Moved;
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
+use crate::math;
 
 /// Gears may be off by this part of the larger radius.
 const LARGEST_MISFIT: f64 = 1e-6;
@@ -22,16 +23,15 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
     let declaration = &system.declarations[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
-    let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` stays open by {by}", at(t));
+    // loops stay open, and what is asked of a body is missed
+    let open_word = if matches!(declaration.kind, DeclarationKind::Joint(_)) { "open" } else { "off" };
+    let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` stays {open_word} by {by}", at(t));
     let mut diagnostic = Diagnostic::new(Code::E0601, message)
-        .at(declaration.span, format!("open by {by}"))
+        .at(declaration.span, format!("{open_word} by {by}"))
         .datum("t", t)
         .datum("residual", open.residual);
     let others: Vec<usize> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
-    for (k, &other) in others.iter().take(LISTED).enumerate() {
-        let text = if k == 0 { "the same loop" } else { "" };
-        diagnostic = diagnostic.also(system.declarations[other].span, text);
-    }
+    diagnostic = with_places(diagnostic, system, &others, ["beside this", "the loop goes through these"]);
     for (too_short, what) in [(true, "too short"), (false, "too long")] {
         let links = open.links.iter().filter(|link| link.too_short == too_short);
         let names: Vec<String> = links.map(|link| link_in_words(system, link)).collect();
@@ -47,9 +47,17 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
             "look at what these joints hold{driver}; estimates in `at` that are nearer to the position meant may help too"
         )
     } else {
-        format!("change one of these lengths by {by} or more{driver}")
+        let least = at_least(open.by);
+        let least = if open.kind == CoordinateKind::Length { length(least) } else { degrees(least) };
+        format!("change one of these lengths, by {least} at least, and by more where it stands across the gap{driver}")
     };
     diagnostic.help(mend)
+}
+
+/// Rounded up to three digits.
+fn at_least(value: f64) -> f64 {
+    let digit = math::pow(10.0, math::log10(value).floor() - 2.0);
+    (value / digit).ceil() * digit
 }
 
 /// `coupler` (40 mm from `front` to `back`)
@@ -94,7 +102,7 @@ pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option
     let how =
         if far { format!("moved by {}", length(moved.length)) } else { format!("turned by {}", degrees(moved.angle)) };
     Some(
-        Diagnostic::new(Code::N0601, format!("the assembly at {} {how} the body `{}`", at(t), body.name))
+        Diagnostic::new(Code::N0601, format!("body `{}` was {how} by the assembly at {}", body.name, at(t)))
             .at(body.span, "far from its estimate")
             .help("if this is not the branch meant, give better estimates in `at`"),
     )
@@ -123,7 +131,7 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         _ => ("centre and axis", "the radius"),
     };
     let message = format!(
-        "the {what} of `{}` are {} apart at {}, {why} is {}",
+        "the {what} of `{}` are {} apart at {}, and {why} is {}",
         joint.name,
         digits_that_differ(distance, wanted),
         at(t),
@@ -131,8 +139,11 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
     );
     Some(
         Diagnostic::new(Code::W0501, message)
-            .at(joint.span, format!("off by {}", length(off)))
-            .help("a gear or rack does not hold its distance: the joints of its bodies must"),
+            .at(joint.span, format!("{} too {}", length(off.abs()), if off < 0.0 { "near" } else { "far" }))
+            .help(format!(
+                "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
+                digits_that_differ(wanted, distance)
+            )),
     )
 }
 

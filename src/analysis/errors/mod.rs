@@ -36,12 +36,14 @@ fn readable(value: f64) -> String {
 ///
 /// Less than an atom is nothing.
 fn length(metres: f64) -> String {
-    let (value, unit) = match metres.abs() {
+    // 0.99999 m are 1 m
+    let rounded: f64 = format!("{metres:.2e}").parse().unwrap_or(metres);
+    let (value, unit) = match rounded.abs() {
         m if m < 1e-12 => (0.0, "m"),
-        m if m >= 1e3 => (metres / 1e3, "km"),
-        m if m >= 1.0 => (metres, "m"),
-        m if m >= 1e-3 => (metres * 1e3, "mm"),
-        _ => (metres * 1e6, "um"),
+        m if m >= 1e3 => (rounded / 1e3, "km"),
+        m if m >= 1.0 => (rounded, "m"),
+        m if m >= 1e-4 => (rounded * 1e3, "mm"),
+        _ => (rounded * 1e6, "µm"),
     };
     format!("{} {unit}", three_digits(value))
 }
@@ -84,10 +86,20 @@ pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
     if kinds.any(|kind| kind == CoordinateKind::Length) { CoordinateKind::Length } else { CoordinateKind::Angle }
 }
 
-fn with_places(mut diagnostic: Diagnostic, system: &ConstraintSystem, joints: &[usize], text: &str) -> Diagnostic {
-    for (k, &declaration) in joints.iter().take(LISTED).enumerate() {
+/// Marks declarations, and says beside the first what holds of it, or of them all.
+fn with_places(
+    mut diagnostic: Diagnostic,
+    system: &ConstraintSystem,
+    declarations: &[usize],
+    [of_one, of_all]: [&str; 2],
+) -> Diagnostic {
+    for (k, &declaration) in declarations.iter().take(LISTED).enumerate() {
         let span = system.declarations[declaration].span;
-        let text = if k == 0 { text } else { "" };
+        let text = match (k, declarations.len()) {
+            (0, 1) => of_one,
+            (0, _) => of_all,
+            _ => "",
+        };
         diagnostic = if diagnostic.labels.is_empty() { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
     }
     diagnostic

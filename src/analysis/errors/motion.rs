@@ -74,7 +74,7 @@ pub fn position_jump(
     }
     let message = format!("{} jumps at {}", named_all(system, behind), at(t));
     let how = format!("`{}` would have to jump by {}", system.coordinates[column].name, in_units(system, column, by));
-    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, [&how; 2])
         .help("let the two branches meet there, or lead from one to the other with `step5(t, t0, v0, t1, v1)`")
         .datum("t", t)
 }
@@ -90,7 +90,7 @@ pub fn velocity_jump(
     let message = format!("the velocity of {} jumps at {}: there is no acceleration", named_all(system, behind), at(t));
     let velocity = |value: f64| format!("{}/s", in_units(system, column, value));
     let how = format!("`{}.d` jumps from {} to {}", system.coordinates[column].name, velocity(before), velocity(after));
-    with_places(Diagnostic::new(Code::E0609, message), system, behind, &how)
+    with_places(Diagnostic::new(Code::E0609, message), system, behind, [&how; 2])
         .help("motions that begin and end at rest: `step`, `harmonic`; smooth to the acceleration: `step5`, `cycloidal`, `modsine`")
         .datum("t", t)
 }
@@ -109,7 +109,7 @@ pub fn acceleration_jump(system: &ConstraintSystem, behind: &[usize], columns: &
     } else {
         "at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`"
     };
-    with_places(Diagnostic::new(Code::W0601, message), system, behind, "jumps there, and maybe again later")
+    with_places(Diagnostic::new(Code::W0601, message), system, behind, ["jumps there, and maybe again later"; 2])
         .note(format!("columns that jump: {}", shown.join(", ")))
         .help(help)
         .datum("t", t)

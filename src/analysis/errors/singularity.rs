@@ -16,19 +16,17 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
             .help("hold the gears apart by a carrier"),
         WatchKind::Curvature => {
             diagnostic(format!("the relative curvature at the contact `{}` changes its sign at {}", joint.name, at(t)))
-                .at(joint.span, "the curves would go through each other behind it")
+                .at(joint.span, "beyond it the two would go through each other")
                 .help("let the curve bend one way all along the contact")
         }
-        WatchKind::Tangents => diagnostic(format!(
-            "a curve has no tangent at the contact `{}` at {}",
-            joint.name,
-            at(t)
-        ))
-        .at(joint.span, "the derivative of the curve by its argument vanishes there")
-        .help(
-            "give another first estimate: `curve k(u) = (…) at …`; or write the curve so that it nowhere rests as \
-                     its argument goes on",
-        ),
+        WatchKind::Tangents => {
+            diagnostic(format!("a curve has no tangent at the contact `{}` at {}", joint.name, at(t)))
+                .at(joint.span, "the derivative of the curve by its argument vanishes there")
+                .help(
+                    "write the curve so that it nowhere rests as its argument goes on; or touch it elsewhere: \
+             `curve k(u) = (…) at …` says where the contact is looked for first",
+                )
+        }
     }
 }
 
@@ -54,7 +52,7 @@ pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], colum
         format!("the mechanism locks up at {}: driver `{}` cannot move on", at(t), declaration.name),
     )
     .at(declaration.span, "drives into a dead point");
-    with_places(diagnostic, system, joints, "these hold it there")
+    with_places(diagnostic, system, joints, ["this holds it there", "these hold it there"])
         .note(owners(system, columns, "would have to jump"))
         .help("let the driver turn back before that time, drive another joint, or change a length")
         .datum("t", t)
@@ -65,7 +63,7 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize
         Code::E0603,
         format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
     );
-    with_places(diagnostic, system, joints, "these leave it open")
+    with_places(diagnostic, system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could go either way"))
         .help("go on along the branch that continues smoothly with `--pass-bifurcations`; or change a length a little")
         .datum("t", t)
@@ -79,18 +77,19 @@ pub fn driver_rests(system: &ConstraintSystem, driver: usize, joints: &[usize], 
         format!("driver `{}` rests in a dead point at {}: two motions go on from there", declaration.name, at(t));
     let diagnostic =
         Diagnostic::new(code, message).at(declaration.span, "comes to rest, and the mechanism may go either way");
-    let diagnostic = with_places(diagnostic, system, joints, "these are in line there").datum("t", t);
+    let diagnostic =
+        with_places(diagnostic, system, joints, ["this holds it there", "these hold it there"]).datum("t", t);
     if passed {
         diagnostic.note("the one that continues smoothly was taken")
     } else {
-        diagnostic.help("let the driver turn back before that time; or go on smoothly with `--pass-bifurcations`")
+        diagnostic.help("let the driver turn back before it gets there, or drive another joint; or go on smoothly with `--pass-bifurcations`")
     }
 }
 
 /// A bifurcation beyond which the motion was followed.
 pub fn passed(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
     let message = format!("two branches of the motion meet at {}; the one that continues smoothly was taken", at(t));
-    with_places(Diagnostic::new(Code::W0602, message), system, joints, "these leave it open")
+    with_places(Diagnostic::new(Code::W0602, message), system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could have gone either way"))
         .datum("t", t)
 }
@@ -98,10 +97,15 @@ pub fn passed(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t:
 /// A position whose derivatives are more rounding than digits.
 pub fn uncertain(system: &ConstraintSystem, joints: &[usize], t: f64) -> Diagnostic {
     let message = format!("the position at {} is too near to a singular one for its accelerations to be known", at(t));
-    with_places(Diagnostic::new(Code::E0610, message), system, joints, "these nearly depend on each other there")
-        .note("nine digits are printed or none")
-        .help("leave this time out: other output times may be printed")
-        .datum("t", t)
+    with_places(
+        Diagnostic::new(Code::E0610, message),
+        system,
+        joints,
+        ["this nearly fixes nothing there", "these nearly depend on each other there"],
+    )
+    .note("fewer than nine digits of the accelerations would be certain")
+    .help("leave this time out: other output times may be printed")
+    .datum("t", t)
 }
 
 /// An equation whose derivatives by all coordinates vanish where it should fix something.
@@ -143,12 +147,17 @@ pub fn singular_start(
             "a dead point or change point: start at another time; else one of these joints is redundant".to_owned(),
         ),
     };
-    with_places(Diagnostic::new(Code::E0504, message), system, joints, "these depend on each other there")
-        .help(help)
-        .datum("t", t)
-        .datum("coordinates", system.coordinates.len())
-        .datum("equations", system.rows.len())
-        .datum("ndof", system.ndof())
-        .datum("redundant", names(joints.iter().map(|&k| &system.declarations[k].name)))
-        .datum("free", names(columns.iter().map(|&k| &system.coordinates[k].name)))
+    with_places(
+        Diagnostic::new(Code::E0504, message),
+        system,
+        joints,
+        ["this fixes nothing there", "these depend on each other there"],
+    )
+    .help(help)
+    .datum("t", t)
+    .datum("coordinates", system.coordinates.len())
+    .datum("equations", system.rows.len())
+    .datum("ndof", system.ndof())
+    .datum("redundant", names(joints.iter().map(|&k| &system.declarations[k].name)))
+    .datum("free", names(columns.iter().map(|&k| &system.coordinates[k].name)))
 }
