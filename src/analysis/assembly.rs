@@ -39,6 +39,8 @@ const MOVED: f64 = 1e-4;
 const OPEN_NEARBY: f64 = 1e-9;
 /// A tangent shorter than this, in sizes of its body, is none.
 const VANISHING_TANGENT: f64 = 1e-7;
+/// An equation with less than this part of the slope beside it fixes nothing.
+const WITHOUT_SLOPE: f64 = 1e-5;
 
 /// How far assembly moved the bodies from their estimates.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]
@@ -231,18 +233,20 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64)
 /// The equations must be independent where the motion starts.
 fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
     let system = kinematics.system();
+    kinematics.measure_slopes(q);
     let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
-    if let Some(row) = (0..q.len()).find(|&row| kinematics.linear().row_norm(row) == 0.0) {
+    if let Some(row) = kinematics.linear().row_without_slope(WITHOUT_SLOPE) {
         return Err(Box::new(errors::without_effect(system, row, t)));
     }
     if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
         return Ok(());
     }
     let vectors = kinematics.worst();
-    let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t);
+    let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t)
+        .or_else(|| independent_without(kinematics, q, singular::driver_in(system, &vectors.left)?, &vectors.right, t));
     Err(Box::new(singular::name_start(system, (&vectors.left, &vectors.right), elsewhere, t)))
 }
 
@@ -251,6 +255,29 @@ fn independent_elsewhere(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64
     independent_later(kinematics, q, t).or_else(|| {
         kinematics.set_time(t);
         independent_beside(kinematics, q, free)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads if a driver lets go; none if it
+/// leads nowhere.
+fn independent_without(
+    kinematics: &mut Kinematics<'_>,
+    q: &[f64],
+    driver: usize,
+    free: &[f64],
+    t: f64,
+) -> Option<bool> {
+    kinematics.set_time(t);
+    let rows: Vec<u32> = (0..q.len() as u32).filter(|&row| row as usize != driver).collect();
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    if q.len() > LARGEST_DENSE {
+        return None;
+    }
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let scale = |k: usize| kinematics.linear().column_scale(k);
+        let mut near: Vec<f64> = (0..q.len()).map(|k| q[k] + way * free[k] * scale(k)).collect();
+        levenberg_marquardt(kinematics, &mut near, &rows, &columns);
+        independent_where(kinematics, q, &near, &rows)
     })
 }
 
@@ -281,11 +308,17 @@ fn independent_later(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Opti
 /// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
 fn independent_at(kinematics: &mut Kinematics<'_>, q: &[f64], start: Vec<f64>) -> Option<bool> {
     let near = least_squares(kinematics, start);
+    let all: Vec<u32> = (0..q.len() as u32).collect();
+    independent_where(kinematics, q, &near, &all)
+}
+
+/// Whether the equations are independent in a position where some of them hold; none if it is `q`, or they do not hold.
+fn independent_where(kinematics: &mut Kinematics<'_>, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
     let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
     let moved = (0..q.len()).any(far);
-    let holds = kinematics.set_position(&near).is_ok() && {
+    let holds = kinematics.set_position(near).is_ok() && {
         let _ = kinematics.factor();
-        kinematics.hold_nearly(OPEN_NEARBY)
+        kinematics.hold_nearly(rows, OPEN_NEARBY)
     };
     (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
 }

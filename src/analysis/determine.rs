@@ -6,9 +6,9 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use super::freedom::Freedom;
-use super::redundancy::{Dependent, dependents};
+use super::redundancy::{Dependent, dependents, times_nearby};
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind};
 use crate::structure::{self, Determined, Part, Refused};
 
 /// Larger parts are not looked at with values: their equations would be a dense matrix.
@@ -78,13 +78,75 @@ impl Anatomy {
         let mut evaluator = Evaluator::new(system);
         let mut found = Vec::new();
         if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {
-            found = dependents(&mut evaluator, too_many, [t, span]).unwrap_or_default();
+            found = surplus(&mut evaluator, too_many.clone(), [t, span]);
         }
         let mut kept = everything(system);
         kept.rows.retain(|&row| found.iter().all(|dependent| dependent.row != row as usize));
         let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
-        let freedom = if is_small { Freedom::of(&mut evaluator, &kept, t) } else { None };
+        let freedom = if is_small { Anatomy::freedom(&mut evaluator, &kept, [t, span]) } else { None };
         Anatomy { dependents: found, freedom }
+    }
+}
+
+/// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
+fn surplus(evaluator: &mut Evaluator<'_>, mut part: Part, times: [f64; 2]) -> Vec<Dependent> {
+    let system = evaluator.system;
+    let declaration_of = |row: usize| system.rows[row].declaration;
+    let mut found = Vec::new();
+    loop {
+        let Some(mut dependents) = dependents(evaluator, &part, times) else {
+            return found;
+        };
+        if let Some(driver) = stuck_driver(system, &dependents) {
+            // the joints do not fit beside it: the one that closes the loop is to be named
+            part.rows.sort_by_key(|&row| (row as usize != driver, suspicion(system, row as usize)));
+            dependents = self::dependents(evaluator, &part, times).unwrap_or(dependents);
+        }
+        let conflict = dependents.iter().find(|one| one.open.is_some() && !system.is_driver(one.row));
+        let Some(conflict) = conflict.map(|one| declaration_of(one.row)) else {
+            found.extend(dependents);
+            return found;
+        };
+        found.extend(dependents.into_iter().filter(|one| declaration_of(one.row) == conflict));
+        part.rows.retain(|&row| declaration_of(row as usize) != conflict);
+    }
+}
+
+/// The row of a driver to which joints alone leave no motion, none of them being redundant.
+fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<usize> {
+    let is_stuck = |one: &&Dependent| {
+        system.is_driver(one.row) && one.open.is_some() && !one.on.iter().any(|&row| system.is_driver(row))
+    };
+    let all_drive = dependents.iter().all(|one| system.is_driver(one.row));
+    dependents.iter().find(is_stuck).filter(|_| all_drive).map(|one| one.row)
+}
+
+/// How likely it is that a row is wrong rather than one before it: a length that is prescribed is more often than a pin.
+fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
+    match system.declaration_of(row).kind {
+        DeclarationKind::Joint("revolute_revolute") => 2,
+        DeclarationKind::Joint(_) | DeclarationKind::Driver => 0,
+        DeclarationKind::Constraint => 1,
+    }
+}
+
+impl Anatomy {
+    /// What is left free at the start, or shortly after where that is less: a start may be in a singular position.
+    fn freedom(evaluator: &mut Evaluator<'_>, kept: &Part, [t, span]: [f64; 2]) -> Option<Freedom> {
+        let least = kept.columns.len().saturating_sub(kept.rows.len());
+        let mut best: Option<Freedom> = None;
+        for t in times_nearby(t, span) {
+            if let Some(found) = Freedom::of(evaluator, kept, t)
+                && best.as_ref().is_none_or(|known| found.degrees() < known.degrees())
+            {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(|known| known.degrees() <= least) {
+                break;
+            }
+            evaluator.nudge(&kept.columns);
+        }
+        best
     }
 }
 

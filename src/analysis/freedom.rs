@@ -216,7 +216,9 @@ impl Freedom {
     /// Points of moving bodies that lie on points of others, and that no joint holds together.
     fn joints(&self, evaluator: &Evaluator<'_>) -> Vec<String> {
         let system = evaluator.system;
-        if self.degrees() < 2 || system.points.len() > MOST_POINTS {
+        // a joint takes two; it may hold what is held already, and leave one
+        let is_enough = self.degrees() >= 2 || system.ndof() < self.degrees().cast_signed();
+        if !is_enough || system.points.len() > MOST_POINTS {
             return Vec::new();
         }
         let drawn = Evaluator::new(system);
@@ -255,7 +257,16 @@ impl Freedom {
         let text = |&(_, p, q): &(f64, usize, usize)| {
             Some(format!("`joint NAME: revolute({}, {})`", full_name(p)?, full_name(q)?))
         };
-        pairs.iter().filter_map(text).take(SUGGESTED.min(self.degrees() / 2)).collect()
+        // of points that are pinned together one will do
+        let mut told: Vec<[usize; 2]> = Vec::new();
+        pairs.retain(|&(_, p, q)| {
+            let mut both = [pinned[p], pinned[q]];
+            both.sort_unstable();
+            let is_new = !told.contains(&both);
+            told.push(both);
+            is_new
+        });
+        pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.degrees() / 2, 1))).collect()
     }
 }
 

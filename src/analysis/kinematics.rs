@@ -1,9 +1,10 @@
 //! Everything that can be said of one state: residual, correction, velocity, acceleration.
 
+use super::GOLDEN;
 use super::errors;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, Measure, Owner, WatchKind};
+use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Stage, Switch};
 use crate::structure::Determined;
 
@@ -72,7 +73,13 @@ pub(super) struct Kinematics<'d> {
     registers: Registers,
     linear: BlockLu,
     tolerance: f64,
+    /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
+    bent: Vec<usize>,
+    beside: Vec<f64>,
 }
+
+/// How far beside a position the slope of a row that is bent is looked at, scaled.
+const BESIDE: f64 = 0.1;
 
 impl<'d> Kinematics<'d> {
     pub fn new(
@@ -91,7 +98,44 @@ impl<'d> Kinematics<'d> {
             registers: program.start(&params),
             linear: BlockLu::new(system, determined.blocks()),
             tolerance,
+            bent: (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect(),
+            beside: vec![0.0; system.coordinates.len()],
         })
+    }
+
+    /// Measures the slopes of rows that are bent on both sides of a position, at the time that was set: they are scaled by
+    /// the steepest, so that a slope that vanishes in between makes a singular position. The position must be set anew.
+    pub fn measure_slopes(&mut self, q: &[f64]) {
+        for index in 0..self.bent.len() {
+            let row = self.bent[index];
+            let mut steepest: f64 = 0.0;
+            for way in [BESIDE, -BESIDE, 0.0] {
+                self.beside.copy_from_slice(q);
+                for &(column, _) in self.system().phi_q.row(row) {
+                    // no way along which everything cancels
+                    let part = 0.5 + (GOLDEN * f64::from(column)).fract();
+                    self.beside[column as usize] += way * part * self.linear.column_scale(column as usize);
+                }
+                self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
+                self.program.run(Stage::Position, &mut self.registers);
+                let norm = self.slope(row);
+                // where a formula has no value it has no slope
+                if norm.is_finite() {
+                    steepest = steepest.max(norm);
+                }
+            }
+            self.linear.set_least_norm(row, steepest);
+        }
+    }
+
+    /// The norm of a row of the scaled Φ_q where the position was set.
+    fn slope(&self, row: usize) -> f64 {
+        let pattern = &self.system().phi_q;
+        let scaled = pattern
+            .range(row)
+            .zip(pattern.row(row))
+            .map(|(position, &(column, _))| self.phi_q(position) * self.linear.column_scale(column as usize));
+        scaled.map(|x| x * x).sum::<f64>().sqrt()
     }
 
     pub fn system(&self) -> &'d ConstraintSystem {
@@ -283,9 +327,9 @@ impl<'d> Kinematics<'d> {
         rows.iter().all(|&row| self.is_met(row as usize))
     }
 
-    /// Whether all rows are open by no more than `limit`, scaled.
-    pub fn hold_nearly(&self, limit: f64) -> bool {
-        (0..self.system().rows.len()).all(|row| self.residual(row) <= limit)
+    /// Whether some rows are open by no more than `limit`, scaled.
+    pub fn hold_nearly(&self, rows: &[u32], limit: f64) -> bool {
+        rows.iter().all(|&row| self.residual(row as usize) <= limit)
     }
 
     /// The row that violates its tolerance most, with its scaled residual; `None` if all hold.
@@ -469,4 +513,11 @@ impl<'d> Kinematics<'d> {
     pub fn worst(&mut self) -> Singular {
         self.linear.worst()
     }
+}
+
+/// Whether a row may lose its slope by its formula alone: it is written by hand, of no distance, and no slope is constant.
+fn is_bent(system: &ConstraintSystem, row: usize) -> bool {
+    let declaration = system.declaration_of(row);
+    let by_hand = !matches!(declaration.kind, DeclarationKind::Joint(_)) && declaration.points.is_empty();
+    by_hand && !system.phi_q.row(row).iter().any(|&(_, slope)| system.graph.dependence(slope).is_constant())
 }

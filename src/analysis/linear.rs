@@ -88,8 +88,10 @@ pub(super) struct BlockLu {
     entries: Vec<Entry>,
     /// Scale of each coordinate: the size of its body, or 1 rad.
     column_scale: Vec<f64>,
-    /// Norm of each scaled row.
+    /// What each scaled row is divided by: its norm, or the least norm where that is larger.
     row_norm: Vec<f64>,
+    /// By row; 0 where the norm itself is meant.
+    least_norm: Vec<f64>,
     /// Scaled values of the entries.
     values: Vec<f64>,
     dense: Vec<f64>,
@@ -146,6 +148,7 @@ impl BlockLu {
             entries,
             column_scale,
             row_norm: vec![1.0; n],
+            least_norm: vec![0.0; n],
             dense: vec![0.0; matrix],
             pivots: vec![0; n],
             work: vec![0.0; 2 * n],
@@ -156,7 +159,19 @@ impl BlockLu {
         self.column_scale[column]
     }
 
-    /// Norm of a row of the scaled `Φ_q`.
+    /// From now on a row is divided by no less than this: a formula whose slope vanishes is to be seen.
+    pub fn set_least_norm(&mut self, row: usize, norm: f64) {
+        self.least_norm[row] = norm;
+    }
+
+    /// A row whose slope, scaled, was less than this where `Φ_q` was factored.
+    pub fn row_without_slope(&self, least: f64) -> Option<usize> {
+        let slope =
+            |k: usize| self.values[self.starts[k]..self.starts[k + 1]].iter().map(|x| x * x).sum::<f64>().sqrt();
+        (0..self.rows.len()).find(|&k| slope(k) < least).map(|k| self.rows[k] as usize)
+    }
+
+    /// What a row of the scaled `Φ_q` is divided by, mostly its norm.
     pub fn row_norm(&self, row: usize) -> f64 {
         self.row_norm[row]
     }
@@ -222,8 +237,9 @@ impl BlockLu {
             self.values[index] = scaled;
             square += scaled * scaled;
         }
-        let norm = square.sqrt();
-        self.row_norm[self.rows[k] as usize] = norm;
+        let row = self.rows[k] as usize;
+        let norm = f64::max(square.sqrt(), self.least_norm[row]);
+        self.row_norm[row] = norm;
         if !(norm > 0.0 && norm.is_finite()) {
             return false;
         }

@@ -486,6 +486,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.hardest = self.hardest.max(largest(&b.qdd)).max(harder);
         }
         self.state.copy_from(&self.trial);
+        self.kinematics.measure_slopes(&self.state.q);
         self.keep_if_clear();
         self.keep_determinants(h);
         // the predictor's error grows with h³, the curve's between with h⁶

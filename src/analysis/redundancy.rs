@@ -4,6 +4,7 @@
 //! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is seen at
 //! nearby times too: two drivers may agree at the start and part at once.
 
+use super::errors;
 use super::evaluator::Evaluator;
 use crate::structure::Part;
 
@@ -30,9 +31,7 @@ pub(super) struct Dependent {
 /// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
 /// they have no values.
 pub(super) fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
-    evaluator.assemble(&part.rows, &part.columns, None, t)?;
-    let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
-    let basis = Basis::of(&jacobian, part.columns.len());
+    let basis = basis_of_start(evaluator, part, [t, span])?;
     let row = |k: usize| part.rows[k] as usize;
     let mut dependents: Vec<Dependent> = basis
         .dependent
@@ -40,11 +39,18 @@ pub(super) fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: 
         .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&k| row(k)).collect(), open: None })
         .collect();
     let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
-    for t in std::iter::once(t).chain(NEARBY.map(|part| t + part * span)) {
-        evaluator.assemble(&kept, &part.columns, None, t)?;
-        for dependent in &mut dependents {
+    for t in times_nearby(t, span) {
+        let met = evaluator.assemble(&kept, &part.columns, None, t)?;
+        // a singular position is known to half the digits
+        let is_singular = Basis::of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
+        let limit = if is_singular { OPEN.sqrt() } else { OPEN };
+        let is_met = met.residual.iter().all(|open| open.abs() <= limit);
+        for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
             let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
-            if open > OPEN && dependent.open.is_none() {
+            if !is_met {
+                // those of its equations that depend on no others do not hold either
+                dependent.open = Some((gap_of_declaration(evaluator, part, dependent.row, t)?, t));
+            } else if open > limit {
                 dependent.open = Some((evaluator.gap(dependent.row), t));
             }
         }
@@ -53,6 +59,45 @@ pub(super) fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: 
         add_hidden(evaluator, part, t, &mut dependents);
     }
     Some(dependents)
+}
+
+/// How far all that the declaration of a row asks for is off, with all other equations met.
+fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Part, row: usize, t: f64) -> Option<f64> {
+    let system = evaluator.system;
+    let is_own = |other: &u32| system.rows[*other as usize].declaration == system.rows[row].declaration;
+    let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
+    let q = evaluator.q.clone();
+    evaluator.assemble(&others, &part.columns, None, t)?;
+    let kind = errors::gap_kind(system, row);
+    let of_kind = own.iter().map(|&own| own as usize).filter(|&own| errors::gap_kind(system, own) == kind);
+    let gap = of_kind.map(|own| evaluator.gap(own)).map(|gap| gap * gap).sum::<f64>().sqrt();
+    evaluator.q = q;
+    Some(gap)
+}
+
+/// The start at `t` and some times shortly after it, over a span of time (s).
+pub(super) fn times_nearby(t: f64, span: f64) -> impl Iterator<Item = f64> {
+    std::iter::once(t).chain(NEARBY.map(|part| t + part * span))
+}
+
+/// The basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
+fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Basis> {
+    let mut best: Option<(Basis, Vec<f64>)> = None;
+    for (k, t) in times_nearby(t, span).enumerate() {
+        if k > 0 {
+            // in line as drawn, least squares would stay so
+            evaluator.nudge(&part.columns);
+        }
+        evaluator.assemble(&part.rows, &part.columns, None, t)?;
+        let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
+        let basis = Basis::of(&jacobian, part.columns.len());
+        if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
+            best = Some((basis, evaluator.q.clone()));
+        }
+    }
+    let (basis, q) = best?;
+    evaluator.q = q;
+    Some(basis)
 }
 
 /// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in

@@ -203,7 +203,8 @@ fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -
     format!("left free: {} can move along ({x}, {y}){more}", names[0])
 }
 
-fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
+/// The driver's row that weighs most in a dependency, if one takes part.
+pub(super) fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     (0..left.len())
         .filter(|&row| system.is_driver(row) && left[row].abs() > TAKES_PART * largest)

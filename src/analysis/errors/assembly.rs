@@ -22,6 +22,10 @@ pub fn too_large(system: &ConstraintSystem, size: usize, largest: usize) -> Diag
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let far = if open.kind == CoordinateKind::Length { 100.0 * system.length } else { std::f64::consts::TAU };
+    if open.by > far {
+        return without_value(system, open, t);
+    }
     let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
     // loops stay open, and what is asked of a body is missed
     let open_word = if matches!(declaration.kind, DeclarationKind::Joint(_)) { "open" } else { "off" };
@@ -52,6 +56,19 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         format!("change one of these lengths, by {least} at least, and by more where it stands across the gap{driver}")
     };
     diagnostic.help(mend)
+}
+
+/// An equation that no motion brings nearer to what it is to be.
+fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
+    let declaration = &system.declarations[open.at];
+    let (noun, name) = (declaration.kind.noun(), &declaration.name);
+    let message =
+        format!("the mechanism cannot be assembled at {}: {noun} `{name}` does not hold in any position", at(t));
+    Diagnostic::new(Code::E0601, message)
+        .at(declaration.span, "no motion brings its two sides nearer to each other")
+        .help("look at the values that its two sides can have")
+        .datum("t", t)
+        .datum("residual", open.residual)
 }
 
 /// Rounded up to three digits.

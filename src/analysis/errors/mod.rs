@@ -14,7 +14,7 @@ use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind};
 
 /// Labels of one message at most.
-const LISTED: usize = 6;
+const LISTED: usize = 8;
 
 /// A time as a reader wants it.
 fn at(t: f64) -> String {
