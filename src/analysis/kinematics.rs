@@ -5,7 +5,7 @@ use super::errors;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
-use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Stage, Switch};
+use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
 use crate::structure::Determined;
 
 /// Largest irreducible block that the dense factors can hold.
@@ -209,6 +209,61 @@ impl<'d> Kinematics<'d> {
     pub fn enclosures(&self) -> [Enclosure; 2] {
         let of = [Enclosure::of_time, Enclosure::of_motion];
         of.map(|enclosure| enclosure(self.program, &self.registers))
+    }
+
+    /// What time alone decides about the equations, unless it is a straight line.
+    pub fn signals(&self) -> Vec<Signal> {
+        self.program.signals()
+    }
+
+    pub fn read_signals(&self, signals: &[Signal], values: &mut [f64]) {
+        for (value, signal) in values.iter_mut().zip(signals) {
+            *value = self.registers.get(signal.register);
+        }
+    }
+
+    pub fn enclosure_of(&self, signals: &[Signal]) -> Enclosure {
+        let registers: Vec<Register> = signals.iter().map(|signal| signal.register).collect();
+        Enclosure::of_registers(self.program, &self.registers, &registers)
+    }
+
+    /// Encloses signals from one time (s) to another.
+    pub fn enclose(&self, enclosure: &mut Enclosure, times: [f64; 2]) {
+        enclosure.enclose(self.program, &self.registers, times);
+    }
+
+    /// How much of the mechanism's size each signal moves an equation by, for each unit of its own; `nudge` is the part of
+    /// itself by which it is changed to learn that.
+    pub fn effects(&mut self, signals: &[Signal], q: &[f64], nudge: f64) -> Vec<f64> {
+        // what is wrong with the position shows where it is solved for
+        let _ = self.set_position(q);
+        let checks = |kinematics: &Self, k: usize| kinematics.registers.get(kinematics.program.outputs.checks[k]);
+        let before: Vec<Vec<f64>> = signals
+            .iter()
+            .map(|signal| {
+                let rows = signal.rows.iter().map(|&row| self.phi(row));
+                rows.chain(signal.checks.iter().map(|&k| checks(self, k))).collect()
+            })
+            .collect();
+        let values: Vec<f64> = signals.iter().map(|signal| self.registers.get(signal.register)).collect();
+        let step = |value: f64| nudge * f64::max(value.abs(), 1.0);
+        for (signal, value) in signals.iter().zip(&values) {
+            self.registers.set(signal.register, value + step(*value));
+        }
+        let _ = self.set_position(q);
+        let effects = signals.iter().zip(&before).zip(&values).map(|((signal, before), value)| {
+            let rows = signal.rows.iter().map(|&row| (self.phi(row), self.linear.row_norm(row)));
+            let scales = &self.system().checks;
+            let all = rows.chain(signal.checks.iter().map(|&k| (checks(self, k), scales[k].scale)));
+            let changes = all.zip(before).map(|((after, scale), before)| (after - before).abs() / scale);
+            changes.fold(0.0, f64::max) / step(*value)
+        });
+        let effects = effects.collect();
+        for (signal, value) in signals.iter().zip(values) {
+            self.registers.set(signal.register, value);
+        }
+        let _ = self.set_position(q);
+        effects
     }
 
     /// Whether nothing happens from one time (s) to another; see [`Enclosure::is_steady`].

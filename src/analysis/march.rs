@@ -10,6 +10,7 @@ use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::linear::Determinant;
+use super::signals::Signals;
 use super::singular;
 use super::touch::Before;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -61,6 +62,8 @@ pub struct Motion<'m, 'd> {
     pub(super) span: f64,
     /// The last time (s).
     pub(super) last: f64,
+    /// What time alone asks for.
+    pub(super) signals: Signals,
     /// What may happen in time, and along the motion.
     pub(super) in_time: Enclosure,
     pub(super) along: Enclosure,
@@ -133,6 +136,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             // what happens in no time at all is measured by the second
             span: if span > 0.0 { span } else { 1.0 },
             last: state.t + span,
+            signals: Signals::new(kinematics, state),
             in_time,
             along,
             curve: vec![[0.0; 6]; n],
@@ -355,6 +359,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         let between = self.correction_between(h)?;
+        self.look_at_signals(h)?;
         if !to_edge_of_motion {
             self.look_between(h, between)?;
         }
@@ -444,6 +449,11 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.probe = (self.probe + GOLDEN).fract();
         let x = 0.3 + 0.4 * self.probe;
         self.draw_curve(h);
+        self.correction_at(h, x)
+    }
+
+    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
+    pub(super) fn correction_at(&mut self, h: f64, x: f64) -> Result<f64, Fault> {
         for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
             *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
         }

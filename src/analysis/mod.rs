@@ -21,6 +21,7 @@ mod linear;
 mod march;
 mod open_loop;
 mod redundancy;
+mod signals;
 mod singular;
 mod times;
 mod touch;

@@ -47,6 +47,20 @@ impl Enclosure {
         Enclosure::new(program, registers, false)
     }
 
+    /// For the ranges of some registers that time alone decides.
+    #[must_use]
+    pub fn of_registers(program: &Program, registers: &Registers, roots: &[Register]) -> Enclosure {
+        Enclosure {
+            operations: behind(program, roots, true),
+            switches: Vec::new(),
+            conditions: Vec::new(),
+            watches: Vec::new(),
+            coordinates: None,
+            time: program.inputs.time,
+            values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
+        }
+    }
+
     fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
         let mut in_motion = vec![false; program.registers()];
         for &op in program.stage(Stage::Position) {
@@ -93,13 +107,44 @@ impl Enclosure {
         coordinates: &[[f64; 2]],
         may_change: impl Fn(Register) -> bool,
     ) -> bool {
-        let v = &mut self.values;
-        v[self.time as usize] = Interval { low: from, high: to };
         if let Some(first) = self.coordinates {
             for (k, [middle, reach]) in coordinates.iter().enumerate() {
-                v[first as usize + k] = wider(middle - reach, middle + reach);
+                self.values[first as usize + k] = wider(middle - reach, middle + reach);
             }
         }
+        if !self.run(program, registers, [from, to], may_change) {
+            return false;
+        }
+        let v = &self.values;
+        let has_sign = |register: &Register| {
+            let (now, value) = (registers.get(*register), v[*register as usize]);
+            if now > 0.0 { value.low > 0.0 } else { value.high <= 0.0 }
+        };
+        self.conditions.iter().all(|&register| v[register as usize].low > 0.0) && self.watches.iter().all(has_sign)
+    }
+
+    /// Encloses from one time (s) to another, what is frozen being what `registers` have now.
+    pub fn enclose(&mut self, program: &Program, registers: &Registers, times: [f64; 2]) {
+        self.run(program, registers, times, |_| true);
+    }
+
+    /// What a register was enclosed in: from the lowest to the highest value.
+    #[must_use]
+    pub fn range(&self, register: Register) -> [f64; 2] {
+        let Interval { low, high } = self.values[register as usize];
+        [low, high]
+    }
+
+    /// Runs the operations; false as soon as a switch may change that must not.
+    fn run(
+        &mut self,
+        program: &Program,
+        registers: &Registers,
+        [from, to]: [f64; 2],
+        may_change: impl Fn(Register) -> bool,
+    ) -> bool {
+        let v = &mut self.values;
+        v[self.time as usize] = Interval { low: from, high: to };
         for &op in &self.operations {
             if let Op::SinCos { sin, cos, a } = op {
                 let (sine, cosine) = (of_one(Unary::Sin, v[a as usize]), of_one(Unary::Cos, v[a as usize]));
@@ -118,11 +163,7 @@ impl Enclosure {
             }
             v[to as usize] = frozen;
         }
-        let has_sign = |register: &Register| {
-            let (now, value) = (registers.get(*register), v[*register as usize]);
-            if now > 0.0 { value.low > 0.0 } else { value.high <= 0.0 }
-        };
-        self.conditions.iter().all(|&register| v[register as usize].low > 0.0) && self.watches.iter().all(has_sign)
+        true
     }
 }
 

@@ -13,10 +13,12 @@
 mod compile;
 mod enclose;
 mod evaluate;
+mod signals;
 mod tables;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers};
+pub use signals::Signal;
 
 use crate::expr::{Binary, Comparison, Unary};
 
