@@ -409,10 +409,13 @@ impl<'m, 'd> Motion<'m, 'd> {
             }
             self.kinematics.set_position(&self.trial.q)?;
             if size <= SETTLED && size <= self.settled() && self.kinematics.violated().is_none() {
-                if let Some(index) = self.kinematics.broken_check() {
-                    return Err(Fault::Check { index });
-                }
+                let broken = self.kinematics.broken_check();
                 self.kinematics.factor()?;
+                if let Some(index) = broken {
+                    // beside a singular position it is the position that is not known, and not the equation that does not hold
+                    let is_near = self.kinematics.nearness(ILL) < ILL;
+                    return Err(if is_near { Fault::Singular } else { Fault::Check { index } });
+                }
                 return Ok(first.unwrap_or(size));
             }
         }
