@@ -147,7 +147,7 @@ pub struct Coordinate {
 }
 
 /// What kind of declaration wrote a row.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum DeclarationKind {
     /// A joint, by its word.
     Joint(&'static str),

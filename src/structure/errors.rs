@@ -4,6 +4,7 @@ use super::Part;
 use super::count::table;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
+use rustc_hash::FxHashMap;
 
 /// Names that one message lists before it stops.
 const LISTED: usize = 8;
@@ -27,8 +28,33 @@ pub fn count(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diag
     if ndof > 0 {
         diagnostic.help(drivers_to_add(system, &too_few.columns, ndof))
     } else {
-        diagnostic.help(what_to_take_away(system))
+        match said_twice(system) {
+            Some([first, again]) => {
+                let (first, again) = (&system.declarations[first], &system.declarations[again]);
+                diagnostic.also(first.span, "joins the same points").also(again.span, "said twice").help(format!(
+                    "take the {} `{}` away",
+                    again.kind.noun(),
+                    again.name
+                ))
+            }
+            None => diagnostic.help(what_to_take_away(system)),
+        }
     }
+}
+
+/// Two joints of one kind at the same points.
+fn said_twice(system: &ConstraintSystem) -> Option<[usize; 2]> {
+    let mut known: FxHashMap<(DeclarationKind, Vec<usize>), usize> = FxHashMap::default();
+    let joints =
+        system.declarations.iter().enumerate().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
+    for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
+        let mut points = joint.points.clone();
+        points.sort_unstable();
+        if let Some(first) = known.insert((joint.kind, points), k) {
+            return Some([first, k]);
+        }
+    }
+    None
 }
 
 /// Joints whose motion nothing fixes, as drivers to write.
@@ -84,8 +110,10 @@ fn what_to_take_away(system: &ConstraintSystem) -> String {
         .collect();
     match drivers.len() {
         0 => "take a joint or constraint away, or use one that leaves more freedom".to_owned(),
-        1..=LISTED => format!("take a driver away ({}), or use joints that leave more freedom", drivers.join(", ")),
-        _ => "take a driver away, or use joints that leave more freedom".to_owned(),
+        1..=LISTED => {
+            format!("take a joint away, or a driver ({}), or use joints that leave more freedom", drivers.join(", "))
+        }
+        _ => "take a joint or driver away, or use joints that leave more freedom".to_owned(),
     }
 }
 

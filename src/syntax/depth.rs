@@ -40,7 +40,8 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
                 set_last(level, token == "else");
             }
             "," | "=" | "}" => ifs -= std::mem::take(level).len(),
-            word if DECLARATIONS.contains(&word) => {
+            // `ground.O` is a point
+            word if DECLARATIONS.contains(&word) && !rest.trim_start().starts_with('.') => {
                 levels = vec![Vec::new()];
                 ifs = 0;
             }

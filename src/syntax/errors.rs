@@ -1,8 +1,9 @@
 //! What is said of a text that does not follow the grammar.
 
+use super::DEEPEST;
+use super::mends::Fault;
 use super::parse::Rule;
-use super::{DECLARATIONS, DEEPEST};
-use crate::diag::{Code, Diagnostic, nearest};
+use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
 
@@ -54,20 +55,50 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId) -> Diagnost
         return double;
     }
     let found = found_at(text, offset);
+    if let Some(bracket) = other_bracket(error, text, found.end, file) {
+        return bracket;
+    }
     let span = Span { file, start: found.start as u32, end: found.end as u32 };
     let word = &text[found.clone()];
-    let expected = match &error.variant {
-        ErrorVariant::ParsingError { positives, .. } => expectation(positives, word, end),
-        ErrorVariant::CustomError { message } => message.clone(),
+    let rules = match &error.variant {
+        ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
+        ErrorVariant::CustomError { .. } => &[],
     };
+    let expected = expectation(rules, word, end);
+    let is_closed = text[found.end..].lines().next().is_some_and(|line| line.contains('"'));
     let shown = match word.chars().next() {
         None => end.to_owned(),
-        Some('"') if word.len() == 1 => "an unclosed string".to_owned(),
+        Some('"') if is_closed => "a string".to_owned(),
+        Some('"') => "an unclosed string".to_owned(),
         Some(_) => format!("`{word}`"),
     };
-    Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}"))
-        .at(span, format!("expected {expected}"))
-        .help_if(mend(error, text, found.start, word))
+    let fault = Fault { text, at: found.start, found: word, expected: rules };
+    // of one thing it can be said where it goes
+    let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
+        format!("{expected} goes here")
+    } else {
+        "not expected here".to_owned()
+    };
+    let diagnostic = Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label);
+    let diagnostic = match fault.reason() {
+        Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
+        None => diagnostic,
+    };
+    diagnostic.help_if(fault.mend())
+}
+
+/// Arguments in braces or square brackets: `revolute{A, B}`.
+fn other_bracket(error: &Error<Rule>, text: &str, behind: usize, file: FileId) -> Option<Diagnostic> {
+    let rest = text[behind..].trim_start();
+    let bracket = rest.get(..1).filter(|bracket| ["{", "["].contains(bracket))?;
+    if !expects(error, Rule::call) && !expects(error, Rule::expr) {
+        return None;
+    }
+    let at = (text.len() - rest.len()) as u32;
+    Some(
+        misplaced(Span { file, start: at, end: at + 1 }, &format!("expected `(`, found `{bracket}`"), "`(` goes here")
+            .help("arguments stand in round brackets"),
+    )
 }
 
 /// An equation written with `==`, which the grammar took for a comparison.
@@ -123,6 +154,10 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     }
     if words.is_empty() {
         return "the next declaration".to_owned();
+    }
+    // a formula may begin with both
+    if words.contains(&"a formula") {
+        words.retain(|word| !["`(`", "a name"].contains(word));
     }
     let last = words.pop().unwrap_or_default();
     if words.is_empty() { last.to_owned() } else { format!("{} or {last}", words.join(", ")) }
@@ -195,48 +230,4 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::exponent => "a whole number",
         _ => "",
     }
-}
-
-/// What was probably meant, where it can be told from the words around the fault.
-fn mend(error: &Error<Rule>, text: &str, at: usize, found: &str) -> Option<String> {
-    let expects = |rule| expects(error, rule);
-    let before = text[..at].trim_end();
-    let starts_operand = found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
-    let new_line = text[before.len()..at].contains('\n');
-    if found == "=" && before.ends_with('=') {
-        return Some("an equation is written with one `=`".to_owned());
-    }
-    if found == "+" && expects(Rule::prefix) {
-        return Some("a positive number needs no sign".to_owned());
-    }
-    if found == ";" {
-        return Some("declarations need no terminator; leave the `;` out".to_owned());
-    }
-    if found == "*" && before.ends_with('*') {
-        return Some("a power is written with `^`".to_owned());
-    }
-    if found == "\"" {
-        return Some("a string ends on the line where it begins".to_owned());
-    }
-    if found == "if" && expects(Rule::number) {
-        return Some("inside an operator an `if` needs parentheses".to_owned());
-    }
-    if DECLARATIONS.contains(&found) {
-        let inside_a_body = expects(Rule::kw_point) || expects(Rule::point);
-        return if expects(Rule::name) {
-            Some(format!("`{found}` is a keyword and cannot be a name"))
-        } else if inside_a_body {
-            Some("the `}` of the body or ground before it is missing".to_owned())
-        } else {
-            None
-        };
-    }
-    if let Some(word) = nearest(found, DECLARATIONS.iter().copied()) {
-        return Some(format!("was `{word}` meant?"));
-    }
-    let expects_a_word = [Rule::to, Rule::every, Rule::along, Rule::radius].into_iter().any(expects);
-    if expects(Rule::infix) && starts_operand && !new_line && !expects_a_word {
-        return Some("a product is written with `*`".to_owned());
-    }
-    None
 }

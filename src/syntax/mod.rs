@@ -8,6 +8,7 @@ mod depth;
 mod errors;
 pub mod format;
 mod formula;
+mod mends;
 mod parse;
 mod recover;
 
@@ -33,3 +34,6 @@ const DECLARATIONS: &[&str] = &[
     "measure",
     "analysis",
 ];
+
+/// Those of them that stand in a body or the ground.
+const FEATURES: &[&str] = &["point", "axis", "circle", "curve"];

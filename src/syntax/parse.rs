@@ -37,6 +37,8 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
     let mut source = Cow::Borrowed(sources.get(file));
     let mut faults = Diagnostics::default();
     let (mut last, mut stays) = (None, false);
+    // keywords that were taken for names: every use of them is a fault, and none of its own
+    let mut bad_names: Vec<String> = Vec::new();
     loop {
         let read = on_a_deep_stack(&source, file, |reader| {
             let mechanisms = reader.read(Rule::file)?.filter(|pair| pair.as_rule() == Rule::mechanism);
@@ -57,7 +59,10 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
                 return Err(sorted(faults));
             }
         } else {
-            faults.push(*fault);
+            if !recover::uses_bad_name(&source.text, at, &bad_names) {
+                faults.push(*fault);
+            }
+            bad_names.extend(recover::bad_name(&source.text, at));
             stays = false;
         }
         last = Some(at);
