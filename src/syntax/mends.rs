@@ -53,7 +53,7 @@ impl Fault<'_> {
                 ")" | "]" | "}" => drop(opened.pop()),
                 // no parenthesis reaches into the next declaration, and `ground.O` is a point
                 word if DECLARATIONS.contains(&word) && !rest.starts_with('.') => {
-                    opened.retain(|(_, token)| *token == "{")
+                    opened.retain(|(_, token)| *token == "{");
                 }
                 _ => {}
             }
