@@ -135,7 +135,7 @@ fn faults_of_examples(code: Code) -> Vec<String> {
     if let Some(failing) = page.example(EXAMPLES[0]) {
         let codes = raised(code, failing);
         let other = |one: &String| one != code.as_str() && !COME_ALONG.contains(&(code.as_str(), one));
-        if codes.is_empty() || codes.iter().any(other) {
+        if !codes.iter().any(|one| one == code.as_str()) || codes.iter().any(other) {
             faults.push(format!("the failing example raises {codes:?}"));
         }
     }

@@ -122,12 +122,12 @@ impl Checker<'_> {
         let &[u, u0, v0, u1, v1] = arguments else {
             return None;
         };
-        self.all_alike(name, &[u, u0, u1], context)?;
+        let argument = self.all_alike(name, &[u, u0, u1], context)?;
         let dim = self.all_alike(name, &[v0, v1], context)?;
         let (start, end) = (self.constant_value(u0.1.id), self.constant_value(u1.1.id));
         match (start, end) {
             (Some(start), Some(end)) if end <= start && !self.untaken => {
-                self.report(errors::empty_interval(name, u1.0, start, end));
+                self.report(errors::empty_interval(name, u1.0, [start, end], argument.settled()));
                 return None;
             }
             (Some(_), Some(_)) => {}

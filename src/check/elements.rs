@@ -67,9 +67,10 @@ impl Checker<'_> {
             condition.owner.clone_from(&name.text);
         }
         let (a, b) = (a?, b?);
-        self.alike("the two sides are", (left.span, a.dim), (right.span, b.dim), &context)?;
+        let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
+        self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         if !self.a_body_moves([a.id, b.id]) {
-            self.report(errors::nobody_moves(name, left.span.to(right.span)));
+            self.report(errors::nobody_moves(driver, name, left.span.to(right.span)));
             return None;
         }
         // `distance` alone on the left, and no quantity on the right

@@ -119,7 +119,7 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
     chain.push(format!("`{}`", first.text));
     let message = match names {
         [only] => format!("`{}` is defined by itself", only.text),
-        _ => format!("definitions go in a circle: {}", chain.join(" needs ")),
+        _ => format!("definitions go in a circle: {} needs {}", chain[0], chain[1..].join(", which needs ")),
     };
     names[1..]
         .iter()
@@ -128,11 +128,11 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         })
 }
 
-pub fn hidden_name(argument: &Name, declared: Span) -> Diagnostic {
+pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>) -> Diagnostic {
     Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
         .at(argument.span, "this argument")
         .also(declared, "declared here")
-        .help("rename the argument; `u` is usual")
+        .help_if(free.map(|free| format!("rename the argument: `{free}`, say")))
 }
 
 // ---- kinds and arguments
@@ -140,7 +140,7 @@ pub fn hidden_name(argument: &Name, declared: Span) -> Diagnostic {
 pub fn argument_count(what: &str, span: Span, wanted: &str, found: usize) -> Diagnostic {
     Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
         .at(span, format!("found {found}"))
-        .help_if(signature(what).map(|form| format!("it is written {form}")))
+        .help_if(signature(what).map(|form| format!("it is written {}", form.replace("MOTION", what))))
 }
 
 /// How a joint, quantity or function is called.
@@ -164,7 +164,7 @@ pub fn signature(what: &str) -> Option<&'static str> {
         "distance" => "`distance(P, Q)`",
         "rotation" => "`rotation(joint)` or `rotation(joint, b.u, c.v)`",
         "displacement" => "`displacement(joint)`",
-        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => "`step(u, u0, v0, u1, v1)`",
+        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => "`MOTION(u, u0, v0, u1, v1)`",
         "poly" => "`poly(u, u0, c0, c1, …)`",
         "point" => "`point P = (x, y)`",
         "curve" => "`curve k(u) = (x, y)`",
@@ -197,8 +197,8 @@ pub fn joint_without(quantity: &str, wanted: &str, joint: &str, kind: &str, span
         "translational" => Some(format!("was `displacement({joint})` meant?")),
         _ => None,
     };
-    Diagnostic::new(Code::E0304, format!("`{quantity}` is of {wanted} joints; `{joint}` is {kind}"))
-        .at(span, format!("a {kind} joint"))
+    Diagnostic::new(Code::E0304, format!("only {wanted} joints have a `{quantity}`"))
+        .at(span, format!("`{joint}` is `{kind}`"))
         .also(declared, "declared here")
         .help_if(other)
 }
@@ -218,7 +218,10 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
                 .also(at, "`t` is used here")
         }
     };
-    if place == "a constraint" { diagnostic.help("an equation that holds time is a `driver`") } else { diagnostic }
+    match place {
+        "a constraint" => diagnostic.help("an equation that holds time is a `driver`"),
+        _ => diagnostic.help("what moves with time is prescribed by a `driver`, of a joint, a body or a point"),
+    }
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
@@ -234,8 +237,9 @@ pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
         .help("say what it is about: `rotation(joint) = …`, `x(body.point) = …`")
 }
 
-pub fn nobody_moves(name: &Name, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0311, format!("no body takes part in the equation `{}`", name.text))
+pub fn nobody_moves(driver: bool, name: &Name, span: Span) -> Diagnostic {
+    let what = if driver { "driver" } else { "constraint" };
+    Diagnostic::new(Code::E0311, format!("no body takes part in {what} `{}`", name.text))
         .at(span, "nothing in it moves, or all that moves cancels")
         .help("an equation needs a point, axis or angle of a body")
 }
@@ -255,7 +259,7 @@ pub fn number_as_condition(span: Span) -> Diagnostic {
 pub fn derivative_in(place: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0310, format!("`der` may not stand in {place}"))
         .at(span, "a time derivative along the motion")
-        .help("`der` stands in measures only")
+        .help("`der` stands in measures only; a driver prescribes a speed by its formula: `rotation(joint) = 2 rad/s * t`")
 }
 
 pub fn derivative_too_high(span: Span) -> Diagnostic {
@@ -273,19 +277,41 @@ pub struct Part {
     pub dimension: Dimension,
 }
 
-pub fn unlike(what: &str, first: Part, second: Part) -> Diagnostic {
-    let pure = |part: Part| part.dimension.is(Dimension::PURE);
-    let help = (pure(first) || pure(second)).then(|| {
-        let other = if pure(first) { second } else { first };
-        format!(
-            "a formula that holds units is checked; a bare number has none, {} is wanted",
-            other.dimension.in_words()
-        )
+/// The text of a part is told where it is a bare number.
+pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2]) -> Diagnostic {
+    const RATE: Dimension = Dimension { length: 0.0, time: -1.0 };
+    let bare = |text: &str| text.parse::<f64>().is_ok();
+    let help = [(first, second, texts[0]), (second, first, texts[1])].into_iter().find_map(|(one, other, text)| {
+        if !one.dimension.is(Dimension::PURE) {
+            return None;
+        }
+        if bare(text) {
+            return Some(format!("a unit is missing: `{text} {}`", usual_unit(other.dimension)));
+        }
+        other.dimension.is(RATE).then(|| "a rate times a time is a pure number, as an angle is: `… * t`".to_owned())
     });
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
         .at(second.span, second.dimension.in_words())
         .also(first.span, first.dimension.in_words())
         .help_if(help)
+}
+
+/// What a quantity is usually written in.
+fn usual_unit(dimension: Dimension) -> String {
+    if dimension.is(Dimension::LENGTH) { "mm".to_owned() } else { dimension.unit().replace("1/s", "rad/s") }
+}
+
+/// A value (SI) as a reader wants it, without the rounding of its last digits.
+pub fn told(value: f64, dimension: Dimension) -> String {
+    let (value, unit) = if dimension.is(Dimension::LENGTH) && value.abs() < 1.0 {
+        (value * 1e3, "mm".to_owned())
+    } else if dimension.is(Dimension::PURE) {
+        (value, String::new())
+    } else {
+        (value, dimension.unit())
+    };
+    let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
+    format!("{rounded} {unit}").trim_end().to_owned()
 }
 
 pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnostic {
@@ -298,8 +324,16 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnosti
             None
         }
     };
-    let help = if wanted.is(Dimension::PURE) {
+    let is_angle =
+        place.contains("angle") || place.contains("`sin`") || place.contains("`cos`") || place.contains("`tan`");
+    let help = if wanted.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
+        Some("an angular speed makes an angle of a time: `1 rad/s * t`".to_owned())
+    } else if wanted.is(Dimension::PURE) && is_angle {
+        Some("units of angle: `deg`, `rad`".to_owned())
+    } else if wanted.is(Dimension::PURE) {
         Some(format!("divide it by {} to get a pure number", one(found.dimension)))
+    } else if place.contains("phase") {
+        Some("it is measured along the pitch circles: an angle times a radius, as `30 deg * 20 mm`".to_owned())
     } else {
         units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
     };
@@ -318,22 +352,27 @@ pub fn exponent(span: Span, base: Part) -> Diagnostic {
     Diagnostic::new(Code::E0403, format!("{} takes a constant exponent only", base.dimension.in_words()))
         .at(span, "not constant")
         .also(base.span, base.dimension.in_words())
-        .help("divide the base by a unit first")
+        .help("divide the base by a unit first: `(… / 1 mm)^…`")
 }
 
 pub fn not_finite(span: Span, value: f64) -> Diagnostic {
     let what = if value.is_nan() { "not a number" } else { "infinite" };
-    Diagnostic::new(Code::E0404, format!("this constant is {what}")).at(span, what)
+    Diagnostic::new(Code::E0404, format!("this constant is {what}"))
+        .at(span, what)
+        .help("look for a division by zero, a root or logarithm of what is not positive, or a number beyond 1.8e308")
 }
 
 pub fn zero_direction(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0405, "an axis needs a direction, and this one has length zero")
         .at(span, "no direction")
-        .help("`along (1, 0)` is the direction of x, `along (0, 1)` that of y")
+        .help("take two points that differ, or a direction: `along (1, 0)` is that of x, `along (0, 1)` that of y")
 }
 
 pub fn not_positive_length(what: &str, span: Span, value: f64) -> Diagnostic {
-    Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value} m")).at(span, format!("{value} m"))
+    let value = told(value, Dimension::LENGTH);
+    Diagnostic::new(Code::E0406, format!("{what} must be positive, it is {value}"))
+        .at(span, value)
+        .help("a direction is given by the order of points, or by an angle; a length has no sign")
 }
 
 pub fn curve_is_a_point(name: &Name, argument: &str, at: Span) -> Diagnostic {
@@ -378,21 +417,23 @@ pub fn too_few_rows(name: &Name, periodic: bool, least: usize, found: usize) -> 
 
 pub fn not_rising(name: &Name, [here, before]: [f64; 2], rows: [Span; 2]) -> Diagnostic {
     let message = format!("the arguments of table `{}` do not rise: {here} follows {before}", name.text);
-    let text = if here < before { "smaller than the one before" } else { "not above the one before" };
+    let text = if here < before { "smaller than the one before" } else { "the same as the one before" };
     Diagnostic::new(Code::E0414, message)
         .at(rows[0], text)
         .also(rows[1], "the row before")
         .help("arguments must rise from row to row")
 }
 
-pub fn ends_differ(name: &Name, ends: [Span; 2], last: f64, first: f64) -> Diagnostic {
+pub fn ends_differ(name: &Name, ends: [Span; 2], [last, first]: [f64; 2], dimension: Dimension) -> Diagnostic {
+    let [last, first] = [last, first].map(|value| told(value, dimension));
     let message = format!("periodic table `{}` ends with {last}, and begins with {first}", name.text);
     let diagnostic = Diagnostic::new(Code::E0415, message).at(ends[0], "the last row");
     diagnostic.also(ends[1], "the first row").help("its last row repeats the first value, one period on")
 }
 
-pub fn out_of_table(name: &Name, value: f64, ends: [f64; 2], span: Span) -> Diagnostic {
-    let message = format!("{value} is not in the range of table `{}`, {} to {}", name.text, ends[0], ends[1]);
+pub fn out_of_table(name: &Name, value: f64, ends: [f64; 2], dimension: Dimension, span: Span) -> Diagnostic {
+    let [value, first, last] = [value, ends[0], ends[1]].map(|value| told(value, dimension));
+    let message = format!("{value} is not in the range of table `{}`, {first} to {last}", name.text);
     Diagnostic::new(Code::E0417, message).at(span, "out of range").help("a `periodic spline` repeats; a spline ends")
 }
 
@@ -429,15 +470,21 @@ pub fn no_side(span: Span) -> Diagnostic {
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
     Diagnostic::new(Code::E0407, format!("the analysis needs a positive step, it is {value} s"))
         .at(span, format!("{value} s"))
+        .help("`every` is the time from one row to the next")
 }
 
 pub fn ends_before_start(span: Span, from: f64, to: f64) -> Diagnostic {
     Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
         .at(span, "the end")
-        .help(format!("`from {to} s to {from} s`"))
+        .help(if to > 0.0 {
+            format!("`to` is a time, and no duration: `from {from} s to {} s`; or the other way round: `from {to} s to {from} s`", from + to)
+        } else {
+            format!("the other way round: `from {to} s to {from} s`")
+        })
 }
 
-pub fn empty_interval(function: &str, span: Span, from: f64, to: f64) -> Diagnostic {
+pub fn empty_interval(function: &str, span: Span, ends: [f64; 2], dimension: Dimension) -> Diagnostic {
+    let [from, to] = ends.map(|end| told(end, dimension));
     Diagnostic::new(
         Code::E0409,
         format!("`{function}` needs an interval that goes forward, this one is from {from} to {to}"),

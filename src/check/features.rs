@@ -170,7 +170,7 @@ impl Checker<'_> {
     pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
         let [x, y] = parts.map(|part| self.formula(part, context));
         let (x, y) = (x?, y?);
-        self.alike("the two lengths are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
         }

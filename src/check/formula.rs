@@ -309,7 +309,8 @@ impl Checker<'_> {
         match (a.1, b.1) {
             (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
                 let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
-                self.report(errors::unlike(what, x, y));
+                let texts = [a.0, b.0].map(|span| self.sources.text(span));
+                self.report(errors::unlike(what, x, y, texts));
                 None
             }
             (Dim::Any, other) | (other, _) => Some(other),
@@ -419,7 +420,8 @@ impl Checker<'_> {
         let mut span = otherwise.span;
         for (condition, value_span, value) in parts.into_iter().rev() {
             let (condition, value) = (condition?, value?);
-            let dim = self.alike("the branches are", (value_span, value.dim), (span, choice.dim), context)?;
+            let dim =
+                self.alike("the branches of this `if` are", (value_span, value.dim), (span, choice.dim), context)?;
             choice = Value { id: self.model.graph.select(condition, value.id, choice.id), dim };
             span = value_span;
         }

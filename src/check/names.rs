@@ -170,7 +170,9 @@ impl Checker<'_> {
         if is_taken(&argument.text) {
             self.report(errors::reserved(argument));
         } else if let Some(declared) = self.space.span(&argument.text) {
-            self.report(errors::hidden_name(argument, declared));
+            let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
+            let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
+            self.report(errors::hidden_name(argument, declared, free));
         }
     }
 

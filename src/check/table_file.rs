@@ -3,12 +3,11 @@
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 
-/// Faults of one file that are told; the others are likely of the same kind.
-const MOST_FAULTS: usize = 5;
-
-/// The rows with their places, and what is wrong with the others. A header line and blank lines are passed over.
+/// The rows with their places, and what is wrong with the others, each kind of fault once. A header line and blank lines
+/// are passed over.
 pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec<Diagnostic>) {
-    let (mut rows, mut faults) = (Vec::new(), Vec::new());
+    let mut rows = Vec::new();
+    let mut faults: Vec<(Diagnostic, usize)> = Vec::new();
     let mut at = 0;
     let mut may_be_header = true;
     for line in source.text.split('\n') {
@@ -20,12 +19,22 @@ pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec
         match numbers(line) {
             Some(row) => rows.push((row, span)),
             None if may_be_header && is_header(line) => {}
-            None if faults.len() < MOST_FAULTS => faults.push(not_two_numbers(line, span)),
-            None => {}
+            None => {
+                let fault = not_two_numbers(line, span);
+                match faults.iter_mut().find(|(known, _)| known.help == fault.help) {
+                    Some((_, more)) => *more += 1,
+                    None => faults.push((fault, 0)),
+                }
+            }
         }
         may_be_header = false;
     }
-    (rows, faults)
+    let told = |(fault, more): (Diagnostic, usize)| match more {
+        0 => fault,
+        1 => fault.note("1 more row like it"),
+        more => fault.note(format!("{more} more rows like it")),
+    };
+    (rows, faults.into_iter().map(told).collect())
 }
 
 fn numbers(line: &str) -> Option<[f64; 2]> {
@@ -59,11 +68,17 @@ fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
     } else {
         "a row is two numbers, as in `0.5,12.25`; units go behind the file's name: `spline \"lift.csv\" (deg, mm)`"
     };
-    Diagnostic::new(Code::E0416, "this row of a table is not two numbers")
-        .at(span, format!("found {}", if cells.len() == 2 { "something else".to_owned() } else { parts(cells.len()) }))
-        .help(help)
+    let label = match cells.iter().find(|cell| number(cell).is_none()) {
+        _ if cells.len() != 2 => format!("found {}", parts(cells.len())),
+        Some(cell) if cell.parse().is_ok_and(|value: f64| value.is_infinite()) && cell.contains(['e', 'E']) => {
+            format!("`{cell}` is too large")
+        }
+        Some(cell) => format!("`{cell}` is not a number"),
+        None => String::new(),
+    };
+    Diagnostic::new(Code::E0416, "this row of a table is not two numbers").at(span, label).help(help)
 }
 
 fn parts(count: usize) -> String {
-    if count == 1 { "one part".to_owned() } else { format!("{count} parts") }
+    if count == 1 { "1 part".to_owned() } else { format!("{count} parts") }
 }

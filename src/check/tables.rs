@@ -64,7 +64,7 @@ impl<'a> Checker<'a> {
             TableRows::File { path, .. } => Some(path.span),
             TableRows::Listed(_) => None,
         };
-        if !self.rows_are_sound(name, periodic, &rows, file) {
+        if !self.rows_are_sound(name, periodic, &rows, columns[1], file) {
             return;
         }
         let points: Vec<[ExprId; 2]> = rows.iter().map(|row| row.cells).collect();
@@ -187,7 +187,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Enough rows, arguments that rise, and, where it repeats, an end like the start.
-    fn rows_are_sound(&mut self, name: &Name, periodic: bool, rows: &[Row], file: Option<Span>) -> bool {
+    fn rows_are_sound(&mut self, name: &Name, periodic: bool, rows: &[Row], values: Dim, file: Option<Span>) -> bool {
+        let dimension = values.settled();
         let named = |diagnostic: Diagnostic| match file {
             Some(span) => diagnostic.also(span, "named here"),
             None => diagnostic,
@@ -211,7 +212,7 @@ impl<'a> Checker<'a> {
         let largest = values.iter().fold(0.0, |m: f64, v| m.max(v[1].abs()));
         if periodic && (last - first).abs() > SAME * largest {
             let ends = [rows[rows.len() - 1].span, rows[0].span];
-            self.report(named(errors::ends_differ(name, ends, last, first)));
+            self.report(named(errors::ends_differ(name, ends, [last, first], dimension)));
             return false;
         }
         true
@@ -248,7 +249,7 @@ impl<'a> Checker<'a> {
         if let Some(value) = self.constant_value(x) {
             let slack = AT_THE_END * (ends[1] - ends[0]);
             if !self.untaken && (value < ends[0] - slack || value > ends[1] + slack) {
-                self.report(errors::out_of_table(name, value, ends, span));
+                self.report(errors::out_of_table(name, value, ends, made.columns[0].settled(), span));
                 return None;
             }
         }

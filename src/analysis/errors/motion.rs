@@ -40,14 +40,15 @@ fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
             .at(condition.span, "reaches zero")
             .help("a distance must stay above zero"),
         ConditionKind::Interval => diagnostic(Code::E0606, &format!("the interval of a motion in `{owner}` is empty"))
-            .at(condition.span, "reaches zero"),
+            .at(condition.span, "no later than its beginning there")
+            .help("the arguments are `(u, u0, v0, u1, v1)`, and `u0 < u1` must hold at all times"),
         ConditionKind::Range(table) => {
             let table = &system.graph.tables()[table.index()];
             let ends = [table.knots.first(), table.knots.last()];
             let [first, last] = ends.map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])));
-            diagnostic(Code::E0608, &format!("table `{}` is left in `{owner}`", table.name))
-                .at(condition.span, format!("out of its range, {} to {}", short(first), short(last)))
-                .help("add rows, or let it repeat: `periodic spline`")
+            diagnostic(Code::E0608, &format!("table `{}` does not reach as far as `{owner}` goes", table.name))
+                .at(condition.span, format!("leaves its range, {} to {} in SI units", short(first), short(last)))
+                .help("add rows, or let the analysis end before; a table that ends as it begins can repeat: `periodic spline`")
         }
     }
 }
