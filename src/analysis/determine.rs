@@ -92,6 +92,17 @@ impl Anatomy {
 fn surplus(evaluator: &mut Evaluator<'_>, mut part: Part, times: [f64; 2]) -> Vec<Dependent> {
     let system = evaluator.system;
     let declaration_of = |row: usize| system.rows[row].declaration;
+    // of joints that hold the same, one that formulas speak of stays
+    let rank = |row: &u32| {
+        let declaration = system.declaration_of(*row as usize);
+        let kind = match declaration.kind {
+            DeclarationKind::Joint(_) => 0,
+            DeclarationKind::Constraint => 1,
+            DeclarationKind::Driver => 2,
+        };
+        (kind, !declaration.is_spoken_of)
+    };
+    part.rows.sort_by_key(rank);
     let mut found = Vec::new();
     loop {
         let Some(mut dependents) = dependents(evaluator, &part, times) else {

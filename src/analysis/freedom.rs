@@ -4,7 +4,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::redundancy::{Basis, orthogonal};
 use super::singular;
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
 use crate::math;
 use crate::structure::Part;
 use rustc_hash::FxHashMap;
@@ -131,10 +131,12 @@ impl Freedom {
         match (self.drivers.as_slice(), self.degrees()) {
             ([], _) => {}
             (drivers, 1) => helps.push(format!("{one} a driver: {}", drivers.join(" or "))),
-            (drivers, count) if drivers.len() == count => {
-                helps.push(format!("{one} {count} drivers: {}", errors::cut_list(drivers)));
+            (drivers, count) => {
+                let how_many = if drivers.len() == count { format!("{count} drivers") } else { "drivers".to_owned() };
+                let named = |(k, driver): (usize, &String)| driver.replacen("NAME", &format!("NAME_{}", k + 1), 1);
+                let drivers: Vec<String> = drivers.iter().enumerate().map(named).collect();
+                helps.push(format!("{one} {how_many}: {}", errors::cut_list(&drivers)));
             }
-            (drivers, _) => helps.push(format!("{one} drivers: {}", errors::cut_list(drivers))),
         }
         helps
     }
@@ -163,7 +165,11 @@ impl Freedom {
     fn candidates(&self, evaluator: &Evaluator<'_>) -> Vec<(String, Vec<f64>)> {
         let system = evaluator.system;
         let mut candidates = Vec::new();
-        for declaration in &system.declarations {
+        // motors mostly stand on the ground
+        let on_ground = |one: &&Declaration| one.points.iter().any(|&point| system.points[point].body.is_none());
+        let (grounded, others): (Vec<&Declaration>, Vec<&Declaration>) =
+            system.declarations.iter().partition(on_ground);
+        for declaration in grounded.into_iter().chain(others) {
             let [Some(&p), Some(&q)] = [0, 1].map(|k| declaration.points.get(k)) else {
                 continue;
             };

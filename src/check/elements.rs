@@ -37,7 +37,8 @@ impl Checker<'_> {
             if let ItemKind::Equation { driver, name, left, right } = &item.kind {
                 let form = self.equation(*driver, name, [left, right]);
                 if let Some(form) = form {
-                    let equation = Equation { declared: declared(name), driver: *driver, form };
+                    let written = left.span.to(right.span);
+                    let equation = Equation { declared: declared(name), driver: *driver, form, written };
                     self.model.equations.push(equation);
                 }
             }

@@ -7,7 +7,9 @@ use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
 use crate::analysis::{self, Started};
+use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
+use crate::source::Sources;
 use crate::structure::{self, Determined};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
@@ -18,7 +20,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let t = system.analysis.map_or(0.0, |[from, ..]| from);
     let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
     reporter.print(&started.remarks());
-    let report = report(&determined, started, t);
+    let report = report(&determined, started, t, &reporter.sources);
     Output::write("-", &report)
 }
 
@@ -27,13 +29,31 @@ fn nine_digits(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value) + 0.0
 }
 
-fn report(determined: &Determined, mut started: Started<'_>, t: f64) -> String {
+/// Each driver with its equation as it is written.
+fn drivers(system: &ConstraintSystem, sources: &Sources) -> String {
+    let drivers: Vec<(&str, String)> = system
+        .declarations
+        .iter()
+        .filter(|declaration| declaration.kind == DeclarationKind::Driver)
+        .filter_map(|driver| Some((driver.name.as_str(), sources.text(driver.written?))))
+        .map(|(name, text)| (name, text.split_whitespace().collect::<Vec<&str>>().join(" ")))
+        .collect();
+    let width = drivers.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    drivers.iter().map(|(name, text)| format!("  {name:<width$}  {text}\n")).collect()
+}
+
+fn report(determined: &Determined, mut started: Started<'_>, t: f64, sources: &Sources) -> String {
     let system = determined.system();
     let moved = started.moved().in_words(system);
     let conditioning = started.conditioning();
     let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", system.name);
     text += &structure::table(system);
-    text += "\n\norder of solution\n";
+    text += "\n";
+    let drivers = drivers(system, sources);
+    if !drivers.is_empty() {
+        text += &format!("\ndrivers\n{drivers}");
+    }
+    text += "\norder of solution\n";
     text += &structure::order_of_solution(determined);
     text += &format!("\nat t = {t} s\n  {moved}\n");
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");

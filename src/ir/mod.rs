@@ -184,6 +184,10 @@ pub struct Declaration {
     pub points: Vec<usize>,
     /// The axes that it joins, as they are written.
     pub axes: Vec<String>,
+    /// Where the two sides of an equation are written.
+    pub written: Option<Span>,
+    /// Whether formulas speak of this joint: of its rotation or displacement.
+    pub is_spoken_of: bool,
 }
 
 /// An equation.

@@ -205,7 +205,16 @@ impl Lowering<'_> {
             format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
         };
         let axes = axes.iter().map(written).collect();
-        self.declarations.push(Declaration { name, span, kind, rows: phi.len(), points, axes });
+        self.declarations.push(Declaration {
+            name,
+            span,
+            kind,
+            rows: phi.len(),
+            points,
+            axes,
+            written: None,
+            is_spoken_of: false,
+        });
         self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
     }
 
@@ -215,6 +224,11 @@ impl Lowering<'_> {
             let phi = self.joint(joint);
             let kind = DeclarationKind::Joint(joint.kind.word());
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
+        }
+        for named in &model.named {
+            if let Named::Quantity(Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
+                self.declarations[joint.index()].is_spoken_of = true;
+            }
         }
     }
 
@@ -234,6 +248,9 @@ impl Lowering<'_> {
                     }
                 };
                 self.declare(&equation.declared, kind, &[phi], &points, &[]);
+                if let Some(declaration) = self.declarations.last_mut() {
+                    declaration.written = Some(equation.written);
+                }
             }
         }
     }

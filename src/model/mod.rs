@@ -454,6 +454,8 @@ pub struct Equation {
     pub driver: bool,
     /// What it demands.
     pub form: EquationForm,
+    /// Where both sides are written.
+    pub written: Span,
 }
 
 /// The two ways an equation becomes a row of Φ.

@@ -197,7 +197,7 @@ fn conflicting(system: &ConstraintSystem, group: &[Dependent], one: &Dependent, 
     } else {
         format!("take one of them away, or make `{}` agree with the others", declaration.name)
     };
-    count_data(diagnostic, system, index).help(help).datum("t", t)
+    count_data(diagnostic, system, index).help(help).datum("t", t).datum("open", by)
 }
 
 fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> String {
