@@ -39,7 +39,7 @@ fn drivers(system: &ConstraintSystem, sources: &Sources) -> String {
         .map(|(name, text)| (name, text.split_whitespace().collect::<Vec<&str>>().join(" ")))
         .collect();
     let width = drivers.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
-    drivers.iter().map(|(name, text)| format!("  {name:<width$}  {text}\n")).collect()
+    drivers.iter().fold(String::new(), |all, (name, text)| all + &format!("  {name:<width$}  {text}\n"))
 }
 
 fn report(determined: &Determined, mut started: Started<'_>, t: f64, sources: &Sources) -> String {
