@@ -389,3 +389,17 @@ fn what_rests_on_an_edge_stays_there_in_no_time() {
     assert_eq!(rows.len(), 9);
     assert!(rows.iter().all(|row| (1..9).all(|k| (row[k] - rows[0][k]).abs() < 1e-12)), "{rows:?}");
 }
+
+#[test]
+fn faults_lie_in_the_text_though_braces_are_put_where_they_are_missing() {
+    for end in ["", "\n", "    "] {
+        let text = format!(
+            "mechanism press param stroke = 3 mm table lift = spline \"a\" body ram {{ point O = (0, 0) x{end}"
+        );
+        let outcome = run("press", &text, Span::default());
+        assert!(!outcome.diagnostics.is_empty());
+        for label in outcome.diagnostics.iter().flat_map(|diagnostic| &diagnostic.labels) {
+            assert!(label.span.start <= label.span.end && label.span.end as usize <= text.len(), "{}", outcome.text());
+        }
+    }
+}

@@ -52,6 +52,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
             Ok(_) => return Err(sorted(faults)),
             Err(fault) => fault,
         };
+        let fault = within(fault, sources.get(file).text.len());
         let at = fault.labels.first().map_or(0, |label| label.span.start as usize);
         if last == Some(at) {
             // the declaration before it was not to blame, the one that begins there is
@@ -70,6 +71,14 @@ pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
             return Err(sorted(faults));
         }
     }
+}
+
+/// Keeps a fault in the text, though a brace was put behind its end.
+fn within(mut fault: Box<Diagnostic>, length: usize) -> Box<Diagnostic> {
+    for label in &mut fault.labels {
+        (label.span.start, label.span.end) = (label.span.start.min(length as u32), label.span.end.min(length as u32));
+    }
+    fault
 }
 
 fn sorted(mut faults: Diagnostics) -> Diagnostics {

@@ -66,9 +66,9 @@ fn put_missing_brace(text: &mut String, at: usize) -> bool {
         _ => return false,
     };
     text.replace_range(at - 1..at, brace);
-    // who writes blocks without braces leaves both out
+    // who writes blocks without braces leaves both out; a comment may end the text
     if brace == "{" && depth_after == 1 {
-        text.push('}');
+        text.push_str("\n}");
     }
     true
 }
