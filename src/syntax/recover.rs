@@ -170,7 +170,8 @@ fn declarations(text: &str) -> Option<Vec<Declaration>> {
                 if let Some((around, declaration)) = open.last_mut()
                     && *around == depth
                 {
-                    declaration.block = Some(start..text.len());
+                    // as if its brace stood behind the text
+                    declaration.block = Some(start..text.len() + 1);
                 }
                 depth += 1;
             }
