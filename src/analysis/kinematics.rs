@@ -1,15 +1,10 @@
 //! Everything that can be said of one state: residual, correction, velocity, acceleration.
 
 use super::GOLDEN;
-use super::errors;
 use super::linear::{BlockLu, Factored, Singular};
-use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
 use crate::structure::Determined;
-
-/// Largest irreducible block that the dense factors can hold.
-const LARGEST_BLOCK: usize = 4000;
 
 /// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
 const CHECKED: f64 = 1e-9;
@@ -82,17 +77,10 @@ pub(super) struct Kinematics<'d> {
 const BESIDE: f64 = 0.1;
 
 impl<'d> Kinematics<'d> {
-    pub fn new(
-        determined: &'d Determined,
-        program: &'d Program,
-        tolerance: f64,
-    ) -> Result<Kinematics<'d>, Box<Diagnostic>> {
+    pub fn new(determined: &'d Determined, program: &'d Program, tolerance: f64) -> Kinematics<'d> {
         let system = determined.system();
-        if let Some(block) = determined.blocks().iter().find(|block| block.rows.len() > LARGEST_BLOCK) {
-            return Err(Box::new(errors::too_large(system, block.rows.len(), LARGEST_BLOCK)));
-        }
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
-        Ok(Kinematics {
+        Kinematics {
             determined,
             program,
             registers: program.start(&params),
@@ -100,7 +88,7 @@ impl<'d> Kinematics<'d> {
             tolerance,
             bent: (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect(),
             beside: vec![0.0; system.coordinates.len()],
-        })
+        }
     }
 
     /// Measures the slopes of rows that are bent on both sides of a position, at the time that was set: they are scaled by
@@ -346,6 +334,11 @@ impl<'d> Kinematics<'d> {
         let is_turned = |k: &usize| system.watches[*k].kind == WatchKind::LineOfCenters && self.watched(*k) < 0.0;
         let joints = (0..system.watches.len()).filter(is_turned).map(|k| Owner::Joint(system.watches[k].declaration));
         joints.filter_map(|owner| system.coordinates.iter().position(|c| c.owner == owner)).collect()
+    }
+
+    /// Chooses the orders of elimination by the position that was factored. Allocates.
+    pub fn choose_orders(&mut self) {
+        self.linear.choose_orders();
     }
 
     /// Factors Φ_q where the position was set.

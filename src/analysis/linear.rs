@@ -1,17 +1,23 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
-//! Everything is scaled: lengths by the size of their body, rows to unit norm. Within a block the factors are dense, with partial pivoting;
-//! between blocks the solution is substituted forward, so that cost grows with the number of blocks.
+//! Everything is scaled: lengths by the size of their body, rows to unit norm. Within a block the order of elimination is
+//! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
+//! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
+use super::GOLDEN;
+use super::sparse::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT, Plan};
 use crate::ir::ConstraintSystem;
 use crate::structure::Block;
+use std::ops::Range;
 
 /// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
 /// overestimate it by little.
 const PIVOT_MARGIN: f64 = 100.0;
 
-/// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
-const LEAST_PIVOT: f64 = 1e-18;
+/// Larger blocks are never factored densely.
+const LARGEST_DENSE: usize = 100;
+/// Orders of elimination to choose from, so that there is one for most of a motion.
+const PLANS: u32 = 4;
 
 /// 2^-256: a determinant below it is told in units of it, since that of a large block would underflow.
 const UNIT: f64 = 1.0 / UNITS;
@@ -24,10 +30,33 @@ struct Part {
     at: usize,
     size: usize,
     explicit: bool,
-    /// Offset of its dense matrix.
+    /// Offset of its dense matrix, which a large block does not have.
     matrix: usize,
+    /// Its entries in `inside`.
+    inside: Range<usize>,
     /// Smallest pivot, relative to rows of unit norm.
     smallest_pivot: f64,
+    /// Orders of elimination.
+    plans: Vec<Plan>,
+    /// The values of the order that is in use.
+    slots: Vec<f64>,
+    form: Form,
+}
+
+/// How a block is factored.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Form {
+    /// One equation.
+    Single,
+    /// By one of its orders.
+    Planned(usize),
+    Dense,
+}
+
+impl Part {
+    fn is_small(&self) -> bool {
+        self.size <= LARGEST_DENSE
+    }
 }
 
 /// The determinant of a block whose rows have unit norm: at most 1, and smooth along a motion.
@@ -70,11 +99,9 @@ impl Determinant {
 struct Entry {
     position: u32,
     column: u32,
-    /// Place in its block's dense matrix, or `OUTSIDE`.
-    dense: u32,
+    /// Row and column within its block; none if it is outside.
+    place: Option<(u32, u32)>,
 }
-
-const OUTSIDE: u32 = u32::MAX;
 
 /// The factors of `Φ_q`, and the workspace to compute and use them.
 pub(super) struct BlockLu {
@@ -94,6 +121,8 @@ pub(super) struct BlockLu {
     least_norm: Vec<f64>,
     /// Scaled values of the entries.
     values: Vec<f64>,
+    /// Indices of the entries within their blocks, block by block.
+    inside: Vec<u32>,
     dense: Vec<f64>,
     pivots: Vec<u32>,
     work: Vec<f64>,
@@ -116,27 +145,43 @@ impl BlockLu {
         let mut matrix = 0;
         for (k, block) in blocks.iter().enumerate() {
             let size = block.rows.len();
-            parts.push(Part { at: rows.len(), size, explicit: block.explicit, matrix, smallest_pivot: 0.0 });
+            let form = if size == 1 { Form::Single } else { Form::Dense };
+            let (plans, slots) = (Vec::new(), Vec::new());
+            parts.push(Part {
+                at: rows.len(),
+                size,
+                explicit: block.explicit,
+                matrix,
+                inside: 0..0,
+                smallest_pivot: 0.0,
+                plans,
+                slots,
+                form,
+            });
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
                 part_of_column[column as usize] = k as u32;
             }
             rows.extend_from_slice(&block.rows);
             columns.extend_from_slice(&block.columns);
-            matrix += size * size;
+            matrix += if size <= LARGEST_DENSE { size * size } else { 0 };
         }
-        let (mut starts, mut entries) = (vec![0], Vec::new());
-        for (k, part) in parts.iter().enumerate() {
+        let (mut starts, mut entries, mut inside_blocks) = (vec![0], Vec::new(), Vec::new());
+        for (k, part) in parts.iter_mut().enumerate() {
+            part.inside.start = inside_blocks.len();
             for place in 0..part.size {
                 let row = rows[part.at + place] as usize;
                 for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
-                    let inside = part_of_column[column as usize] == k as u32;
-                    let within = place * part.size + place_of_column[column as usize] as usize;
-                    let dense = if inside { within as u32 } else { OUTSIDE };
-                    entries.push(Entry { position: position as u32, column, dense });
+                    let is_inside = part_of_column[column as usize] == k as u32;
+                    if is_inside {
+                        inside_blocks.push(entries.len() as u32);
+                    }
+                    let place = is_inside.then_some((place as u32, place_of_column[column as usize]));
+                    entries.push(Entry { position: position as u32, column, place });
                 }
                 starts.push(entries.len());
             }
+            part.inside.end = inside_blocks.len();
         }
         let column_scale = system.coordinates.iter().map(|coordinate| coordinate.scale).collect();
         BlockLu {
@@ -145,13 +190,14 @@ impl BlockLu {
             columns,
             starts,
             values: vec![0.0; entries.len()],
+            inside: inside_blocks,
             entries,
             column_scale,
             row_norm: vec![1.0; n],
             least_norm: vec![0.0; n],
             dense: vec![0.0; matrix],
             pivots: vec![0; n],
-            work: vec![0.0; 2 * n],
+            work: vec![0.0; 3 * n],
         }
     }
 
@@ -185,11 +231,19 @@ impl BlockLu {
 
     /// The determinant of a block. The matching fixes the order of columns, so that a sign means the same at every state.
     pub fn determinant(&self, block: usize) -> Determinant {
-        let Part { at, size, matrix, .. } = self.parts[block];
+        let part = &self.parts[block];
         let mut determinant = Determinant::ONE;
-        for (k, &swapped) in self.pivots[at..at + size].iter().enumerate() {
-            let pivot = self.dense[matrix + k * (size + 1)];
-            determinant.multiply(if swapped as usize == k { pivot } else { -pivot });
+        match part.form {
+            Form::Single => determinant.multiply(self.values[self.inside[part.inside.start] as usize]),
+            Form::Planned(plan) => {
+                part.plans[plan].signed_pivots(&part.slots).for_each(|pivot| determinant.multiply(pivot));
+            }
+            Form::Dense => {
+                for (k, &swapped) in self.pivots[part.at..part.at + part.size].iter().enumerate() {
+                    let pivot = self.dense[part.matrix + k * (part.size + 1)];
+                    determinant.multiply(if swapped as usize == k { pivot } else { -pivot });
+                }
+            }
         }
         determinant
     }
@@ -209,26 +263,109 @@ impl BlockLu {
         self.parts.len()
     }
 
+    /// Chooses orders of elimination by the values that were factored last. Allocates.
+    pub fn choose_orders(&mut self) {
+        for k in 0..self.parts.len() {
+            let part = &self.parts[k];
+            if part.size == 1 {
+                continue;
+            }
+            let entries = self.entries_of(part);
+            let mut plans = vec![Plan::new(part.size, &entries)];
+            // the same pattern with other values
+            for seed in 1..if part.is_small() { PLANS } else { 1 } {
+                let other = entries.iter().enumerate().map(|(k, &entry)| {
+                    let value = (GOLDEN * f64::from(seed) * (k + 1) as f64).fract() - 0.5;
+                    BlockEntry { value, ..entry }
+                });
+                plans.push(Plan::new(part.size, &other.collect::<Vec<BlockEntry>>()));
+            }
+            let slots = plans.iter().map(Plan::slots).max().unwrap_or(0);
+            let part = &mut self.parts[k];
+            (part.plans, part.slots) = (plans, vec![0.0; slots]);
+            self.factor_part(k);
+        }
+    }
+
+    /// A block's entries where it was loaded.
+    fn entries_of(&self, part: &Part) -> Vec<BlockEntry> {
+        let entry = |index: &u32| {
+            let (row, column) = self.entries[*index as usize].place?;
+            Some(BlockEntry { row, column, value: self.values[*index as usize] })
+        };
+        self.inside[part.inside.clone()].iter().filter_map(entry).collect()
+    }
+
     /// Scales and factors; `value` gives the entries of `Φ_q` by their position in the pattern.
     pub fn factor(&mut self, value: impl Fn(usize) -> f64) -> Factored {
-        self.dense.fill(0.0);
         let mut regular = true;
         for k in 0..self.parts.len() {
-            let (at, size, matrix) = (self.parts[k].at, self.parts[k].size, self.parts[k].matrix);
-            for place in 0..size {
-                regular &= self.load_row(at + place, matrix, &value);
+            for row in self.parts[k].at..self.parts[k].at + self.parts[k].size {
+                regular &= self.load_row(row, &value);
             }
-            let dense = &mut self.dense[matrix..matrix + size * size];
-            let pivots = &mut self.pivots[at..at + size];
-            let smallest = factor_dense(dense, pivots, size);
-            self.parts[k].smallest_pivot = smallest;
+            self.factor_part(k);
             // also refuses a pivot that is not a number
-            regular &= smallest > 1e-14;
+            regular &= self.parts[k].smallest_pivot > 1e-14;
         }
         if regular { Factored::Regular } else { Factored::Singular }
     }
 
-    fn load_row(&mut self, k: usize, matrix: usize, value: impl Fn(usize) -> f64) -> bool {
+    fn factor_part(&mut self, k: usize) {
+        if self.parts[k].form == Form::Single {
+            let value = self.values[self.inside[self.parts[k].inside.start] as usize];
+            self.parts[k].smallest_pivot = value.abs();
+        } else if !self.factor_planned(k) {
+            if self.parts[k].is_small() {
+                self.factor_densely(k);
+            } else {
+                self.factor_in_another_order(k);
+            }
+        }
+    }
+
+    /// Factors by one of the orders there are, the one in use first; whether one was good.
+    fn factor_planned(&mut self, k: usize) -> bool {
+        let part = &mut self.parts[k];
+        let first = if let Form::Planned(plan) = part.form { plan } else { 0 };
+        let inside = &self.inside[part.inside.clone()];
+        for step in 0..part.plans.len() {
+            let index = (first + step) % part.plans.len();
+            let plan = &part.plans[index];
+            plan.load(&mut part.slots, inside.iter().map(|&index| self.values[index as usize]));
+            let (smallest, largest) = plan.factor(&mut part.slots);
+            if largest <= LARGEST_MULTIPLIER {
+                (part.form, part.smallest_pivot) = (Form::Planned(index), smallest);
+                return true;
+            }
+        }
+        false
+    }
+
+    fn factor_densely(&mut self, k: usize) {
+        let part = &mut self.parts[k];
+        let dense = &mut self.dense[part.matrix..part.matrix + part.size * part.size];
+        dense.fill(0.0);
+        for &index in &self.inside[part.inside.clone()] {
+            if let Some((row, column)) = self.entries[index as usize].place {
+                dense[row as usize * part.size + column as usize] = self.values[index as usize];
+            }
+        }
+        part.smallest_pivot = factor_dense(dense, &mut self.pivots[part.at..part.at + part.size], part.size);
+        part.form = Form::Dense;
+    }
+
+    /// A large block whose order has lost digits. Allocates.
+    fn factor_in_another_order(&mut self, k: usize) {
+        let plan = Plan::new(self.parts[k].size, &self.entries_of(&self.parts[k]));
+        let part = &mut self.parts[k];
+        part.slots = vec![0.0; plan.slots()];
+        let inside = &self.inside[part.inside.clone()];
+        plan.load(&mut part.slots, inside.iter().map(|&index| self.values[index as usize]));
+        (part.smallest_pivot, _) = plan.factor(&mut part.slots);
+        (part.plans, part.form) = (vec![plan], Form::Planned(0));
+    }
+
+    fn load_row(&mut self, k: usize, value: impl Fn(usize) -> f64) -> bool {
         let range = self.starts[k]..self.starts[k + 1];
         let mut square = 0.0;
         for index in range.clone() {
@@ -243,11 +380,9 @@ impl BlockLu {
         if !(norm > 0.0 && norm.is_finite()) {
             return false;
         }
-        for index in range {
-            self.values[index] /= norm;
-            if self.entries[index].dense != OUTSIDE {
-                self.dense[matrix + self.entries[index].dense as usize] = self.values[index];
-            }
+        let inverse = 1.0 / norm;
+        for value in &mut self.values[range] {
+            *value *= inverse;
         }
         true
     }
@@ -272,7 +407,9 @@ impl BlockLu {
     fn solve_parts(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64], wanted: impl Fn(&Part) -> bool) -> f64 {
         let mut largest: f64 = 0.0;
         let n = self.rows.len();
-        let (scaled, block) = self.work.split_at_mut(n);
+        let (scaled, rest) = self.work.split_at_mut(n);
+        let (block, work) = rest.split_at_mut(n);
+        let factors = Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots };
         for part in &self.parts {
             if !wanted(part) {
                 for &column in &self.columns[part.at..part.at + part.size] {
@@ -288,14 +425,13 @@ impl BlockLu {
                 let mut sum = right(row) / self.row_norm[row];
                 for index in self.starts[k]..self.starts[k + 1] {
                     let entry = self.entries[index];
-                    if entry.dense == OUTSIDE {
+                    if entry.place.is_none() {
                         sum -= self.values[index] * scaled[entry.column as usize];
                     }
                 }
                 *b = sum;
             }
-            let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
-            solve_dense(dense, &self.pivots[part.at..part.at + part.size], b);
+            factors.solve(part, b, work);
             for (place, &value) in b.iter().enumerate() {
                 let column = self.columns[part.at + place] as usize;
                 scaled[column] = value;
@@ -310,18 +446,17 @@ impl BlockLu {
     /// Solves the transposed scaled system: `b` by coordinates, `w` by rows.
     fn solve_transposed(&self, b: &[f64], w: &mut [f64]) {
         let n = self.rows.len();
-        let mut rest = b.to_vec();
+        let (mut rest, mut work) = (b.to_vec(), vec![0.0; n]);
         for part in self.parts.iter().rev() {
             let mut block: Vec<f64> =
                 (0..part.size).map(|place| rest[self.columns[part.at + place] as usize]).collect();
-            let dense = &self.dense[part.matrix..part.matrix + part.size * part.size];
-            solve_dense_transposed(dense, &self.pivots[part.at..part.at + part.size], &mut block);
+            self.factors().solve_transposed(part, &mut block, &mut work);
             for (place, &value) in block.iter().enumerate() {
                 let k = part.at + place;
                 w[self.rows[k] as usize] = value;
                 for index in self.starts[k]..self.starts[k + 1] {
                     let entry = self.entries[index];
-                    if entry.dense == OUTSIDE {
+                    if entry.place.is_none() {
                         rest[entry.column as usize] -= self.values[index] * value;
                     }
                 }
@@ -336,10 +471,12 @@ impl BlockLu {
     /// whose pivots are all well above the limit is not looked at.
     pub fn nearness(&mut self, limit: f64) -> f64 {
         let mut nearest = f64::INFINITY;
-        let (left, right) = self.work.split_at_mut(self.rows.len());
+        let (left, rest) = self.work.split_at_mut(self.rows.len());
+        let (right, work) = rest.split_at_mut(self.rows.len());
+        let factors = Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots };
         for part in self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit) {
             let vectors = (&mut left[..part.size], &mut right[..part.size]);
-            nearest = nearest.min(block_singular(&self.dense, &self.pivots, part, vectors));
+            nearest = nearest.min(factors.singular(part, vectors, work));
         }
         nearest
     }
@@ -349,9 +486,10 @@ impl BlockLu {
     pub fn worst(&mut self) -> Singular {
         let n = self.rows.len();
         let mut worst: Option<(usize, Singular)> = None;
+        let mut work = vec![0.0; n];
         for (k, part) in self.parts.iter().enumerate() {
             let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
-            let sigma = block_singular(&self.dense, &self.pivots, part, (&mut left, &mut right));
+            let sigma = self.factors().singular(part, (&mut left, &mut right), &mut work);
             let found = Singular { sigma, left, right };
             if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
                 worst = Some((k, found));
@@ -381,24 +519,65 @@ impl BlockLu {
     }
 }
 
-/// The smallest singular value of a block, with its left and right vectors, by inverse iteration.
-fn block_singular(dense: &[f64], pivots: &[u32], part: &Part, (left, right): (&mut [f64], &mut [f64])) -> f64 {
-    let dense = &dense[part.matrix..part.matrix + part.size * part.size];
-    let pivots = &pivots[part.at..part.at + part.size];
-    for (k, x) in right.iter_mut().enumerate() {
-        *x = 1.0 + 0.1 * (k % 7) as f64;
+impl BlockLu {
+    fn factors(&self) -> Factors<'_> {
+        Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots }
     }
-    let mut sigma = 1.0;
-    for _ in 0..4 {
-        normalize(right);
-        left.copy_from_slice(right);
-        solve_dense_transposed(dense, pivots, left);
-        normalize(left);
-        right.copy_from_slice(left);
-        solve_dense(dense, pivots, right);
-        sigma = 1.0 / normalize(right);
+}
+
+/// The factors of all blocks.
+#[derive(Clone, Copy)]
+struct Factors<'l> {
+    values: &'l [f64],
+    inside: &'l [u32],
+    dense: &'l [f64],
+    pivots: &'l [u32],
+}
+
+impl Factors<'_> {
+    /// Solves within a block: `b` by its rows becomes the solution by its columns.
+    fn solve(self, part: &Part, b: &mut [f64], work: &mut [f64]) {
+        match part.form {
+            Form::Single => b[0] /= self.values[self.inside[part.inside.start] as usize],
+            Form::Planned(plan) => part.plans[plan].solve(&part.slots, b, work),
+            Form::Dense => solve_dense(self.matrix(part), &self.pivots[part.at..part.at + part.size], b),
+        }
     }
-    sigma
+
+    fn solve_transposed(self, part: &Part, b: &mut [f64], work: &mut [f64]) {
+        match part.form {
+            Form::Single => b[0] /= self.values[self.inside[part.inside.start] as usize],
+            Form::Planned(plan) => part.plans[plan].solve_transposed(&part.slots, b, work),
+            Form::Dense => solve_dense_transposed(self.matrix(part), &self.pivots[part.at..part.at + part.size], b),
+        }
+    }
+
+    fn matrix(&self, part: &Part) -> &[f64] {
+        &self.dense[part.matrix..part.matrix + part.size * part.size]
+    }
+
+    /// The smallest singular value of a block, with its left and right vectors, by inverse iteration.
+    fn singular(self, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
+        if part.form == Form::Single {
+            let value = self.values[self.inside[part.inside.start] as usize];
+            (left[0], right[0]) = (value.signum(), 1.0);
+            return value.abs();
+        }
+        for (k, x) in right.iter_mut().enumerate() {
+            *x = 1.0 + 0.1 * (k % 7) as f64;
+        }
+        let mut sigma = 1.0;
+        for _ in 0..4 {
+            normalize(right);
+            left.copy_from_slice(right);
+            self.solve_transposed(part, left, work);
+            normalize(left);
+            right.copy_from_slice(left);
+            self.solve(part, right, work);
+            sigma = 1.0 / normalize(right);
+        }
+        sigma
+    }
 }
 
 /// A smallest singular value with its vectors.

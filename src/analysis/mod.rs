@@ -23,6 +23,7 @@ mod open_loop;
 mod redundancy;
 mod signals;
 mod singular;
+mod sparse;
 mod times;
 mod touch;
 
@@ -60,8 +61,10 @@ pub fn start<'d>(
     t: f64,
     tolerance: f64,
 ) -> Result<Started<'d>, Box<Diagnostic>> {
-    let mut kinematics = Kinematics::new(determined, program, tolerance)?;
+    let mut kinematics = Kinematics::new(determined, program, tolerance);
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
+    kinematics.restore(&state);
+    kinematics.choose_orders();
     Ok(Started { kinematics, state, moved })
 }
 

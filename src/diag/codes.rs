@@ -103,7 +103,6 @@ catalogue! {
         E0502 Error "a mechanism with degrees of freedom left, or too many equations"
         E0503 Error "a part with too many equations beside a part with too few"
         E0504 Error "a start in a singular position"
-        E0505 Error "a closed chain that is too large"
         E0506 Error "equations that are redundant"
         E0507 Error "equations that conflict"
         W0501 Warning "gears or racks that do not fit their radii"

@@ -10,14 +10,6 @@ use crate::math;
 /// Gears may be off by this part of the larger radius.
 const LARGEST_MISFIT: f64 = 1e-6;
 
-pub fn too_large(system: &ConstraintSystem, size: usize, largest: usize) -> Diagnostic {
-    Diagnostic::new(
-        Code::E0505,
-        format!("{size} coordinates have to be solved together; this version solves up to {largest} of them"),
-    )
-    .at(system.span, "one closed chain of bodies")
-}
-
 /// A loop that does not close.
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations[open.at];
