@@ -191,3 +191,47 @@ fn a_parallelogram_goes_through_its_change_points() {
         }
     }
 }
+
+#[test]
+fn a_quotient_whose_slope_grows_is_followed_whatever_the_output_step() {
+    let text = "mechanism pointer {
+        ground { point O = (0, 0) }
+        body b at (0, 0, 45 deg) { point O = (0, 0) point P = (1, 0) }
+        joint pivot: revolute(ground.O, b.O)
+        driver d: x(b.P) / y(b.P) = 1 + 20 * t
+        analysis from 0 to 2 every 0.1
+    }";
+    for every in [0.1, 0.05, 0.03, 0.013] {
+        let rows = run("pointer", text, Span { every: Some(every), to: None }).expect_success();
+        for (t, phi) in rows.column("t").into_iter().zip(rows.column("b.phi")) {
+            assert!((phi - mechc::math::atan2(1.0, 1.0 + 20.0 * t)).abs() < 1e-9, "every {every} at t = {t}: {phi}");
+        }
+    }
+}
+
+#[test]
+fn lazy_tongs_driven_at_their_far_end_are_one_block_and_no_lock_up() {
+    const STAGES: usize = 110;
+    let (sin, cos) = mechc::math::sin_cos(0.5);
+    let mut text = String::from("mechanism tongs { ground { point O = (0, 0) axis floor = O along (1, 0) }\n");
+    for k in 0..STAGES {
+        let y = (k as f64 + 0.5) * sin;
+        for (name, phi) in [("a", 0.5), ("b", -0.5)] {
+            text += &format!(
+                "body {name}{k} at ({}, {y}, {phi}) {{ point L = (-0.5, 0) point M = (0, 0) point R = (0.5, 0) }}\n",
+                0.5 * cos
+            );
+        }
+        text += &format!("joint m{k}: revolute(a{k}.M, b{k}.M)\n");
+        if k > 0 {
+            let below = k - 1;
+            text += &format!("joint l{k}: revolute(b{below}.L, a{k}.L) joint r{k}: revolute(a{below}.R, b{k}.R)\n");
+        }
+    }
+    text += "joint base: revolute(ground.O, a0.L) joint roll: revolute_translational(b0.R, ground.floor)\n";
+    text += &format!("driver lift: angle(a{}) = 0.5 + 0.3 * sin(2 * t) analysis from 0 to 3 every 0.5 }}", STAGES - 1);
+    let rows = run("tongs", &text, Span::default()).expect_success();
+    for (t, phi) in rows.column("t").into_iter().zip(rows.column("a0.phi")) {
+        assert!((phi - 0.5 - 0.3 * mechc::math::sin_cos(2.0 * t).0).abs() < 1e-9, "at t = {t}: {phi}");
+    }
+}

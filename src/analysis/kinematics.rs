@@ -91,13 +91,14 @@ impl<'d> Kinematics<'d> {
         }
     }
 
-    /// Measures the slopes of rows that are bent on both sides of a position, at the time that was set: they are scaled by
-    /// the steepest, so that a slope that vanishes in between makes a singular position. The position must be set anew.
+    /// Measures the slopes of rows that are bent on both sides of a position, at the time that was set: they are scaled by the
+    /// lesser one where it is more than their own, so that a slope that vanishes in between makes a singular position, and one
+    /// that grows beside a pole does not. The position must be set anew.
     pub fn measure_slopes(&mut self, q: &[f64]) {
         for index in 0..self.bent.len() {
             let row = self.bent[index];
-            let mut steepest: f64 = 0.0;
-            for way in [BESIDE, -BESIDE, 0.0] {
+            let mut least = f64::INFINITY;
+            for way in [BESIDE, -BESIDE] {
                 self.beside.copy_from_slice(q);
                 for &(column, _) in self.system().phi_q.row(row) {
                     // no way along which everything cancels
@@ -109,10 +110,10 @@ impl<'d> Kinematics<'d> {
                 let norm = self.slope(row);
                 // where a formula has no value it has no slope
                 if norm.is_finite() {
-                    steepest = steepest.max(norm);
+                    least = least.min(norm);
                 }
             }
-            self.linear.set_least_norm(row, steepest);
+            self.linear.set_least_norm(row, if least.is_finite() { least } else { 0.0 });
         }
     }
 

@@ -14,6 +14,8 @@ use std::ops::Range;
 /// overestimate it by little.
 const PIVOT_MARGIN: f64 = 100.0;
 
+/// Coordinates of a block that is no chain yet.
+const A_FEW: f64 = 24.0;
 /// Larger blocks are never factored densely.
 const LARGEST_DENSE: usize = 100;
 /// Orders of elimination to choose from, so that there is one for most of a motion.
@@ -54,6 +56,12 @@ enum Form {
 }
 
 impl Part {
+    /// How much smaller the singular values of a chain of so many coordinates are than those of a few bodies.
+    fn length_of_chain(&self) -> f64 {
+        let length = self.size as f64 / A_FEW;
+        f64::max(length * length, 1.0)
+    }
+
     fn is_small(&self) -> bool {
         self.size <= LARGEST_DENSE
     }
@@ -257,6 +265,11 @@ impl BlockLu {
     pub fn worst_block(&self) -> Option<usize> {
         let pivot = |k: usize| self.parts[k].smallest_pivot;
         (0..self.parts.len()).min_by(|&a, &b| pivot(a).total_cmp(&pivot(b)))
+    }
+
+    /// Whether all coordinates follow without iteration.
+    pub fn is_explicit(&self) -> bool {
+        self.parts.iter().all(|part| part.explicit)
     }
 
     pub fn blocks(&self) -> usize {
@@ -467,8 +480,9 @@ impl BlockLu {
 
     /// The nearness to a singular position: the smallest singular value of any block, as far as it is below `limit`.
     ///
-    /// Taken by blocks, because a long chain of blocks is badly conditioned without being near to anything. A block
-    /// whose pivots are all well above the limit is not looked at.
+    /// Taken by blocks, because a long chain of blocks is badly conditioned without being near to anything; and so is a long
+    /// chain within a block, whose singular values fall with the square of its length. A block whose pivots are all well
+    /// above the limit is not looked at.
     pub fn nearness(&mut self, limit: f64) -> f64 {
         let mut nearest = f64::INFINITY;
         let (left, rest) = self.work.split_at_mut(self.rows.len());
@@ -476,7 +490,7 @@ impl BlockLu {
         let factors = Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots };
         for part in self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit) {
             let vectors = (&mut left[..part.size], &mut right[..part.size]);
-            nearest = nearest.min(factors.singular(part, vectors, work));
+            nearest = nearest.min(factors.singular(part, vectors, work) * part.length_of_chain());
         }
         nearest
     }
@@ -538,7 +552,7 @@ impl Factors<'_> {
     /// Solves within a block: `b` by its rows becomes the solution by its columns.
     fn solve(self, part: &Part, b: &mut [f64], work: &mut [f64]) {
         match part.form {
-            Form::Single => b[0] /= self.values[self.inside[part.inside.start] as usize],
+            Form::Single => b[0] /= self.single(part),
             Form::Planned(plan) => part.plans[plan].solve(&part.slots, b, work),
             Form::Dense => solve_dense(self.matrix(part), &self.pivots[part.at..part.at + part.size], b),
         }
@@ -546,10 +560,16 @@ impl Factors<'_> {
 
     fn solve_transposed(self, part: &Part, b: &mut [f64], work: &mut [f64]) {
         match part.form {
-            Form::Single => b[0] /= self.values[self.inside[part.inside.start] as usize],
+            Form::Single => b[0] /= self.single(part),
             Form::Planned(plan) => part.plans[plan].solve_transposed(&part.slots, b, work),
             Form::Dense => solve_dense_transposed(self.matrix(part), &self.pivots[part.at..part.at + part.size], b),
         }
+    }
+
+    /// The entry of a block of one equation, which stands for one that vanishes too.
+    fn single(&self, part: &Part) -> f64 {
+        let value = self.values[self.inside[part.inside.start] as usize];
+        if value.abs() < LEAST_PIVOT { LEAST_PIVOT.copysign(value) } else { value }
     }
 
     fn matrix(&self, part: &Part) -> &[f64] {
@@ -559,9 +579,8 @@ impl Factors<'_> {
     /// The smallest singular value of a block, with its left and right vectors, by inverse iteration.
     fn singular(self, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
         if part.form == Form::Single {
-            let value = self.values[self.inside[part.inside.start] as usize];
-            (left[0], right[0]) = (value.signum(), 1.0);
-            return value.abs();
+            (left[0], right[0]) = (self.single(part).signum(), 1.0);
+            return self.single(part).abs();
         }
         for (k, x) in right.iter_mut().enumerate() {
             *x = 1.0 + 0.1 * (k % 7) as f64;

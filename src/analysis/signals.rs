@@ -9,7 +9,7 @@ use crate::program::{Enclosure, Signal};
 const UNSEEN: f64 = 0.03;
 /// A step is looked through in parts no smaller than this one of it, and in so many at most.
 const FINEST: f64 = 1e-6;
-const MOST_PARTS: usize = 400;
+const MOST_PARTS: usize = 100;
 /// How much a signal is changed to learn what it does to the equations, in parts of itself.
 const NUDGE: f64 = 1e-6;
 
@@ -29,7 +29,10 @@ impl Signals {
     pub fn new(kinematics: &mut Kinematics<'_>, state: &State) -> Signals {
         let all = kinematics.signals();
         kinematics.restore(state);
-        let bounds: Vec<f64> = kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| UNSEEN / effect).collect();
+        // what follows without iteration has no branches: there only a formula may end
+        let unseen = if kinematics.linear().is_explicit() { f64::MAX } else { UNSEEN };
+        let bounds: Vec<f64> =
+            kinematics.effects(&all, &state.q, NUDGE).iter().map(|effect| (unseen / effect).min(f64::MAX)).collect();
         let enclosure = kinematics.enclosure_of(&all);
         let n = all.len();
         Signals { all, enclosure, bounds, left: vec![0.0; n], right: vec![0.0; n] }

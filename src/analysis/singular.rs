@@ -10,6 +10,8 @@ use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
 const NEAR: f64 = 1e-2;
 /// A relative curvature below this is taken for none, beside a position that is singular.
 const FLAT: f64 = 1e-3;
+/// A fold is no further off than this part of the span.
+const NEAR_FOLD: f64 = 1e-5;
 /// A part of the largest motion that is worth telling.
 const SEEN: f64 = 1e-3;
 /// A driver takes part in a dependency if its share is above this part of the largest.
@@ -43,7 +45,8 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         return errors::no_contact(system, index, state.t);
     }
     let diagnostic = if singular.sigma < NEAR {
-        let named = name_singular(system, &singular.left, &singular.right, state.t);
+        let named =
+            name_singular(system, &singular.left, &singular.right, time_of_fold(system, state, &singular.right));
         match flat_contact(kinematics) {
             Some(joint) => errors::equal_curvatures(named, system, joint),
             None => named,
@@ -54,6 +57,15 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
     };
     diagnostic.datum("residual", residual)
+}
+
+/// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
+/// as near as steps could come; where it is not, its own time is told.
+fn time_of_fold(system: &ConstraintSystem, state: &State, right: &[f64]) -> f64 {
+    let span = system.analysis.map_or(1.0, |[from, to, _]| to - from);
+    let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
+    let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
+    if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
 }
 
 /// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.

@@ -159,7 +159,10 @@ impl Fault<'_> {
         }
         let connecting = self.connecting_words();
         let declarations = DECLARATIONS.iter().copied();
-        let meant = nearest(self.found, connecting.iter().copied()).or_else(|| nearest(self.found, declarations));
+        // `1 evry 0.1`: the word before was taken for a unit
+        let meant = nearest(self.found, connecting.iter().copied())
+            .or_else(|| nearest(self.word_before(), connecting.iter().copied()))
+            .or_else(|| nearest(self.found, declarations));
         if let Some(word) = meant {
             return Some(format!("was `{word}` meant?"));
         }

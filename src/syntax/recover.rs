@@ -123,7 +123,10 @@ fn begins_declaration(tokens: &[(usize, &str)], k: usize) -> bool {
         return false;
     }
     let is_equation = token(k + 2) == "=" && token(k + 3) != "=";
-    (is_word(token(k + 1)) && (is_equation || [":", "{", "at"].contains(&token(k + 2)))) || token(k + 1) == "from"
+    let is_block = token(k + 1) == "{" && ["{", "}"].contains(&before);
+    is_block
+        || (is_word(token(k + 1)) && (is_equation || [":", "{", "at"].contains(&token(k + 2))))
+        || token(k + 1) == "from"
 }
 
 /// Words of the language that begin no declaration.
