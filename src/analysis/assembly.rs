@@ -24,7 +24,7 @@ const SMALLEST_DAMPING: f64 = 1e-3;
 /// A correction below this leaves nothing to the next one.
 const SETTLED: f64 = 1e-7;
 /// Systems up to this size are assembled as a whole by the least-squares method, larger ones block by block.
-const LARGEST_DENSE: usize = 1000;
+const LARGEST_DENSE: usize = 300;
 /// How far estimates are perturbed, scaled, one attempt after another.
 const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
 /// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.

@@ -128,7 +128,8 @@ fn damped_solution(jacobian: &[f64], residual: &[f64], damping: f64, n: usize) -
         triangle[k * n + k] = damping.sqrt();
     }
     let mut x = vec![0.0; n];
-    for (line, open) in jacobian.chunks_exact(n).zip(residual) {
+    // equations of no coordinate at all have no lines
+    for (line, open) in jacobian.chunks_exact(n.max(1)).zip(residual) {
         let (mut line, mut right) = (line.to_vec(), -open);
         let Some(last) = line.iter().rposition(|&entry| entry != 0.0) else {
             continue;
