@@ -4,12 +4,9 @@
 
 mod support;
 
-use mechc::analysis::{self, Times};
-use mechc::program::Program;
-use mechc::source::Sources;
 use std::f64::consts::TAU;
 use std::fs;
-use support::{Span, compile, run};
+use support::{Span, run};
 
 fn crank_rocker(every: f64, to: f64) -> support::Outcome {
     let text = fs::read_to_string("tests/cases/four_bar.mech").expect("a text");
@@ -153,21 +150,8 @@ fn passing(analysis: &str) -> (Vec<String>, Vec<Vec<f64>>, Vec<f64>) {
             {analysis}
         }}"
     );
-    let mut sources = Sources::default();
-    let (determined, _) = compile(&mut sources, "parallelogram", &text);
-    let determined = determined.expect("determined");
-    let [from, to, every] = determined.system().analysis.expect("an analysis");
-    let times = Times::grid(from, to, every).expect("a grid");
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-    let columns = started.columns();
-    let mut motion = started.motion(times.span());
-    motion.pass_bifurcations();
-    let rows = times.iter().map(|t| motion.row_at(t).expect("it goes on").to_vec()).collect();
-    let remarks = motion.take_remarks();
-    assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
-    let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
-    (columns, rows, passed)
+    let (outcome, passed) = support::passing(&text, None);
+    (outcome.columns, outcome.rows, passed)
 }
 
 #[test]

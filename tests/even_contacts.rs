@@ -4,12 +4,10 @@
 
 mod support;
 
-use mechc::analysis::{self, Times};
 use mechc::math;
-use mechc::program::Program;
 use mechc::source::Sources;
 use std::f64::consts::{PI, TAU};
-use support::{Outcome, Span, compile, run};
+use support::{Span, compile, passing, run};
 
 /// Output steps, coarse and fine (s).
 const STEPS: [f64; 4] = [2.5, 0.5, 0.1, 0.01];
@@ -72,25 +70,6 @@ fn expect_stop(text: &str, every: f64, code: &str, at: f64) {
     assert!(outcome.rows.iter().all(|row| row[0] < at), "every {every}: a row beyond {at}");
 }
 
-/// A run that goes on beyond bifurcations.
-fn passing(text: &str, every: f64) -> (Outcome, Vec<f64>) {
-    let mut sources = Sources::default();
-    let (determined, _) = compile(&mut sources, "text", text);
-    let determined = determined.expect("determined");
-    let [from, to, _] = determined.system().analysis.expect("an analysis");
-    let times = Times::grid(from, to, every).expect("a grid");
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-    let columns = started.columns();
-    let mut motion = started.motion(times.span());
-    motion.pass_bifurcations();
-    let rows = times.iter().map(|t| motion.row_at(t).expect("it goes on").to_vec()).collect();
-    let remarks = motion.take_remarks();
-    assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
-    let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
-    (Outcome { sources, diagnostics: remarks, columns, rows }, passed)
-}
-
 #[test]
 fn a_driver_that_turns_back_gently_in_its_dead_point_is_told_whatever_the_phase() {
     for at in [0.5, 0.7391, 1.0, 1.2, 1.2345, 1.3] {
@@ -104,7 +83,7 @@ fn a_driver_that_turns_back_gently_in_its_dead_point_is_told_whatever_the_phase(
 fn such_a_dead_point_is_passed_where_that_is_wanted() {
     for at in [0.88, 1.12] {
         for every in [2.5, 0.5, 0.25] {
-            let (outcome, passed) = passing(&push(at, 0.0), every);
+            let (outcome, passed) = passing(&push(at, 0.0), Some(every));
             assert!(passed.len() == 1 && (passed[0] - at).abs() < 1e-9, "every {every}: {passed:?}");
             for (t, phi) in outcome.column("t").into_iter().zip(outcome.column("crank.phi")) {
                 assert!((phi - crank(t, at, 0.0)).abs() < 1e-9, "every {every} at t = {t}: {phi}");
@@ -144,7 +123,7 @@ fn change_points_that_coincide_in_one_block_are_told_whatever_the_phase() {
 #[test]
 fn change_points_that_coincide_are_passed_where_that_is_wanted() {
     for every in [2.5, 0.1, 0.01] {
-        let (outcome, passed) = passing(&coupled(1.0, 1.1), every);
+        let (outcome, passed) = passing(&coupled(1.0, 1.1), Some(every));
         assert!(passed.len() == 1 && (passed[0] - (PI - TAU / 6.0) / 1.1).abs() < 1e-9, "every {every}: {passed:?}");
         for body in ["crank", "left", "right"] {
             for (t, phi) in outcome.column("t").into_iter().zip(outcome.column(&format!("{body}.phi"))) {
@@ -167,7 +146,7 @@ fn levers_that_nearly_are_parallelograms_go_through() {
 
 #[test]
 fn rows_beside_a_near_miss_are_those_of_their_times_though_bifurcations_are_passed() {
-    let (outcome, passed) = passing(&push(1.2345, 0.75e-4), 0.01);
+    let (outcome, passed) = passing(&push(1.2345, 0.75e-4), Some(0.01));
     assert!(passed.is_empty(), "{passed:?}");
     for (k, (t, phi)) in outcome.column("t").into_iter().zip(outcome.column("crank.phi")).enumerate() {
         assert!((t - 0.01 * k as f64).abs() < 1e-12, "row {k} is at {t}");

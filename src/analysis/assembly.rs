@@ -267,15 +267,14 @@ fn independent_without(
     free: &[f64],
     t: f64,
 ) -> Option<bool> {
-    kinematics.set_time(t);
-    let rows: Vec<u32> = (0..q.len() as u32).filter(|&row| row as usize != driver).collect();
-    let columns: Vec<u32> = (0..q.len() as u32).collect();
     if q.len() > LARGEST_DENSE {
         return None;
     }
+    kinematics.set_time(t);
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    let rows: Vec<u32> = columns.iter().copied().filter(|&row| row as usize != driver).collect();
     [BESIDE, -BESIDE].into_iter().find_map(|way| {
-        let scale = |k: usize| kinematics.linear().column_scale(k);
-        let mut near: Vec<f64> = (0..q.len()).map(|k| q[k] + way * free[k] * scale(k)).collect();
+        let mut near = moved_along(kinematics, q, free, way);
         levenberg_marquardt(kinematics, &mut near, &rows, &columns);
         independent_where(kinematics, q, &near, &rows)
     })
@@ -283,26 +282,24 @@ fn independent_without(
 
 /// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
 fn independent_beside(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64]) -> Option<bool> {
-    for way in [BESIDE, -BESIDE] {
-        let scale = |k: usize| kinematics.linear().column_scale(k);
-        let start = (0..q.len()).map(|k| q[k] + way * free[k] * scale(k)).collect();
-        if let Some(independent) = independent_at(kinematics, q, start) {
-            return Some(independent);
-        }
-    }
-    None
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let start = moved_along(kinematics, q, free, way);
+        independent_at(kinematics, q, start)
+    })
+}
+
+/// A position moved along a free motion, scaled.
+fn moved_along(kinematics: &Kinematics<'_>, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
+    (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
 }
 
 /// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
 fn independent_later(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Option<bool> {
     let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
-    for part in NEARBY {
+    NEARBY.into_iter().find_map(|part| {
         kinematics.set_time(t + part * span);
-        if let Some(independent) = independent_at(kinematics, q, q.to_vec()) {
-            return Some(independent);
-        }
-    }
-    None
+        independent_at(kinematics, q, q.to_vec())
+    })
 }
 
 /// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.

@@ -5,7 +5,7 @@
 //! are evaluated at that same time, and compared: a position or velocity that jumps has no acceleration, an acceleration
 //! that jumps has two.
 
-use super::GOLDEN;
+use super::aslant;
 use super::errors;
 use super::kinematics::Fault;
 use super::march::Motion;
@@ -335,8 +335,7 @@ impl Motion<'_, '_> {
         let at = |motion: &mut Self, nudge: f64| {
             let linear = motion.kinematics.linear();
             for (k, (middle, q)) in motion.middle.iter_mut().zip(&motion.state.q).enumerate() {
-                // no way along which everything cancels
-                *middle = q + nudge * linear.column_scale(k) * (0.5 + (GOLDEN * k as f64).fract());
+                *middle = q + nudge * linear.column_scale(k) * aslant(k);
             }
             // what is wrong with a position shows where it is solved for
             let _ = motion.kinematics.set_position(&motion.middle);
@@ -344,9 +343,8 @@ impl Motion<'_, '_> {
         };
         let (nudged, here) = (at(self, NUDGE), at(self, 0.0));
         let linear = self.kinematics.linear();
-        let largest =
-            (0..self.state.q.len()).map(|k| self.state.q[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
-        let nothing = f64::max(AT_REST, ROUNDING * f64::EPSILON * largest) * (nudged - here).abs() / NUDGE;
+        let nothing =
+            f64::max(AT_REST, ROUNDING * f64::EPSILON * linear.largest(&self.state.q)) * (nudged - here).abs() / NUDGE;
         off <= nothing && (there - here).abs() <= nothing
     }
 
@@ -385,8 +383,7 @@ impl Motion<'_, '_> {
     /// How long the motion is looked ahead (s).
     fn way_ahead(&self) -> f64 {
         let linear = self.kinematics.linear();
-        let largest = |a: &[f64]| (0..a.len()).map(|k| a[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
-        let (speed, acceleration) = (largest(&self.state.qd), largest(&self.state.qdd));
+        let (speed, acceleration) = (linear.largest(&self.state.qd), linear.largest(&self.state.qdd));
         (AHEAD * self.span).min(FARTHEST_AHEAD / speed).min((FARTHEST_AHEAD / acceleration).sqrt())
     }
 

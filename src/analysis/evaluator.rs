@@ -1,7 +1,7 @@
 //! `Φ` and `Φ_q` of a system that need not be determined, at any position and time: what explains a fault works with these,
 //! and not with the solver.
 
-use super::GOLDEN;
+use super::aslant;
 use super::errors;
 use super::least_squares::{Linear, Values, minimize};
 use crate::ir::{ConstraintSystem, DeclarationKind};
@@ -67,8 +67,8 @@ impl<'s> Evaluator<'s> {
     /// Moves some columns a little, each by another part of its scale.
     pub fn nudge(&mut self, columns: &[u32]) {
         for &column in columns {
-            let part = 0.5 + (GOLDEN * f64::from(column)).fract();
-            self.q[column as usize] += NUDGE * part * self.system.coordinates[column as usize].scale;
+            let column = column as usize;
+            self.q[column] += NUDGE * aslant(column) * self.system.coordinates[column].scale;
         }
     }
 

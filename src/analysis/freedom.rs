@@ -228,11 +228,6 @@ impl Freedom {
             return Vec::new();
         }
         let drawn = Evaluator::new(system);
-        let full_name = |point: usize| {
-            let point = &system.points[point];
-            let owner = point.body.map_or("ground", |body| system.bodies[body].name.as_str());
-            point.name.as_ref().map(|name| format!("{owner}.{name}"))
-        };
         let pinned = pinned_together(system);
         let held = |p: usize, q: usize| {
             let bodies = [system.points[p].body, system.points[q].body];
@@ -261,7 +256,7 @@ impl Freedom {
         }
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
         let text = |&(_, p, q): &(f64, usize, usize)| {
-            Some(format!("`joint NAME: revolute({}, {})`", full_name(p)?, full_name(q)?))
+            Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
         };
         // of points that are pinned together one will do
         let mut told: Vec<[usize; 2]> = Vec::new();

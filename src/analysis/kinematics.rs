@@ -1,6 +1,6 @@
 //! Everything that can be said of one state: residual, correction, velocity, acceleration.
 
-use super::GOLDEN;
+use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
@@ -101,9 +101,8 @@ impl<'d> Kinematics<'d> {
             for way in [BESIDE, -BESIDE] {
                 self.beside.copy_from_slice(q);
                 for &(column, _) in self.system().phi_q.row(row) {
-                    // no way along which everything cancels
-                    let part = 0.5 + (GOLDEN * f64::from(column)).fract();
-                    self.beside[column as usize] += way * part * self.linear.column_scale(column as usize);
+                    let column = column as usize;
+                    self.beside[column] += way * aslant(column) * self.linear.column_scale(column);
                 }
                 self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
                 self.program.run(Stage::Position, &mut self.registers);
@@ -467,12 +466,9 @@ impl<'d> Kinematics<'d> {
                 |(row, &register): (usize, &Register)| self.registers.get(register).abs() / self.linear.row_norm(row);
             right.iter().enumerate().map(scaled).fold(0.0, f64::max)
         };
-        let largest = |left: &[f64]| {
-            left.iter().enumerate().map(|(k, x)| x.abs() / self.linear.column_scale(k)).fold(0.0, f64::max)
-        };
         let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-        let velocity = ratio(largest(&state.qd), largest_right(&outputs.nu));
-        let acceleration = ratio(largest(&state.qdd), largest_right(&outputs.gamma));
+        let velocity = ratio(self.linear.largest(&state.qd), largest_right(&outputs.nu));
+        let acceleration = ratio(self.linear.largest(&state.qdd), largest_right(&outputs.gamma));
         velocity.max(acceleration).max(1.0)
     }
 

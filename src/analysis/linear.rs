@@ -5,6 +5,8 @@
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
 use super::GOLDEN;
+use super::dense::{factor_dense, solve_dense, solve_dense_transposed};
+use super::determinant::Determinant;
 use super::sparse::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT, Plan};
 use crate::ir::ConstraintSystem;
 use crate::structure::Block;
@@ -20,11 +22,6 @@ const A_FEW: f64 = 24.0;
 const LARGEST_DENSE: usize = 100;
 /// Orders of elimination to choose from, so that there is one for most of a motion.
 const PLANS: u32 = 4;
-
-/// 2^-256: a determinant below it is told in units of it, since that of a large block would underflow.
-const UNIT: f64 = 1.0 / UNITS;
-/// 2^256.
-const UNITS: f64 = (1_u128 << 127) as f64 * (1_u128 << 127) as f64 * 4.0;
 
 /// One irreducible block with its place in the common storage.
 struct Part {
@@ -64,41 +61,6 @@ impl Part {
 
     fn is_small(&self) -> bool {
         self.size <= LARGEST_DENSE
-    }
-}
-
-/// The determinant of a block whose rows have unit norm: at most 1, and smooth along a motion.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Determinant {
-    /// In units of `UNIT` to the power of `units`.
-    value: f64,
-    units: u32,
-}
-
-impl Determinant {
-    pub const ONE: Determinant = Determinant { value: 1.0, units: 0 };
-
-    pub fn is_positive(self) -> bool {
-        self.value.is_sign_positive()
-    }
-
-    /// Its value, measured such that that of `other` is neither too large nor too small for it.
-    pub fn beside(self, other: Determinant) -> f64 {
-        match i64::from(self.units) - i64::from(other.units) {
-            0 => self.value,
-            1 => self.value * UNIT,
-            -1 => self.value * UNITS,
-            smaller if smaller > 0 => 0.0,
-            _ => f64::INFINITY.copysign(self.value),
-        }
-    }
-
-    fn multiply(&mut self, pivot: f64) {
-        self.value *= pivot;
-        if self.value.abs() < UNIT {
-            self.value *= UNITS;
-            self.units += 1;
-        }
     }
 }
 
@@ -410,6 +372,11 @@ impl BlockLu {
         self.solve_parts(right, x, |part| part.explicit)
     }
 
+    /// The largest scaled `|x|` of all coordinates.
+    pub fn largest(&self, x: &[f64]) -> f64 {
+        x.iter().zip(&self.column_scale).map(|(x, scale)| x.abs() / scale).fold(0.0, f64::max)
+    }
+
     /// The largest scaled `|x|` of the coordinates that need iteration.
     pub fn largest_implicit(&self, x: &[f64]) -> f64 {
         let implicit = self.parts.iter().filter(|part| !part.explicit);
@@ -616,83 +583,4 @@ fn normalize(v: &mut [f64]) -> f64 {
         }
     }
     norm
-}
-
-/// LU with partial pivoting in place, row by row; gives the smallest pivot.
-fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {
-    let mut smallest = f64::INFINITY;
-    for k in 0..n {
-        let mut best = k;
-        for i in k + 1..n {
-            if a[i * n + k].abs() > a[best * n + k].abs() {
-                best = i;
-            }
-        }
-        pivots[k] = best as u32;
-        if best != k {
-            let (upper, lower) = a.split_at_mut(best * n);
-            upper[k * n..k * n + n].swap_with_slice(&mut lower[..n]);
-        }
-        let (upper, lower) = a.split_at_mut((k + 1) * n);
-        let pivot_row = &mut upper[k * n..];
-        let pivot = pivot_row[k];
-        // a pivot that is not a number must win
-        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
-        if pivot.abs() < LEAST_PIVOT {
-            pivot_row[k] = LEAST_PIVOT.copysign(pivot);
-        }
-        let pivot = pivot_row[k];
-        for row in lower.chunks_exact_mut(n) {
-            let factor = row[k] / pivot;
-            row[k] = factor;
-            if factor != 0.0 {
-                for (x, p) in row[k + 1..].iter_mut().zip(&pivot_row[k + 1..]) {
-                    *x -= factor * p;
-                }
-            }
-        }
-    }
-    smallest
-}
-
-fn solve_dense(a: &[f64], pivots: &[u32], b: &mut [f64]) {
-    let n = b.len();
-    for (k, &pivot) in pivots.iter().enumerate() {
-        b.swap(k, pivot as usize);
-    }
-    for i in 0..n {
-        let mut sum = b[i];
-        for k in 0..i {
-            sum -= a[i * n + k] * b[k];
-        }
-        b[i] = sum;
-    }
-    for i in (0..n).rev() {
-        let mut sum = b[i];
-        for k in i + 1..n {
-            sum -= a[i * n + k] * b[k];
-        }
-        b[i] = sum / a[i * n + i];
-    }
-}
-
-fn solve_dense_transposed(a: &[f64], pivots: &[u32], b: &mut [f64]) {
-    let n = b.len();
-    for i in 0..n {
-        let mut sum = b[i];
-        for k in 0..i {
-            sum -= a[k * n + i] * b[k];
-        }
-        b[i] = sum / a[i * n + i];
-    }
-    for i in (0..n).rev() {
-        let mut sum = b[i];
-        for k in i + 1..n {
-            sum -= a[k * n + i] * b[k];
-        }
-        b[i] = sum;
-    }
-    for k in (0..n).rev() {
-        b.swap(k, pivots[k] as usize);
-    }
 }

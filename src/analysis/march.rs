@@ -6,10 +6,10 @@
 
 use super::GOLDEN;
 use super::bridge::Bridge;
+use super::determinant::Determinant;
 use super::edges::{Edge, Restless, behind_start};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
-use super::linear::Determinant;
 use super::signals::Signals;
 use super::singular;
 use super::touch::Before;
@@ -488,15 +488,14 @@ impl<'m, 'd> Motion<'m, 'd> {
                 let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
                 (0..a.len()).map(scaled).fold(0.0, f64::max)
             };
-            let largest = |a: &[f64]| (0..a.len()).map(|k| a[k].abs() / linear.column_scale(k)).fold(0.0, f64::max);
             // a motion that begins and ends at rest within the step is fast between
             let swing = |k: usize| (b.q[k] - a.q[k] - 0.5 * h * (a.qd[k] + b.qd[k])).abs() / linear.column_scale(k);
             let swing = (0..a.q.len()).map(swing).fold(0.0, f64::max);
             let (faster, harder) = (2.0 * swing / h, 6.0 * swing / (h * h));
             self.velocity_change = f64::max(change(&a.qd, &b.qd) / h, harder);
             self.acceleration_change = f64::max(change(&a.qdd, &b.qdd) / h, 6.0 * harder / h);
-            self.fastest = self.fastest.max(largest(&b.qd)).max(faster);
-            self.hardest = self.hardest.max(largest(&b.qdd)).max(harder);
+            self.fastest = self.fastest.max(linear.largest(&b.qd)).max(faster);
+            self.hardest = self.hardest.max(linear.largest(&b.qdd)).max(harder);
         }
         self.state.copy_from(&self.trial);
         self.kinematics.measure_slopes(&self.state.q);

@@ -10,6 +10,8 @@
 
 mod assembly;
 mod bridge;
+mod dense;
+mod determinant;
 mod determine;
 mod edges;
 mod errors;
@@ -44,6 +46,11 @@ pub const TOLERANCE: f64 = 1e-12;
 /// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
+/// How far a coordinate goes where all are moved at once, from 0.5 to 1.5: another way for each, so that nothing cancels.
+fn aslant(column: usize) -> f64 {
+    0.5 + (GOLDEN * column as f64).fract()
+}
+
 /// A mechanism that is assembled at its first time, in a position of full rank.
 pub struct Started<'d> {
     kinematics: Kinematics<'d>,
@@ -63,7 +70,7 @@ pub fn start<'d>(
 ) -> Result<Started<'d>, Box<Diagnostic>> {
     let mut kinematics = Kinematics::new(determined, program, tolerance);
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
-    kinematics.restore(&state);
+    // by the position at the start, which is what was factored last
     kinematics.choose_orders();
     Ok(Started { kinematics, state, moved })
 }

@@ -5,8 +5,8 @@
 //! meets zero before it does. Only a step on which that happens is looked into.
 
 use super::GOLDEN;
+use super::determinant::Determinant;
 use super::kinematics::Fault;
-use super::linear::Determinant;
 use super::march::Motion;
 
 /// A determinant that falls within a step to this part of its lesser value at the ends may touch zero there. Shorter steps

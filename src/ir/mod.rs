@@ -402,6 +402,14 @@ impl ConstraintSystem {
         }
     }
 
+    /// How a point is written, `rod.pin`; a literal one has no name.
+    #[must_use]
+    pub fn point_name(&self, point: usize) -> Option<String> {
+        let point = &self.points[point];
+        let owner = point.body.map_or("ground", |body| self.bodies[body].name.as_str());
+        point.name.as_ref().map(|name| format!("{owner}.{name}"))
+    }
+
     /// The name of the body or joint that a coordinate is of.
     #[must_use]
     pub fn owner_name(&self, coordinate: usize) -> &str {

@@ -160,6 +160,25 @@ fn follow(
     result
 }
 
+/// A run that goes on beyond bifurcations, with another output step if one is given; and the times of those it has passed (s).
+pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
+    let mut sources = Sources::default();
+    let (determined, _) = compile(&mut sources, "text", text);
+    let determined = determined.expect("determined");
+    let [from, to, step] = determined.system().analysis.expect("an analysis");
+    let times = Times::grid(from, to, every.unwrap_or(step)).expect("a grid");
+    let program = Program::new(determined.system());
+    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
+    let columns = started.columns();
+    let mut motion = started.motion(times.span());
+    motion.pass_bifurcations();
+    let rows = times.iter().map(|t| motion.row_at(t).expect("it goes on").to_vec()).collect();
+    let remarks = motion.take_remarks();
+    assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
+    let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
+    (Outcome { sources, diagnostics: remarks, columns, rows }, passed)
+}
+
 /// All files below a folder with an ending, in order.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();

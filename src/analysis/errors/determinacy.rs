@@ -132,10 +132,10 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
             (CoordinateKind::Length, [a, b]) => {
                 format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
             }
-            (_, [_, b]) if point_name(system, declaration.points[0]).is_some() => format!(
+            (_, [_, b]) if system.point_name(declaration.points[0]).is_some() => format!(
                 "let `{name}` hold a point on the axis, and not the angle too: \
                  `joint {name}: revolute_translational({}, {b})`",
-                point_name(system, declaration.points[0]).unwrap_or_default()
+                system.point_name(declaration.points[0]).unwrap_or_default()
             ),
             _ => format!(
                 "let `{name}` hold a point on the axis, and not the angle too: \
@@ -143,19 +143,12 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
             ),
         },
         DeclarationKind::Joint("weld") => {
-            let names: Option<Vec<String>> = declaration.points.iter().map(|&k| point_name(system, k)).collect();
+            let names: Option<Vec<String>> = declaration.points.iter().map(|&k| system.point_name(k)).collect();
             let points = names.map_or("P, Q".to_owned(), |names| names.join(", "));
             format!("let `{name}` hold the point, and not the angle too: `joint {name}: revolute({points})`")
         }
         _ => whole,
     }
-}
-
-/// How a point is written; a literal one is not.
-fn point_name(system: &ConstraintSystem, point: usize) -> Option<String> {
-    let point = &system.points[point];
-    let owner = point.body.map_or("ground", |body| system.bodies[body].name.as_str());
-    point.name.as_ref().map(|name| format!("{owner}.{name}"))
 }
 
 /// A link of two pins, one of which is a redundant joint: its length is what says nothing new, so let the pin slide along it.
@@ -178,7 +171,7 @@ fn sliding_pin(system: &ConstraintSystem, index: usize) -> Option<String> {
             "let its pin slide along `{body}`: write `axis {0}_slot = {from} to {to}` in `{body}`, \
              and `joint {0}: revolute_translational({1}, {body}.{0}_slot)`",
             joint.name,
-            point_name(system, other)?
+            system.point_name(other)?
         ))
     })
 }
