@@ -9,7 +9,7 @@
 //! 10 Mitem/s are 100 ns. The ratios between the benches hold from machine to machine, the figures do not.
 //!
 //! - `closed_form`, by hand, is the floor;
-//! - `mechc` is the library: compiled, assembled, then followed by `row_at`;
+//! - `mechc` is the library: compiled, assembled, then followed by `next_row`;
 //! - `dense_newton` is what one writes first: Φ, Φ_q, ν, γ by hand, 9×9, a dense LU per iteration, each Newton from the
 //!   last position;
 //! - `dense_newton_predicted` starts it from Taylor's predictor instead.
@@ -20,7 +20,7 @@
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
-use mechc::analysis::{self, Started, TOLERANCE};
+use mechc::analysis::{self, Started, TOLERANCE, Times};
 use mechc::math;
 use mechc::program::Program;
 use mechc::source::Sources;
@@ -59,11 +59,12 @@ fn agree() {
     let determined = compiled();
     let program = Program::new(determined.system());
     let mut started = started(&determined, &program);
-    let mut motion = started.motion(PI);
+    let every = Times::listed(0.0, times().collect());
+    let mut motion = started.motion(&every);
     let (mut plain, mut predicted) = (Newton::new(false), Newton::new(true));
     for t in times() {
         let want = closed_form(t);
-        let row = motion.row_at(t).expect("it moves");
+        let row = motion.next_row().expect("a row").expect("it moves");
         for (name, got) in [("mechc", &row[1..]), ("plain", &plain.step(t)), ("predicted", &predicted.step(t))] {
             assert_eq!(got.len(), want.len());
             for (k, (a, b)) in got.iter().zip(&want).enumerate() {
@@ -91,11 +92,12 @@ fn started<'d>(determined: &'d Determined, program: &'d Program) -> Started<'d> 
 fn library(bencher: Bencher) {
     let determined = compiled();
     let program = Program::new(determined.system());
+    let every = Times::listed(0.0, times().collect());
     bencher.counter(ItemsCount::new(STEPS)).with_inputs(|| started(&determined, &program)).bench_local_refs(
         |started| {
-            let mut motion = started.motion(PI);
-            for t in times() {
-                black_box(motion.row_at(black_box(t)).expect("it moves"));
+            let mut motion = started.motion(&every);
+            while let Some(row) = motion.next_row() {
+                black_box(row.expect("it moves"));
             }
         },
     );

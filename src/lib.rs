@@ -34,6 +34,8 @@ pub mod structure;
 
 pub mod program;
 
+pub mod solver;
+
 pub mod analysis;
 
 pub mod emit;
@@ -54,7 +56,7 @@ use syntax::ast;
 /// said of it.
 ///
 /// ```
-/// use mechc::{analysis, check::Surroundings, program::Program, source::Sources, syntax};
+/// use mechc::{analysis::{self, Times}, check::Surroundings, program::Program, source::Sources, syntax};
 ///
 /// let mut sources = Sources::default();
 /// let file = sources.add("disc.mech", "
@@ -69,7 +71,7 @@ use syntax::ast;
 /// let determined = determined.expect("it is determined");
 /// let program = Program::new(determined.system());
 /// let mut started = analysis::start(&determined, &program, 0.0, analysis::TOLERANCE).expect("it assembles");
-/// let row = started.motion(1.0).row_at(1.0).expect("it moves").to_vec();
+/// let row = started.motion(&Times::listed(0.0, vec![1.0])).next_row().expect("a row").expect("it moves").to_vec();
 /// assert_eq!(row[3], std::f64::consts::FRAC_PI_2);
 /// ```
 #[must_use]

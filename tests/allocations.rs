@@ -60,11 +60,11 @@ fn follow(name: &str, text: &str) {
             let times = times.expect("a grid");
             let program = Program::new(determined.system());
             let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-            let mut motion = started.motion(times.span());
+            let mut motion = started.motion(&times);
             let mut sum = 0.0;
             assert_no_alloc(|| {
-                for t in times.iter() {
-                    match motion.row_at(t) {
+                while let Some(row) = motion.next_row() {
+                    match row {
                         Ok(row) => sum += row[1],
                         Err(_) => sum = f64::NAN,
                     }

@@ -4,7 +4,7 @@ pub mod generate;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 
-use mechc::analysis::{self, Started};
+use mechc::analysis::{self, Started, Times};
 use mechc::check::{self, Surroundings};
 use mechc::diag::{Color, Diagnostic, Format, render};
 use mechc::emit;
@@ -171,11 +171,13 @@ fn rows(
 ) -> usize {
     let (begun, span, columns) = (Instant::now(), to - from, started.columns());
     assert!(started.conditioning() > 0.0, "started in a singular position");
-    let mut motion = started.motion(span);
+    let times = PARTS.map(|part| if part == 1.0 { to } else { from + part * span });
+    let times = Times::listed(from, times.to_vec());
+    let mut motion = started.motion(&times);
     let mut known = 0;
-    for part in PARTS {
-        let t = if part == 1.0 { to } else { from + part * span };
-        match motion.row_at(t) {
+    while let Some(row) = motion.next_row() {
+        let t = times.at(known as u64);
+        match row {
             Ok(row) => {
                 assert_eq!(row.len(), columns.len(), "a row is as long as its header");
                 assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");

@@ -67,7 +67,7 @@ pub(super) struct Edge {
     /// Where both sides are evaluated (s).
     pub t: f64,
     /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
-    after: Option<f64>,
+    pub after: Option<f64>,
 }
 
 /// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left

@@ -4,6 +4,7 @@ use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
+use crate::solver::{Solver, Values};
 use crate::structure::Determined;
 
 /// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
@@ -336,6 +337,23 @@ impl<'d> Kinematics<'d> {
         joints.filter_map(|owner| system.coordinates.iter().position(|c| c.owner == owner)).collect()
     }
 
+    /// What solves for rows, in orders that suit the position that was factored; none where it would be too large.
+    pub fn solver(&self) -> Option<Solver> {
+        Solver::new(self.determined, self.program, self)
+    }
+
+    /// The program with its registers, whose switches stand as they are in this step.
+    pub fn program(&self) -> (&'d Program, &Registers) {
+        (self.program, &self.registers)
+    }
+
+    /// By row, one over what may be left of it where Φ_q was factored.
+    pub fn write_bounds(&self, bounds: &mut [f64]) {
+        for (row, bound) in bounds.iter_mut().enumerate() {
+            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row));
+        }
+    }
+
     /// Chooses the orders of elimination by the position that was factored. Allocates.
     pub fn choose_orders(&mut self) {
         self.linear.choose_orders();
@@ -557,6 +575,18 @@ impl<'d> Kinematics<'d> {
     /// The most nearly singular block where Φ_q was factored.
     pub fn worst(&mut self) -> Singular {
         self.linear.worst()
+    }
+}
+
+impl Values for Kinematics<'_> {
+    fn entry(&self, position: usize) -> f64 {
+        let pattern = &self.system().phi_q;
+        let column = pattern.entries()[position].0 as usize;
+        self.phi_q(position) * self.linear.column_scale(column) / self.linear.row_norm(pattern.row_of(position))
+    }
+
+    fn row_norm(&self, row: usize) -> f64 {
+        self.linear.row_norm(row)
     }
 }
 

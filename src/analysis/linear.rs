@@ -7,8 +7,9 @@
 use super::GOLDEN;
 use super::dense::{factor_dense, solve_dense, solve_dense_transposed};
 use super::determinant::Determinant;
-use super::sparse::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT, Plan};
+use super::sparse::Plan;
 use crate::ir::ConstraintSystem;
+use crate::solver::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT};
 use crate::structure::Block;
 use std::ops::Range;
 
@@ -266,7 +267,7 @@ impl BlockLu {
     fn entries_of(&self, part: &Part) -> Vec<BlockEntry> {
         let entry = |index: &u32| {
             let (row, column) = self.entries[*index as usize].place?;
-            Some(BlockEntry { row, column, value: self.values[*index as usize] })
+            Some(BlockEntry { row, column, value: self.values[*index as usize], is_number: false })
         };
         self.inside[part.inside.clone()].iter().filter_map(entry).collect()
     }

@@ -8,13 +8,15 @@ use super::GOLDEN;
 use super::bridge::Bridge;
 use super::determinant::Determinant;
 use super::edges::{Edge, Restless, behind_start};
-use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
+use super::rows::Output;
 use super::signals::Signals;
 use super::singular;
+use super::times::Times;
 use super::touch::Before;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
+use crate::solver::Solver;
 
 /// Largest first correction of a step, scaled.
 const LARGEST_CORRECTION: f64 = 0.05;
@@ -29,7 +31,7 @@ const SETTLED: f64 = 1e-7;
 /// Nearer to a singular position than this more digits are needed.
 const ILL: f64 = 0.01;
 /// Steps over the whole span at least, so that what happens in it is met.
-const FEWEST_STEPS: f64 = 64.0;
+pub(super) const FEWEST_STEPS: f64 = 64.0;
 /// Smallest step, as a part of the whole span.
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
@@ -37,9 +39,7 @@ const NEAREST: f64 = 1e-6;
 /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
 const ACCURACY: f64 = 1e-9;
 /// Steps from one output time to the next at most: what takes more is not meant.
-const MOST_STEPS: u64 = 1_000_000;
-/// Steps that are tried behind a row that cannot be printed, to tell why.
-const STEPS_AHEAD: usize = 1_000;
+pub(super) const MOST_STEPS: u64 = 1_000_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 #[allow(clippy::struct_excessive_bools)] // what has begun, what is wanted, what the row is worth: nothing of them follows from another
@@ -100,32 +100,30 @@ pub struct Motion<'m, 'd> {
     largest: f64,
     /// Where the last step was looked into, from 0 to 1.
     probe: f64,
-    begun: bool,
+    pub(super) begun: bool,
     /// Whether the row holds digits, and not rounding.
-    is_certain: bool,
+    pub(super) is_certain: bool,
     /// Whether it is near a position that may be a bifurcation to pass.
-    is_near: bool,
+    pub(super) is_near: bool,
     pub(super) row: Vec<f64>,
-}
-
-/// What a motion goes back to where it was only looked ahead.
-struct Bookmark {
-    state: State,
-    clear: State,
-    determinants: Vec<Determinant>,
-    sides: Vec<bool>,
-    met: Option<Edge>,
-    h: f64,
+    pub(super) output: Output<'m>,
 }
 
 /// How well a step went.
-struct Accepted {
+pub(super) struct Accepted {
     first_correction: f64,
     between: f64,
 }
 
 impl<'m, 'd> Motion<'m, 'd> {
-    pub(super) fn new(kinematics: &'m mut Kinematics<'d>, state: &'m mut State, span: f64) -> Motion<'m, 'd> {
+    pub(super) fn new(
+        kinematics: &'m mut Kinematics<'d>,
+        state: &'m mut State,
+        solver: Option<&'m Solver>,
+        times: Times,
+    ) -> Motion<'m, 'd> {
+        let span = times.span();
+        let output = Output::new(kinematics, state, solver, times);
         let n = state.q.len();
         let blocks = kinematics.linear().blocks();
         let watches = kinematics.system().watches.len();
@@ -172,6 +170,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             is_certain: true,
             is_near: false,
             row: vec![0.0; kinematics.row_length()],
+            output,
             kinematics,
             state,
         }
@@ -182,45 +181,8 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.pass = true;
     }
 
-    /// Goes on to time `t` (s), not before the last one, and gives its row, in the order of `Started::columns`.
-    ///
-    /// # Errors
-    /// Why and where the motion cannot go on.
-    pub fn row_at(&mut self, t: f64) -> Result<&[f64], Box<Diagnostic>> {
-        if !self.begun {
-            self.begin()?;
-        }
-        if let Some(row) = self.row_on_bridge(t) {
-            row?;
-            return self.checked_row(t);
-        }
-        if t <= self.state.t {
-            self.row_at_rest()?;
-        }
-        self.last = self.last.max(t);
-        let mut steps = 0;
-        while self.state.t < t {
-            steps += 1;
-            if steps > MOST_STEPS {
-                return Err(Box::new(singular::explain_haste(self.kinematics, self.state, MOST_STEPS, t)));
-            }
-            self.step_towards(t)?;
-        }
-        if let Some(row) = self.row_on_bridge(t) {
-            row?;
-        } else if !self.is_certain || self.is_near {
-            self.look_ahead(t)?;
-        }
-        self.checked_row(t)
-    }
-
-    /// The row, if it holds numbers alone.
-    fn checked_row(&mut self, t: f64) -> Result<&[f64], Box<Diagnostic>> {
-        if self.row.iter().all(|value| value.is_finite()) { Ok(&self.row) } else { Err(Box::new(self.explain_row(t))) }
-    }
-
     /// A step, as far as the error and the next edge allow.
-    fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         let left = t - self.state.t;
         // no crumb at the end
         let next = if self.h >= 0.999 * left { t } else { self.state.t + self.h };
@@ -235,12 +197,19 @@ impl<'m, 'd> Motion<'m, 'd> {
                 self.accept(h, &accepted);
                 edge.map_or(Ok(()), |edge| self.cross(edge))
             }
-            Err(Fault::Edge { t, switch }) if self.rests_on_edge(switch) => {
+            Err(fault) => self.give_way(h, fault, t),
+        }
+    }
+
+    /// What there is to do where a step of length `h` on the way to `target` was refused.
+    pub(super) fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+        match fault {
+            Fault::Edge { t, switch } if self.rests_on_edge(switch) => {
                 self.leave_alone(switch, t);
                 Ok(())
             }
-            Err(Fault::Edge { t, .. }) if self.locate(t) => Ok(()),
-            Err(fault) => self.shorten(h, fault, t),
+            Fault::Edge { t, .. } if self.locate(t) => Ok(()),
+            fault => self.shorten(h, fault, target),
         }
     }
 
@@ -249,69 +218,8 @@ impl<'m, 'd> Motion<'m, 'd> {
         std::mem::take(&mut self.remarks)
     }
 
-    /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
-    fn explain_row(&mut self, t: f64) -> Diagnostic {
-        let column = self.row.iter().position(|value| !value.is_finite()).unwrap_or(0);
-        errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
-    }
-
-    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
-    /// that is passed, and then the row lies on the way over it.
-    fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
-        let ahead = t + self.span / FEWEST_STEPS;
-        let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
-        for _ in 0..STEPS_AHEAD {
-            match self.step_towards(ahead) {
-                // what comes behind the row does not concern it
-                Err(_) if is_certain => break,
-                stepped => stepped?,
-            }
-            if let Some(row) = self.row_on_bridge(t) {
-                return row;
-            }
-            // a step that failed leaves the factors of where it failed
-            self.kinematics.restore(self.state);
-            if self.state.t >= ahead || (is_certain && self.state.t > t && self.is_clear()) {
-                break;
-            }
-        }
-        // the next row lies before what was looked at
-        self.go_back(here);
-        if is_certain {
-            self.row = row;
-            return Ok(());
-        }
-        let singular = self.kinematics.worst();
-        Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
-    }
-
-    /// What the next step begins from.
-    fn bookmark(&self) -> Bookmark {
-        Bookmark {
-            state: self.state.clone(),
-            clear: self.clear.clone(),
-            determinants: self.determinants.clone(),
-            sides: self.sides.clone(),
-            met: self.met,
-            h: self.h,
-        }
-    }
-
-    fn go_back(&mut self, to: Bookmark) {
-        self.state.copy_from(&to.state);
-        self.clear.copy_from(&to.clear);
-        (self.sides, self.met, self.h) = (to.sides, to.met, to.h);
-        if !self.kinematics.switches().is_empty() {
-            self.settle(Some(behind_start(self.state.t, self.span)));
-        }
-        self.kinematics.restore(self.state);
-        self.begin_determinants();
-        // as they were accepted, should the position be so near to a singular one that they are rounding
-        self.determinants = to.determinants;
-    }
-
     /// Derivatives at the start.
-    fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
         self.begun = true;
         self.kinematics.restore(self.state);
         if !self.kinematics.switches().is_empty() {
@@ -328,23 +236,19 @@ impl<'m, 'd> Motion<'m, 'd> {
         Ok(())
     }
 
-    fn explain_start(&mut self, fault: Fault) -> Diagnostic {
+    pub(super) fn explain_start(&mut self, fault: Fault) -> Diagnostic {
         let t = self.state.t;
         singular::explain(self.kinematics, self.state, fault, 0.0, t)
     }
 
-    /// The row of the state that has been reached already: the start.
-    fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
-        self.kinematics.restore(self.state);
-        match self.kinematics.derivatives(self.state).and_then(|()| Self::trustworthy(self.kinematics, self.state)) {
-            Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
-            Err(fault) => return Err(Box::new(self.explain_start(fault))),
-        }
-        Ok(())
-    }
-
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
-    fn try_step(&mut self, h: f64, t: f64, wanted: bool, to_edge_of_motion: bool) -> Result<Accepted, Fault> {
+    pub(super) fn try_step(
+        &mut self,
+        h: f64,
+        t: f64,
+        wanted: bool,
+        to_edge_of_motion: bool,
+    ) -> Result<Accepted, Fault> {
         let motion = self.predict(h, t)?;
         let first_correction = self.correct()?;
         if !to_edge_of_motion && let Some(switch) = self.edge_met() {
@@ -439,7 +343,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// What is printed must not be rounding: `q` is known to eps/σ, and a position that is wrong by so much has
     /// derivatives that are wrong by as much again as the equations amplify, which near a dead point is 1/σ too.
-    fn trustworthy(kinematics: &mut Kinematics<'_>, state: &State) -> Result<(), Fault> {
+    pub(super) fn trustworthy(kinematics: &mut Kinematics<'_>, state: &State) -> Result<(), Fault> {
         let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
         if uncertain > ACCURACY { Err(Fault::Uncertain) } else { Ok(()) }
@@ -481,7 +385,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
     }
 
-    fn accept(&mut self, h: f64, accepted: &Accepted) {
+    pub(super) fn accept(&mut self, h: f64, accepted: &Accepted) {
         if !self.kinematics.switches().is_empty() {
             let (a, b, linear) = (&*self.state, &self.trial, self.kinematics.linear());
             let change = |a: &[f64], b: &[f64]| {
@@ -511,7 +415,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
     }
 
-    fn shorten(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn shorten(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
         self.h = 0.5 * h;
         let vanishes = self.state.t + self.h <= self.state.t;
         if self.h < self.smallest || vanishes {

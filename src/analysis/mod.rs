@@ -23,6 +23,7 @@ mod linear;
 mod march;
 mod open_loop;
 mod redundancy;
+mod rows;
 mod signals;
 mod singular;
 mod sparse;
@@ -37,6 +38,7 @@ pub use times::Times;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
 use crate::program::Program;
+use crate::solver::Solver;
 use crate::structure::Determined;
 use kinematics::{Kinematics, State};
 
@@ -56,6 +58,8 @@ pub struct Started<'d> {
     kinematics: Kinematics<'d>,
     state: State,
     moved: Moved,
+    /// What solves for the rows; none where it would be too large.
+    solver: Option<Solver>,
 }
 
 /// Assembles a mechanism at time `t` (s).
@@ -72,7 +76,8 @@ pub fn start<'d>(
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
-    Ok(Started { kinematics, state, moved })
+    let solver = kinematics.solver();
+    Ok(Started { kinematics, state, moved, solver })
 }
 
 impl<'d> Started<'d> {
@@ -111,10 +116,10 @@ impl<'d> Started<'d> {
         columns(self.kinematics.system())
     }
 
-    /// The motion from the start on, over a span of time (s) that the steps are measured against.
+    /// The motion from the start on, a row for each of some times, which do not come before the start.
     #[must_use]
-    pub fn motion(&mut self, span: f64) -> Motion<'_, 'd> {
-        Motion::new(&mut self.kinematics, &mut self.state, span)
+    pub fn motion(&mut self, times: &Times) -> Motion<'_, 'd> {
+        Motion::new(&mut self.kinematics, &mut self.state, self.solver.as_ref(), times.clone())
     }
 }
 

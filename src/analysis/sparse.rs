@@ -2,16 +2,8 @@
 //! value is. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); whether they still are large
 //! enough is watched at every factorisation.
 
+use crate::solver::{BlockEntry, LEAST_PIVOT, Order};
 use rustc_hash::FxHashMap;
-
-/// A pivot is at least this part of the largest entry in its column, where it is chosen.
-const THRESHOLD: f64 = 0.25;
-/// No multiplier may grow beyond this, or digits are lost.
-pub(super) const LARGEST_MULTIPLIER: f64 = 16.0;
-/// What stands for a pivot that vanishes, so that the vectors of a singular block can be computed.
-pub(super) const LEAST_PIVOT: f64 = 1e-18;
-/// Rows among which a pivot is looked for.
-const CANDIDATES: usize = 4;
 
 /// An order of elimination with its operations. Positions count pivots in their order.
 #[derive(Clone, Debug)]
@@ -38,22 +30,51 @@ pub(super) struct Plan {
     pivots: Vec<u32>,
 }
 
-/// An entry of a block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct BlockEntry {
-    pub row: u32,
-    pub column: u32,
-    pub value: f64,
-}
-
 impl Plan {
-    /// A good order for a block of size `n` with these values, whose pattern must not be singular.
+    /// A good order for a block of size `n` with these values, whose pattern must not be singular, laid out.
     pub fn new(n: usize, entries: &[BlockEntry]) -> Plan {
-        let mut elimination = Elimination::new(n, entries);
-        for _ in 0..n {
-            elimination.step();
+        let order = Order::new(n, entries);
+        let (mut row_position, mut column_position) = (vec![0_u32; n], vec![0_u32; n]);
+        for (k, &(row, column)) in order.pivots.iter().enumerate() {
+            (row_position[row as usize], column_position[column as usize]) = (k as u32, k as u32);
         }
-        elimination.finish(entries)
+        let mut slot_of: FxHashMap<(u32, u32), u32> = FxHashMap::default();
+        let mut slot = |row: u32, column: u32| {
+            let next = slot_of.len() as u32;
+            *slot_of.entry((row, column)).or_insert(next)
+        };
+        let mut plan = Plan {
+            rows: order.pivots.iter().map(|&(row, _)| row).collect(),
+            columns: order.pivots.iter().map(|&(_, column)| column).collect(),
+            is_odd: false,
+            slots: 0,
+            scatter: Vec::new(),
+            multipliers: Vec::new(),
+            multiplier_starts: vec![0],
+            updates: Vec::new(),
+            lower: Vec::new(),
+            upper: Vec::new(),
+            upper_starts: vec![0],
+            pivots: Vec::new(),
+        };
+        plan.is_odd = is_odd(&plan.rows) != is_odd(&plan.columns);
+        for (k, &(row, column)) in order.pivots.iter().enumerate() {
+            plan.pivots.push(slot(row, column));
+            for &right in &order.right[k] {
+                plan.upper.push([slot(row, right), column_position[right as usize]]);
+            }
+            plan.upper_starts.push(plan.upper.len() as u32);
+            for &below in &order.below[k] {
+                let multiplier = slot(below, column);
+                plan.multipliers.push(multiplier);
+                plan.lower.push([row_position[below as usize], k as u32, multiplier]);
+                plan.updates.extend(order.right[k].iter().map(|&right| slot(below, right)));
+            }
+            plan.multiplier_starts.push(plan.multipliers.len() as u32);
+        }
+        plan.scatter = entries.iter().map(|entry| slot(entry.row, entry.column)).collect();
+        plan.slots = slot_of.len();
+        plan
     }
 
     /// How many slots values need.
@@ -147,181 +168,6 @@ impl Plan {
     }
 }
 
-/// The elimination that finds an order.
-struct Elimination {
-    /// What is left of each row: columns and values.
-    rows: Vec<Vec<(u32, f64)>>,
-    /// The rows that use each column, those that are done too.
-    users: Vec<Vec<u32>>,
-    is_done: Vec<bool>,
-    /// Row and column of each pivot.
-    pivots: Vec<(u32, u32)>,
-    /// For each pivot the rows below it, and the columns right of it.
-    below: Vec<Vec<u32>>,
-    right: Vec<Vec<u32>>,
-    /// Rows by how many entries they had when they were put there.
-    by_length: Vec<Vec<u32>>,
-}
-
-impl Elimination {
-    fn new(n: usize, entries: &[BlockEntry]) -> Elimination {
-        let (mut rows, mut users) = (vec![Vec::new(); n], vec![Vec::new(); n]);
-        for entry in entries {
-            rows[entry.row as usize].push((entry.column, entry.value));
-            users[entry.column as usize].push(entry.row);
-        }
-        let (pivots, below, right) = (Vec::new(), Vec::new(), Vec::new());
-        let by_length = vec![Vec::new(); n + 1];
-        let mut elimination = Elimination { rows, users, is_done: vec![false; n], pivots, below, right, by_length };
-        (0..n as u32).for_each(|row| elimination.sort_in(row));
-        elimination
-    }
-
-    fn sort_in(&mut self, row: u32) {
-        let length = self.rows[row as usize].len();
-        self.by_length[length].push(row);
-    }
-
-    /// Eliminates one unknown.
-    fn step(&mut self) {
-        let Some((row, column)) = self.choose() else {
-            return;
-        };
-        self.is_done[row as usize] = true;
-        let pivot_row = std::mem::take(&mut self.rows[row as usize]);
-        let pivot = pivot_row.iter().find(|(c, _)| *c == column).map_or(LEAST_PIVOT, |(_, value)| *value);
-        let pivot = if pivot.abs() < LEAST_PIVOT { LEAST_PIVOT } else { pivot };
-        let users = std::mem::take(&mut self.users[column as usize]);
-        let below: Vec<u32> = users.into_iter().filter(|&user| !self.is_done[user as usize]).collect();
-        for &other in &below {
-            let line = &mut self.rows[other as usize];
-            let Some(at) = line.iter().position(|(c, _)| *c == column) else {
-                continue;
-            };
-            let multiplier = line.swap_remove(at).1 / pivot;
-            for &(c, value) in pivot_row.iter().filter(|(c, _)| *c != column) {
-                if let Some((_, own)) = line.iter_mut().find(|(own, _)| *own == c) {
-                    *own -= multiplier * value;
-                } else {
-                    line.push((c, -multiplier * value));
-                    self.users[c as usize].push(other);
-                }
-            }
-        }
-        for &row in &below {
-            self.sort_in(row);
-        }
-        self.pivots.push((row, column));
-        self.below.push(below);
-        self.right.push(pivot_row.into_iter().map(|(c, _)| c).filter(|&c| c != column).collect());
-    }
-
-    /// The pivot that makes fewest entries among the shortest rows; among equals the largest.
-    fn choose(&mut self) -> Option<(u32, u32)> {
-        let shortest = self.shortest();
-        let mut best: Option<((usize, f64), (u32, u32))> = None;
-        for &row in &shortest {
-            let line = &self.rows[row as usize];
-            for &(column, value) in line {
-                let (count, largest) = self.column(column);
-                if value == 0.0 || value.abs() < THRESHOLD * largest {
-                    continue;
-                }
-                let cost = ((line.len() - 1) * (count - 1), -value.abs());
-                if best.is_none_or(|(known, _)| cost < known) {
-                    best = Some((cost, (row, column)));
-                }
-            }
-        }
-        best.map(|(_, pivot)| pivot).or_else(|| self.largest_of_all())
-    }
-
-    /// Some of the shortest rows that are left.
-    fn shortest(&mut self) -> Vec<u32> {
-        let mut shortest: Vec<u32> = Vec::with_capacity(CANDIDATES);
-        for length in 0..self.by_length.len() {
-            let bucket = &mut self.by_length[length];
-            let mut k = bucket.len();
-            while k > 0 && shortest.len() < CANDIDATES {
-                k -= 1;
-                let row = bucket[k];
-                if self.is_done[row as usize] || self.rows[row as usize].len() != length {
-                    // what has changed since it was put there is elsewhere too
-                    bucket.swap_remove(k);
-                } else if !shortest.contains(&row) {
-                    shortest.push(row);
-                }
-            }
-            if shortest.len() == CANDIDATES {
-                break;
-            }
-        }
-        shortest
-    }
-
-    /// How many rows that are left use a column, and its largest entry in them.
-    fn column(&self, column: u32) -> (usize, f64) {
-        let left = self.users[column as usize].iter().filter(|&&row| !self.is_done[row as usize]);
-        let values = left.filter_map(|&row| self.rows[row as usize].iter().find(|(c, _)| *c == column));
-        values.fold((0, 0.0), |(count, largest), (_, value)| (count + 1, f64::max(largest, value.abs())))
-    }
-
-    /// Where the shortest rows hold no pivot that is large enough.
-    fn largest_of_all(&self) -> Option<(u32, u32)> {
-        let left = (0..self.rows.len()).filter(|&row| !self.is_done[row]);
-        let entries =
-            left.flat_map(|row| self.rows[row].iter().map(move |&(column, value)| (row as u32, column, value)));
-        let found = entries.max_by(|a, b| a.2.abs().total_cmp(&b.2.abs()));
-        found.map(|(row, column, _)| (row, column))
-    }
-
-    /// Lays the operations out.
-    fn finish(self, entries: &[BlockEntry]) -> Plan {
-        let n = self.pivots.len();
-        let (mut row_position, mut column_position) = (vec![0_u32; n], vec![0_u32; n]);
-        for (k, &(row, column)) in self.pivots.iter().enumerate() {
-            (row_position[row as usize], column_position[column as usize]) = (k as u32, k as u32);
-        }
-        let mut slot_of: FxHashMap<(u32, u32), u32> = FxHashMap::default();
-        let mut slot = |row: u32, column: u32| {
-            let next = slot_of.len() as u32;
-            *slot_of.entry((row, column)).or_insert(next)
-        };
-        let mut plan = Plan {
-            rows: self.pivots.iter().map(|&(row, _)| row).collect(),
-            columns: self.pivots.iter().map(|&(_, column)| column).collect(),
-            is_odd: false,
-            slots: 0,
-            scatter: Vec::new(),
-            multipliers: Vec::new(),
-            multiplier_starts: vec![0],
-            updates: Vec::new(),
-            lower: Vec::new(),
-            upper: Vec::new(),
-            upper_starts: vec![0],
-            pivots: Vec::new(),
-        };
-        plan.is_odd = is_odd(&plan.rows) != is_odd(&plan.columns);
-        for (k, &(row, column)) in self.pivots.iter().enumerate() {
-            plan.pivots.push(slot(row, column));
-            for &right in &self.right[k] {
-                plan.upper.push([slot(row, right), column_position[right as usize]]);
-            }
-            plan.upper_starts.push(plan.upper.len() as u32);
-            for &below in &self.below[k] {
-                let multiplier = slot(below, column);
-                plan.multipliers.push(multiplier);
-                plan.lower.push([row_position[below as usize], k as u32, multiplier]);
-                plan.updates.extend(self.right[k].iter().map(|&right| slot(below, right)));
-            }
-            plan.multiplier_starts.push(plan.multipliers.len() as u32);
-        }
-        plan.scatter = entries.iter().map(|entry| slot(entry.row, entry.column)).collect();
-        plan.slots = slot_of.len();
-        plan
-    }
-}
-
 /// Whether a permutation is odd: whether it has an odd number of cycles of even length.
 fn is_odd(permutation: &[u32]) -> bool {
     let mut seen = vec![false; permutation.len()];
@@ -340,7 +186,8 @@ fn is_odd(permutation: &[u32]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::{BlockEntry, LARGEST_MULTIPLIER, Plan};
+    use super::Plan;
+    use crate::solver::{BlockEntry, LARGEST_MULTIPLIER};
     use nalgebra::{DMatrix, DVector};
 
     /// Reproducible numbers in [−1, 1].
@@ -361,7 +208,7 @@ mod tests {
                     if row.abs_diff(column) <= 1 || noise(&mut seed) > 0.8 {
                         let value = noise(&mut seed) + if row == (column + 1) % n { 2.0 } else { 0.0 };
                         dense[(row, column)] = value;
-                        entries.push(BlockEntry { row: row as u32, column: column as u32, value });
+                        entries.push(BlockEntry { row: row as u32, column: column as u32, value, is_number: false });
                     }
                 }
             }

@@ -68,15 +68,39 @@ impl Times {
         }
     }
 
+    /// The one of a number, counted from 0 (s); there must be so many.
+    #[must_use]
+    pub fn at(&self, number: u64) -> f64 {
+        match &self.kind {
+            Kind::Grid { every, to, last } => {
+                let t = self.from + number as f64 * every;
+                if number == *last && (t - to).abs() <= 1e-9 * every { *to } else { t }
+            }
+            Kind::Listed(times) => times[number as usize],
+        }
+    }
+
+    /// The number of the first one that is later than `t` (s), those before `from` not being looked at.
+    #[must_use]
+    pub fn first_after(&self, t: f64, from: u64) -> u64 {
+        let (mut low, mut high) = (from, from);
+        let mut step = 1;
+        while high < self.len() && self.at(high) <= t {
+            low = high + 1;
+            high += step;
+            step *= 2;
+        }
+        high = high.min(self.len());
+        while low < high {
+            let middle = low + (high - low) / 2;
+            if self.at(middle) <= t { low = middle + 1 } else { high = middle }
+        }
+        low
+    }
+
     /// In order.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
-        (0..self.len()).map(|k| match &self.kind {
-            Kind::Grid { every, to, last } => {
-                let t = self.from + k as f64 * every;
-                if k == *last && (t - to).abs() <= 1e-9 * every { *to } else { t }
-            }
-            Kind::Listed(times) => times[k as usize],
-        })
+        (0..self.len()).map(|number| self.at(number))
     }
 }
 
@@ -94,6 +118,16 @@ mod tests {
         assert_eq!(times(0.0, 0.35, 0.1).last(), Some(&(3.0 * 0.1)));
         assert_eq!(times(1.0, 1.0, 0.1), [1.0]);
         assert!(Times::grid(1e20, 2e20, 1.0).is_none(), "steps that do not change the time");
+    }
+
+    #[test]
+    fn the_first_time_after_another_is_found() {
+        let grid = Times::grid(0.0, 1.0, 0.1).unwrap();
+        for (t, wanted) in [(-1.0, 0), (0.0, 1), (0.05, 1), (0.1, 2), (0.99, 10), (1.0, 11), (9.0, 11)] {
+            for from in 0..=wanted {
+                assert_eq!(grid.first_after(t, from), wanted, "t = {t}, from {from}");
+            }
+        }
     }
 
     #[test]

@@ -52,7 +52,7 @@ impl Table {
     fn write(mut self, started: &mut Started<'_>, times: &Times, pass: bool) -> Result<Ended, Failure> {
         let columns = started.columns();
         let mut progress = Progress::new(times.len(), self.output.is_standard());
-        let mut motion = started.motion(times.span());
+        let mut motion = started.motion(times);
         if pass {
             motion.pass_bifurcations();
         }
@@ -60,8 +60,7 @@ impl Table {
         let timings = &mut self.timings;
         let written = (|| {
             let mut table = TableWriter::new(self.output.writer(), self.format, &columns)?;
-            for t in times.iter() {
-                let row = motion.row_at(t);
+            while let Some(row) = motion.next_row() {
                 timings.end(Phase::Solve);
                 match row {
                     Ok(row) => table.row(row)?,

@@ -318,6 +318,12 @@ impl SparseRows {
         self.starts[row]..self.starts[row + 1]
     }
 
+    /// The row that a position in [`SparseRows::entries`] belongs to.
+    #[must_use]
+    pub fn row_of(&self, position: usize) -> usize {
+        self.starts.partition_point(|&start| start <= position) - 1
+    }
+
     /// All entries, row by row.
     #[must_use]
     pub fn entries(&self) -> &[(u32, ExprId)] {

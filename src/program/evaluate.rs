@@ -64,7 +64,7 @@ impl Program {
         match switch.op {
             Op::Compare { comparison, a, b, .. } => compare(comparison, v[a as usize], v[b as usize]),
             Op::Unary { function, a, .. } => unary_value(function, v[a as usize]),
-            Op::Piece { table, a, .. } => self.piece(table, v[a as usize], v),
+            Op::Piece { table, a, .. } => self.piece_in(table, v[a as usize], v),
             _ => v[switch.to as usize],
         }
     }
@@ -90,7 +90,18 @@ impl Program {
     }
 
     /// The number of the piece that an argument lies in; what is no number lies nowhere.
-    fn piece(&self, table: u32, x: f64, v: &[f64]) -> f64 {
+    #[must_use]
+    pub fn piece(&self, table: u32, x: f64, registers: &Registers) -> f64 {
+        self.piece_in(table, x, &registers.values)
+    }
+
+    /// The entry of a table's column for a piece.
+    #[must_use]
+    pub fn pick(&self, table: u32, column: Column, piece: f64, registers: &Registers) -> f64 {
+        self.pick_in(table, column, piece, &registers.values)
+    }
+
+    fn piece_in(&self, table: u32, x: f64, v: &[f64]) -> f64 {
         let layout = &self.tables[table as usize];
         if x.is_nan() {
             return x;
@@ -98,7 +109,7 @@ impl Program {
         piece(layout.pieces as usize, |k| v[layout.knots as usize + k], x) as f64
     }
 
-    fn pick(&self, table: u32, column: Column, piece: f64, v: &[f64]) -> f64 {
+    fn pick_in(&self, table: u32, column: Column, piece: f64, v: &[f64]) -> f64 {
         if piece.is_nan() {
             return piece;
         }
@@ -145,9 +156,9 @@ impl Program {
                     v[to as usize] = either(v[condition as usize], v[a as usize], v[b as usize]);
                 }
                 Op::Copy { to, a } => v[to as usize] = v[a as usize],
-                Op::Piece { to, table, a } => v[to as usize] = self.piece(table, v[a as usize], v),
+                Op::Piece { to, table, a } => v[to as usize] = self.piece_in(table, v[a as usize], v),
                 Op::Pick { to, table, column, piece } => {
-                    v[to as usize] = self.pick(table, column, v[piece as usize], v);
+                    v[to as usize] = self.pick_in(table, column, v[piece as usize], v);
                 }
             }
         }
@@ -155,7 +166,8 @@ impl Program {
 }
 
 /// `a` if the condition holds, else `b`; not a number if either is not.
-fn either(condition: f64, a: f64, b: f64) -> f64 {
+#[must_use]
+pub fn either(condition: f64, a: f64, b: f64) -> f64 {
     if a.is_nan() || b.is_nan() {
         f64::NAN
     } else if condition == 0.0 {

@@ -17,7 +17,7 @@ mod signals;
 mod tables;
 
 pub use enclose::Enclosure;
-pub use evaluate::{Frozen, Registers};
+pub use evaluate::{Frozen, Registers, either};
 pub use signals::Signal;
 
 use crate::expr::{Binary, Comparison, Unary};
@@ -44,6 +44,98 @@ impl Op {
             | Op::Unary { function: Unary::Sign | Unary::Floor, to, .. } => Some(to),
             _ => None,
         }
+    }
+}
+
+impl Op {
+    /// The registers that an operation reads, tables' columns not counted, and how many they are.
+    #[must_use]
+    pub fn reads(self) -> ([Register; 3], usize) {
+        match self {
+            Op::Neg { a, .. }
+            | Op::Recip { a, .. }
+            | Op::Not { a, .. }
+            | Op::Copy { a, .. }
+            | Op::Unary { a, .. }
+            | Op::SinCos { a, .. }
+            | Op::Piece { a, .. } => ([a, 0, 0], 1),
+            Op::Pick { piece, .. } => ([piece, 0, 0], 1),
+            Op::Add { a, b, .. }
+            | Op::Sub { a, b, .. }
+            | Op::Mul { a, b, .. }
+            | Op::Div { a, b, .. }
+            | Op::Binary { a, b, .. }
+            | Op::Compare { a, b, .. }
+            | Op::And { a, b, .. }
+            | Op::Or { a, b, .. } => ([a, b, 0], 2),
+            Op::Select { condition, a, b, .. } | Op::Either { condition, a, b, .. } => ([condition, a, b], 3),
+        }
+    }
+
+    /// The register that it writes; none for a sine and cosine, which write two.
+    #[must_use]
+    pub fn written(self) -> Option<Register> {
+        match self {
+            Op::SinCos { .. } => None,
+            Op::Add { to, .. }
+            | Op::Sub { to, .. }
+            | Op::Mul { to, .. }
+            | Op::Div { to, .. }
+            | Op::Neg { to, .. }
+            | Op::Recip { to, .. }
+            | Op::Unary { to, .. }
+            | Op::Binary { to, .. }
+            | Op::Compare { to, .. }
+            | Op::And { to, .. }
+            | Op::Or { to, .. }
+            | Op::Not { to, .. }
+            | Op::Select { to, .. }
+            | Op::Either { to, .. }
+            | Op::Copy { to, .. }
+            | Op::Piece { to, .. }
+            | Op::Pick { to, .. } => Some(to),
+        }
+    }
+
+    /// The same with other registers: `read` for those it reads, `write` for those it writes.
+    #[must_use]
+    pub fn renumbered(
+        mut self,
+        read: impl Fn(Register) -> Register,
+        mut write: impl FnMut(Register) -> Register,
+    ) -> Op {
+        match &mut self {
+            Op::Neg { to, a }
+            | Op::Recip { to, a }
+            | Op::Not { to, a }
+            | Op::Copy { to, a }
+            | Op::Unary { to, a, .. }
+            | Op::Piece { to, a, .. }
+            | Op::Pick { to, piece: a, .. } => {
+                *a = read(*a);
+                *to = write(*to);
+            }
+            Op::Add { to, a, b }
+            | Op::Sub { to, a, b }
+            | Op::Mul { to, a, b }
+            | Op::Div { to, a, b }
+            | Op::Binary { to, a, b, .. }
+            | Op::Compare { to, a, b, .. }
+            | Op::And { to, a, b }
+            | Op::Or { to, a, b } => {
+                (*a, *b) = (read(*a), read(*b));
+                *to = write(*to);
+            }
+            Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
+                (*condition, *a, *b) = (read(*condition), read(*a), read(*b));
+                *to = write(*to);
+            }
+            Op::SinCos { sin, cos, a } => {
+                *a = read(*a);
+                (*sin, *cos) = (write(*sin), write(*cos));
+            }
+        }
+        self
     }
 }
 
@@ -302,6 +394,28 @@ impl Program {
     #[must_use]
     pub fn constants(&self) -> &[(Register, f64)] {
         &self.constants
+    }
+
+    /// What each register is written by, if by an operation, and when.
+    #[must_use]
+    pub fn definitions(&self) -> Vec<Option<(Stage, Op)>> {
+        let mut definitions = vec![None; self.registers];
+        for stage in STAGES {
+            for &op in self.stage(stage) {
+                match op {
+                    Op::SinCos { sin, cos, .. } => {
+                        definitions[sin as usize] = Some((stage, op));
+                        definitions[cos as usize] = Some((stage, op));
+                    }
+                    _ => {
+                        if let Some(to) = op.written() {
+                            definitions[to as usize] = Some((stage, op));
+                        }
+                    }
+                }
+            }
+        }
+        definitions
     }
 
     /// How many registers it needs.

@@ -272,20 +272,36 @@ mod sine_and_cosine {
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if !angle.is_finite() {
-        return (f64::NAN, f64::NAN);
-    }
-    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
-    let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
-    match quarter & 3 {
-        0 => (sin, cos),
-        1 => (cos, -sin),
-        2 => (-sin, -cos),
-        _ => (-cos, sin),
+    if angle.abs() < 1e6 {
+        sin_cos_below_a_million(angle)
+    } else if angle.is_finite() {
+        let (quarter, r, tail) = reduce_large(angle);
+        in_quarter(quarter, r, tail)
+    } else {
+        (f64::NAN, f64::NAN)
     }
 }
 
+/// As [`sin_cos`] for angles below a million, without a branch, so that a loop over many is done with several at once.
+#[inline]
+pub fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
+    let (quarter, r, tail) = reduce_small(angle);
+    in_quarter(quarter, r, tail)
+}
+
+/// Sine and cosine of `r + tail` and so many quarter turns, of which the last two bits count.
+#[inline]
+fn in_quarter(quarter: u64, r: f64, tail: f64) -> (f64, f64) {
+    let (sin, cos) = (sin_near_zero(r, tail).to_bits(), cos_near_zero(r, tail).to_bits());
+    // an odd quarter exchanges them, the second and third turn the sine's sign, the first and second the cosine's
+    let odd = (quarter & 1).wrapping_neg();
+    let (first, second) = ((sin & !odd) | (cos & odd), (cos & !odd) | (sin & odd));
+    let turned = |quarter: u64| (quarter & 2) << 62;
+    (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
+}
+
 /// `sin(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
 fn sin_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
     let cube = z * r;
@@ -296,6 +312,7 @@ fn sin_near_zero(r: f64, tail: f64) -> f64 {
 }
 
 /// `cos(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
 fn cos_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
     let higher = z
@@ -310,28 +327,29 @@ fn cos_near_zero(r: f64, tail: f64) -> f64 {
 }
 
 /// `a + b` as its rounded value and what the rounding lost.
+#[inline]
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
     let b_part = sum - a;
     (sum, (a - (sum - b_part)) + (b - b_part))
 }
 
-/// The nearest whole number of quarter turns, and what is left of an angle below a million.
-fn reduce_small(angle: f64) -> (i64, f64, f64) {
+/// The nearest whole number of quarter turns, by its last bits, and what is left of an angle below a million.
+#[inline]
+fn reduce_small(angle: f64) -> (u64, f64, f64) {
     // pi/2 in three pieces of 33 bits and a rest
     const PIECES: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
     const REST: f64 = 8.478_427_660_368_9e-32;
-    // adding and taking away 1.5 * 2^52 rounds to a whole number
+    // adding and taking away 1.5 * 2^52 rounds to a whole number, which the last bits of the sum are
     const ROUNDING: f64 = 6_755_399_441_055_744.0;
-    let quarters = (angle * core::f64::consts::FRAC_2_PI + ROUNDING) - ROUNDING;
+    let sum = angle * core::f64::consts::FRAC_2_PI + ROUNDING;
+    let quarters = sum - ROUNDING;
     let first = angle - quarters * PIECES[0];
     let (second, lost_second) = two_sum(first, -(quarters * PIECES[1]));
     let (third, lost_third) = two_sum(second, -(quarters * PIECES[2]));
     let lost = (lost_second + lost_third) - quarters * REST;
     let r = third + lost;
-    #[allow(clippy::cast_possible_truncation)] // a whole number below a million
-    let quarter = quarters as i64;
-    (quarter, r, (third - r) + lost)
+    (sum.to_bits(), r, (third - r) + lost)
 }
 
 /// The bits of 2/pi after the binary point.
@@ -368,7 +386,7 @@ fn bits_from(bit: i64) -> u64 {
 /// The whole number of quarter turns modulo 4, and what is left of an angle of a million or more.
 #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, clippy::cast_sign_loss)] // bits are cut on purpose
 #[allow(clippy::cast_precision_loss)] // what is lost is taken up by the next part
-fn reduce_large(angle: f64) -> (i64, f64, f64) {
+fn reduce_large(angle: f64) -> (u64, f64, f64) {
     let bits = angle.to_bits();
     let exponent = ((bits >> 52) & 0x7ff) as i64 - 1075;
     let mantissa = u128::from((bits & ((1 << 52) - 1)) | (1 << 52));
@@ -393,7 +411,7 @@ fn reduce_large(angle: f64) -> (i64, f64, f64) {
     let lower = ((digits >> 22) as u64 & ((1 << 53) - 1)) as f64 * power_of_two(-106 - i64::from(leading));
     let (r, tail) = times_half_pi(upper, lower);
     let sign = if back == (angle < 0.0) { 1.0 } else { -1.0 };
-    (if angle < 0.0 { -quarter } else { quarter }, sign * r, sign * tail)
+    ((if angle < 0.0 { -quarter } else { quarter }) as u64, sign * r, sign * tail)
 }
 
 /// `(a + b) pi/2` as a value and its tail.

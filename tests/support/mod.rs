@@ -154,8 +154,14 @@ fn follow(
     let mut started = analysis::start(determined, &program, times.from(), analysis::TOLERANCE)?;
     diagnostics.extend(started.remarks());
     *columns = started.columns();
-    let mut motion = started.motion(times.span());
-    let result = times.iter().try_for_each(|t| motion.row_at(t).map(|row| rows.push(row.to_vec())));
+    let mut motion = started.motion(times);
+    let mut result = Ok(());
+    while let Some(row) = motion.next_row() {
+        match row {
+            Ok(row) => rows.push(row.to_vec()),
+            Err(why) => result = Err(why),
+        }
+    }
     diagnostics.extend(motion.take_remarks());
     result
 }
@@ -170,9 +176,12 @@ pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
     let program = Program::new(determined.system());
     let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
     let columns = started.columns();
-    let mut motion = started.motion(times.span());
+    let mut motion = started.motion(&times);
     motion.pass_bifurcations();
-    let rows = times.iter().map(|t| motion.row_at(t).expect("it goes on").to_vec()).collect();
+    let mut rows = Vec::new();
+    while let Some(row) = motion.next_row() {
+        rows.push(row.expect("it goes on").to_vec());
+    }
     let remarks = motion.take_remarks();
     assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
     let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();

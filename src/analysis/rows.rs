@@ -1,0 +1,398 @@
+//! A row for each output time.
+//!
+//! Where the motion is calm a step goes over as many output times as it may, and when it is accepted their rows are solved
+//! for on its curve, several at once (`solver`). Near a singular position, and where such a row does not hold, steps go to each
+//! time on its own.
+
+use super::determinant::Determinant;
+use super::edges::{Edge, behind_start, shortly_after};
+use super::errors;
+use super::kinematics::{Kinematics, State};
+use super::march::{FEWEST_STEPS, MOST_STEPS, Motion};
+use super::singular;
+use super::times::Times;
+use crate::diag::Diagnostic;
+use crate::solver::{Batch, Lanes, Solver};
+
+/// Times that are solved at once.
+const LANES: usize = 16;
+/// Steps that are tried behind a row that cannot be printed, to tell why.
+const STEPS_AHEAD: usize = 1_000;
+
+/// The output times, and the rows that are ready.
+pub(super) struct Output<'m> {
+    times: Times,
+    /// The number of the time that comes next.
+    next: u64,
+    /// Whether the motion could not go on.
+    has_stopped: bool,
+    /// Steps since the last row.
+    steps: u64,
+    /// Up to this time (s) steps go to each output time on their own.
+    careful_until: f64,
+    rows: Option<Rows<'m>>,
+    /// The edge that the last step ended at, if its later side has not been taken yet.
+    edge: Option<Edge>,
+}
+
+/// Rows within a step, a few at a time.
+struct Rows<'m> {
+    solver: &'m Solver,
+    lanes: Lanes<LANES>,
+    values: Vec<f64>,
+    holds: [bool; LANES],
+    /// The numbers of the times whose rows are there, and of the last one in the step.
+    first: u64,
+    end: u64,
+    last: u64,
+    /// What may be left of each row of Φ, as its inverse.
+    bounds: Vec<f64>,
+    /// Where the step begins.
+    origin: Bookmark,
+    length: f64,
+}
+
+/// Where a row is.
+enum Place {
+    /// In the motion.
+    Own,
+    /// Among those that were solved for at once.
+    Lane(usize),
+}
+
+/// What a motion goes back to where it was only looked ahead.
+#[derive(Clone)]
+struct Bookmark {
+    state: State,
+    clear: State,
+    determinants: Vec<Determinant>,
+    sides: Vec<bool>,
+    met: Option<Edge>,
+    h: f64,
+}
+
+impl<'m> Output<'m> {
+    pub fn new(kinematics: &Kinematics<'_>, state: &State, solver: Option<&'m Solver>, times: Times) -> Output<'m> {
+        // what was left out of the equations is looked at wherever a row is printed
+        let solver = solver.filter(|_| kinematics.system().checks.is_empty());
+        let rows = solver.map(|solver| Rows {
+            solver,
+            lanes: Lanes::new(solver),
+            values: vec![0.0; LANES * solver.layout().stride],
+            holds: [false; LANES],
+            first: 0,
+            end: 0,
+            last: 0,
+            bounds: vec![0.0; kinematics.system().rows.len()],
+            origin: Bookmark {
+                state: state.clone(),
+                clear: state.clone(),
+                determinants: vec![Determinant::ONE; kinematics.linear().blocks()],
+                sides: vec![true; kinematics.system().watches.len()],
+                met: None,
+                h: 0.0,
+            },
+            length: 0.0,
+        });
+        let careful_until = f64::NEG_INFINITY;
+        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, rows, edge: None }
+    }
+}
+
+impl Motion<'_, '_> {
+    /// The row of the next output time, in the order of `Started::columns`; none behind the last one, and where the motion
+    /// could not go on.
+    ///
+    /// # Errors
+    /// Why and where the motion cannot go on.
+    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
+        if self.output.has_stopped || self.output.next >= self.output.times.len() {
+            return None;
+        }
+        let t = self.output.times.at(self.output.next);
+        let place = match self.reach(t) {
+            Ok(place) => place,
+            Err(diagnostic) => {
+                self.output.has_stopped = true;
+                return Some(Err(diagnostic));
+            }
+        };
+        self.output.next += 1;
+        self.output.steps = 0;
+        if let Some(column) = self.row(&place).iter().position(|value| !value.is_finite()) {
+            self.output.has_stopped = true;
+            return Some(Err(Box::new(self.explain_row(column, t))));
+        }
+        Some(Ok(self.row(&place)))
+    }
+
+    fn row(&self, place: &Place) -> &[f64] {
+        match (place, &self.output.rows) {
+            (Place::Lane(lane), Some(rows)) => {
+                let layout = rows.solver.layout();
+                &rows.values[lane * layout.stride..][..layout.printed]
+            }
+            _ => &self.row,
+        }
+    }
+
+    /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
+    fn explain_row(&mut self, column: usize, t: f64) -> Diagnostic {
+        errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
+    }
+
+    /// Goes on until the row of the next output time `t` (s) is there.
+    fn reach(&mut self, t: f64) -> Result<Place, Box<Diagnostic>> {
+        if !self.begun {
+            self.begin()?;
+        }
+        loop {
+            if let Some(place) = self.row_in_step(t) {
+                return Ok(place);
+            }
+            if let Some(edge) = self.output.edge.take() {
+                self.cross(edge)?;
+            }
+            if let Some(row) = self.row_on_bridge(t) {
+                return row.map(|()| Place::Own);
+            }
+            if t <= self.state.t {
+                return self.row_at_rest().map(|()| Place::Own);
+            }
+            if !self.may_leap() {
+                return self.go_to(t).map(|()| Place::Own);
+            }
+            self.count_step(t)?;
+            self.leap()?;
+        }
+    }
+
+    fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+        self.output.steps += 1;
+        if self.output.steps > MOST_STEPS {
+            return Err(Box::new(singular::explain_haste(self.kinematics, self.state, MOST_STEPS, t)));
+        }
+        Ok(())
+    }
+
+    /// Steps to an output time on its own.
+    fn go_to(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+        while self.state.t < t {
+            self.count_step(t)?;
+            self.step_towards(t)?;
+        }
+        if let Some(row) = self.row_on_bridge(t) {
+            row?;
+        } else if !self.is_certain || self.is_near {
+            self.look_ahead(t)?;
+        }
+        Ok(())
+    }
+
+    /// Whether a step may go over several output times: the state is clear of singular positions.
+    fn may_leap(&self) -> bool {
+        let is_clear = self.clear.t.total_cmp(&self.state.t).is_eq();
+        self.output.rows.is_some() && is_clear && self.state.t >= self.output.careful_until
+    }
+
+    /// Tries a step over as many output times as the error allows.
+    fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
+        let Output { times, next: number, .. } = &self.output;
+        let (upcoming, farthest) = (times.at(*number), self.state.t + self.h);
+        let behind = times.first_after(farthest, *number);
+        // no crumb at the end
+        let target = if self.h >= 0.999 * (upcoming - self.state.t) {
+            times.at(behind.saturating_sub(1).max(*number))
+        } else {
+            farthest
+        };
+        let is_output = target >= upcoming;
+        let edge = self.next_edge(target, is_output)?.map(|edge| self.at_output(edge));
+        let next = edge.map_or(target, |edge| edge.t);
+        let h = next - self.state.t;
+        if h <= 0.0 {
+            return edge.map_or(Ok(()), |edge| self.cross(edge));
+        }
+        match self.try_step(h, next, next >= upcoming, self.met.is_some_and(|met| met.t <= next)) {
+            Ok(accepted) => {
+                if next >= upcoming && !(self.is_certain && self.is_clear()) {
+                    self.output.careful_until = upcoming;
+                    return Ok(());
+                }
+                self.open_step(h, next, edge.is_some());
+                self.accept(h, &accepted);
+                self.output.edge = edge;
+                Ok(())
+            }
+            Err(fault) => self.give_way(h, fault, upcoming),
+        }
+    }
+
+    /// An edge that is meant to be at an output time is there.
+    fn at_output(&self, edge: Edge) -> Edge {
+        let Output { times, next, .. } = &self.output;
+        let behind = times.first_after(edge.t, *next);
+        let before = if behind > *next { times.at(behind - 1) } else { edge.t };
+        let is_meant = before > self.state.t && shortly_after(before) >= edge.t;
+        if is_meant { Edge { t: before, ..edge } } else { edge }
+    }
+
+    /// Takes note of a step of length `h` to `next`, which was tried and is to be accepted. The row at an edge is one of its
+    /// later side.
+    fn open_step(&mut self, h: f64, next: f64, to_edge: bool) {
+        let Output { times, next: number, rows, .. } = &mut self.output;
+        let Some(rows) = rows else {
+            return;
+        };
+        let behind = times.first_after(next, *number);
+        let at_end = to_edge && behind > *number && times.at(behind - 1) >= next;
+        (rows.first, rows.end) = (*number, *number);
+        (rows.last, rows.length) = (if at_end { behind - 1 } else { behind }, h);
+        if rows.last == rows.first {
+            return;
+        }
+        self.kinematics.write_bounds(&mut rows.bounds);
+        let origin = &mut rows.origin;
+        origin.state.copy_from(self.state);
+        origin.clear.copy_from(&self.clear);
+        origin.determinants.copy_from_slice(&self.determinants);
+        origin.sides.copy_from_slice(&self.sides);
+        (origin.met, origin.h) = (self.met, self.h);
+    }
+
+    /// The row of the next output time `t`, if that lies within the step that was accepted last.
+    fn row_in_step(&mut self, t: f64) -> Option<Place> {
+        let number = self.output.next;
+        let rows = self.output.rows.as_mut().filter(|rows| number < rows.last)?;
+        if number >= rows.end {
+            self.solve_batch();
+        }
+        let rows = self.output.rows.as_ref()?;
+        let lane = (number - rows.first) as usize;
+        if rows.holds[lane] {
+            return Some(Place::Lane(lane));
+        }
+        if self.row_on_curve(t) {
+            return Some(Place::Own);
+        }
+        self.take_step_back();
+        None
+    }
+
+    /// Solves for the next rows of a step.
+    fn solve_batch(&mut self) {
+        let Output { times, next, rows, .. } = &mut self.output;
+        let Some(rows) = rows else {
+            return;
+        };
+        rows.first = *next;
+        rows.end = rows.last.min(*next + LANES as u64);
+        let batch = Batch {
+            // the lanes that are left over do the last time again
+            times: std::array::from_fn(|lane| times.at((rows.first + lane as u64).min(rows.end - 1))),
+            from: rows.origin.state.t,
+            length: rows.length,
+            curve: &self.curve,
+            bounds: &rows.bounds,
+        };
+        let (program, registers) = self.kinematics.program();
+        rows.holds = rows.lanes.run(rows.solver, program, registers, &batch, &mut rows.values);
+    }
+
+    /// Writes the row of a time within the last step by solving from its curve, with pivots that suit it; whether it holds.
+    fn row_on_curve(&mut self, t: f64) -> bool {
+        let Some(rows) = &self.output.rows else {
+            return false;
+        };
+        let x = (t - rows.origin.state.t) / rows.length;
+        self.trial.t = t;
+        for (q, curve) in self.trial.q.iter_mut().zip(&self.curve) {
+            *q = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
+        }
+        let is_solved = self.correct().is_ok()
+            && self.kinematics.derivatives(&mut self.trial).is_ok()
+            && self.is_clear()
+            && Self::trustworthy(self.kinematics, &self.trial).is_ok();
+        if is_solved {
+            self.kinematics.write_row(&self.trial, &mut self.row);
+        }
+        is_solved
+    }
+
+    /// Goes back to where the last step began, to go over it time by time.
+    fn take_step_back(&mut self) {
+        self.output.careful_until = self.state.t;
+        self.output.edge = None;
+        if let Some(mut rows) = self.output.rows.take() {
+            rows.last = rows.first;
+            self.go_back(&rows.origin);
+            self.output.rows = Some(rows);
+        }
+    }
+
+    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
+    /// that is passed, and then the row lies on the way over it.
+    fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+        let ahead = t + self.span / FEWEST_STEPS;
+        let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
+        for _ in 0..STEPS_AHEAD {
+            match self.step_towards(ahead) {
+                // what comes behind the row does not concern it
+                Err(_) if is_certain => break,
+                stepped => stepped?,
+            }
+            if let Some(row) = self.row_on_bridge(t) {
+                return row;
+            }
+            // a step that failed leaves the factors of where it failed
+            self.kinematics.restore(self.state);
+            if self.state.t >= ahead || (is_certain && self.state.t > t && self.is_clear()) {
+                break;
+            }
+        }
+        // the next row lies before what was looked at
+        self.go_back(&here);
+        if is_certain {
+            self.row = row;
+            return Ok(());
+        }
+        let singular = self.kinematics.worst();
+        Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
+    }
+
+    /// What the next step begins from.
+    fn bookmark(&self) -> Bookmark {
+        Bookmark {
+            state: self.state.clone(),
+            clear: self.clear.clone(),
+            determinants: self.determinants.clone(),
+            sides: self.sides.clone(),
+            met: self.met,
+            h: self.h,
+        }
+    }
+
+    fn go_back(&mut self, to: &Bookmark) {
+        self.state.copy_from(&to.state);
+        self.clear.copy_from(&to.clear);
+        self.sides.copy_from_slice(&to.sides);
+        (self.met, self.h) = (to.met, to.h);
+        if !self.kinematics.switches().is_empty() {
+            self.settle(Some(behind_start(self.state.t, self.span)));
+        }
+        self.kinematics.restore(self.state);
+        self.begin_determinants();
+        // as they were accepted, should the position be so near to a singular one that they are rounding
+        self.determinants.copy_from_slice(&to.determinants);
+    }
+
+    /// The row of the state that has been reached already: the start.
+    fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
+        self.kinematics.restore(self.state);
+        match self.kinematics.derivatives(self.state).and_then(|()| Self::trustworthy(self.kinematics, self.state)) {
+            Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
+            Err(fault) => return Err(Box::new(self.explain_start(fault))),
+        }
+        Ok(())
+    }
+}

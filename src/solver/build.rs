@@ -1,0 +1,614 @@
+//! Laying the solution of a system out, component by component and block by block.
+
+use super::finish::finish;
+use super::order::{BlockEntry, Order};
+use super::tape::{Op, Tape, Value};
+use super::tear::tear;
+use super::{Component, MOST_OPERATIONS, RowLayout, Segment, Solver, Tear, Values};
+use crate::expr::Symbol;
+use crate::ir::ConstraintSystem;
+use crate::math;
+use crate::program::{self, Program, Register, Stage};
+use crate::structure::{Block, Determined};
+use rustc_hash::FxHashMap;
+
+/// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
+const CELL: f64 = 1.0 / 134_217_728.0;
+
+pub(super) fn build(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
+    let system = determined.system();
+    let groups = Groups::new(determined);
+    let measures = groups.measures(system);
+    let mut builder = Builder::new(determined, program, values, &groups);
+    let (mut components, mut registers, mut operations) = (Vec::new(), 0, 0);
+    for (group, measures) in groups.blocks.iter().zip(&measures) {
+        builder.begin();
+        for &block in group {
+            builder.block(&determined.blocks()[block]);
+        }
+        builder.measures(measures);
+        let (component, used) = builder.finish();
+        operations += component.operations.len();
+        if operations > MOST_OPERATIONS {
+            return None;
+        }
+        registers = registers.max(used);
+        components.push(component);
+    }
+    builder.begin();
+    builder.is_across = true;
+    builder.measures(&measures[groups.blocks.len()]);
+    let (across, used) = builder.finish();
+    Some(Solver {
+        components,
+        across,
+        registers: registers.max(used),
+        weights: builder.weights,
+        layout: builder.layout,
+    })
+}
+
+/// Blocks that depend on each other.
+struct Groups {
+    /// Each group's blocks, in an order of solution.
+    blocks: Vec<Vec<usize>>,
+    group_of_column: Vec<usize>,
+    block_of_column: Vec<usize>,
+}
+
+impl Groups {
+    fn new(determined: &Determined) -> Groups {
+        let (system, blocks) = (determined.system(), determined.blocks());
+        let mut block_of_column = vec![0; system.coordinates.len()];
+        for (k, block) in blocks.iter().enumerate() {
+            for &column in &block.columns {
+                block_of_column[column as usize] = k;
+            }
+        }
+        let mut parent: Vec<usize> = (0..blocks.len()).collect();
+        for (k, block) in blocks.iter().enumerate() {
+            for &row in &block.rows {
+                for &(column, _) in system.phi_q.row(row as usize) {
+                    let (a, b) = (root(&mut parent, k), root(&mut parent, block_of_column[column as usize]));
+                    parent[a.max(b)] = a.min(b);
+                }
+            }
+        }
+        let mut number = vec![usize::MAX; blocks.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for k in 0..blocks.len() {
+            let root = root(&mut parent, k);
+            if number[root] == usize::MAX {
+                number[root] = groups.len();
+                groups.push(Vec::new());
+            }
+            groups[number[root]].push(k);
+        }
+        let group_of_column = block_of_column.iter().map(|&block| number[root(&mut parent, block)]).collect();
+        Groups { blocks: groups, group_of_column, block_of_column }
+    }
+
+    /// The measures of each group, and behind these the ones that join groups.
+    fn measures(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
+        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+        for (k, measure) in system.measures.iter().enumerate() {
+            let formulas = [Some(measure.value), measure.first, measure.second];
+            let symbols = formulas.into_iter().flatten().flat_map(|id| system.graph.symbols(id));
+            let mut groups = symbols.filter_map(|symbol| match symbol {
+                Symbol::Coordinate { index, .. } => Some(self.group_of_column[index as usize]),
+                _ => None,
+            });
+            let first = groups.next();
+            let group = first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len());
+            of_group[group].push(k);
+        }
+        of_group
+    }
+}
+
+fn root(parent: &mut [usize], mut k: usize) -> usize {
+    while parent[k] != k {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    k
+}
+
+struct Builder<'s, V> {
+    system: &'s ConstraintSystem,
+    program: &'s Program,
+    values: &'s V,
+    groups: &'s Groups,
+    layout: RowLayout,
+    /// What each register of the program is written by.
+    definitions: Vec<Option<(Stage, program::Op)>>,
+    literals: FxHashMap<Register, f64>,
+    /// By register of the program: its value, and how old that is.
+    known: Vec<(u32, Value)>,
+    /// Each row's and column's place in its block.
+    place_of_row: Vec<u32>,
+    place_of_column: Vec<u32>,
+    tape: Tape,
+    segments: Vec<Segment>,
+    weights: Vec<f64>,
+    age: u32,
+    is_across: bool,
+    open: Vec<Register>,
+}
+
+/// The factors of a block's part of `Φ_q`, by places within the block.
+struct Factors {
+    pivots: Vec<(u32, u32)>,
+    inverses: Vec<Value>,
+    /// For each pivot the rows below it with their multipliers, and the rest of its row.
+    lower: Vec<Vec<(u32, Value)>>,
+    upper: Vec<Vec<(u32, Value)>>,
+}
+
+impl<'s, V: Values> Builder<'s, V> {
+    fn new(determined: &'s Determined, program: &'s Program, values: &'s V, groups: &'s Groups) -> Builder<'s, V> {
+        let system = determined.system();
+        let n = system.coordinates.len();
+        let (mut place_of_row, mut place_of_column) = (vec![0; n], vec![0; n]);
+        for block in determined.blocks() {
+            for (place, (&row, &column)) in block.rows.iter().zip(&block.columns).enumerate() {
+                (place_of_row[row as usize], place_of_column[column as usize]) = (place as u32, place as u32);
+            }
+        }
+        Builder {
+            system,
+            program,
+            values,
+            groups,
+            layout: RowLayout::new(system),
+            definitions: program.definitions(),
+            literals: program.constants().iter().copied().collect(),
+            known: vec![(0, Value::ZERO); program.registers()],
+            place_of_row,
+            place_of_column,
+            tape: Tape::new(0),
+            segments: Vec::new(),
+            weights: Vec::new(),
+            age: 0,
+            is_across: false,
+            open: Vec::new(),
+        }
+    }
+
+    /// Begins a component: nothing is known.
+    fn begin(&mut self) {
+        self.age += 2 + self.age % 2;
+        self.tape = Tape::new(self.age);
+        self.segments = Vec::new();
+    }
+
+    fn finish(&mut self) -> (Component, usize) {
+        self.close_once();
+        let operations = std::mem::take(&mut self.tape.operations);
+        finish(operations, std::mem::take(&mut self.segments), self.tape.registers())
+    }
+
+    /// Ends a run of operations that are done once.
+    fn close_once(&mut self) {
+        let from = self.segments.last().map_or(0, |segment| match segment {
+            Segment::Once(range) | Segment::Newton { operations: range, .. } => range.end,
+        });
+        self.segments.push(Segment::Once(from..self.tape.operations.len()));
+    }
+
+    fn block(&mut self, block: &Block) {
+        let factors = if block.explicit { self.explicit(block) } else { self.implicit(block) };
+        for &column in &block.columns {
+            self.store(0, column);
+        }
+        self.derivatives(block, &factors);
+    }
+
+    /// One equation that is linear in its coordinate.
+    fn explicit(&mut self, block: &Block) -> Factors {
+        let (row, column) = (block.rows[0] as usize, block.columns[0]);
+        let slope = self.inside(block)[0][0].1;
+        let rest = self.without(self.program.outputs.phi[row], self.coordinate(0, column));
+        let value = self.tape.div(rest.negated(), slope);
+        self.know(self.coordinate(0, column), value);
+        let inverse = self.tape.recip(slope);
+        Factors { pivots: vec![(0, 0)], inverses: vec![inverse], lower: vec![Vec::new()], upper: vec![Vec::new()] }
+    }
+
+    /// Equations that are solved by iteration for some coordinates, the others following from these.
+    fn implicit(&mut self, block: &Block) -> Factors {
+        let pattern: Vec<Vec<(u32, bool)>> = block
+            .rows
+            .iter()
+            .map(|&row| self.entries_inside(block, row).map(|(place, at)| (place, self.is_number(at))).collect())
+            .collect();
+        let tearing = tear(&pattern);
+        let order = self.order(block);
+        // the loop
+        self.age += 1;
+        let tears: Vec<Register> = tearing.tears.iter().map(|&tear| self.guess(block.columns[tear as usize])).collect();
+        self.assign(block, &tearing.assigned);
+        let factors = self.eliminate(block, &order, false);
+        let mut right = vec![Value::ZERO; block.rows.len()];
+        for &row in &tearing.residuals {
+            right[row as usize] = self.value(self.program.outputs.phi[block.rows[row as usize] as usize]).negated();
+        }
+        let corrections = self.solve(&factors, right);
+        let tear = |builder: &mut Self, (&place, &x): (&u32, &Register)| {
+            let scale = builder.system.coordinates[block.columns[place as usize] as usize].scale;
+            let delta = builder.tape.register(corrections[place as usize]);
+            Tear { x, delta, scale, cell: CELL * power_of_two_below(scale) }
+        };
+        let all = tearing.tears.iter().zip(&tears).map(|pair| tear(self, pair)).collect();
+        self.close_loop(all);
+        // where it has settled
+        self.age += 1;
+        for (&place, &x) in tearing.tears.iter().zip(&tears) {
+            self.tape.set_age(x, self.age);
+            self.know(self.coordinate(0, block.columns[place as usize]), Value::Of { at: x, negative: false });
+        }
+        self.assign(block, &tearing.assigned);
+        for &row in &tearing.residuals {
+            let row = block.rows[row as usize];
+            let value = self.value(self.program.outputs.phi[row as usize]);
+            let a = self.tape.register(value);
+            self.tape.act(Op::Residual { a, row });
+        }
+        self.eliminate(block, &order, true)
+    }
+
+    /// A coordinate that iteration begins with.
+    fn guess(&mut self, column: u32) -> Register {
+        let x = self.tape.fresh(self.age);
+        self.tape.operations.push(Op::Curve { to: x, column });
+        self.know(self.coordinate(0, column), Value::Of { at: x, negative: false });
+        x
+    }
+
+    /// Coordinates that follow from those that are known.
+    fn assign(&mut self, block: &Block, assigned: &[(u32, u32)]) {
+        for &(row, place) in assigned {
+            let (row, column) = (block.rows[row as usize], block.columns[place as usize]);
+            let register = self.coordinate(0, column);
+            if self.is_known(register) {
+                continue;
+            }
+            let slope = self.entries_inside(block, row).find(|(own, _)| *own == place).map(|(_, at)| at);
+            let slope = slope.map_or(Value::Number(1.0), |at| self.value(self.program.outputs.phi_q[at]));
+            let rest = self.without(self.program.outputs.phi[row as usize], register);
+            let value = self.tape.div(rest.negated(), slope);
+            self.know(register, value);
+        }
+    }
+
+    fn close_loop(&mut self, tears: Vec<Tear>) {
+        self.close_once();
+        let from = self.tape.operations.len();
+        self.tape.operations.append(&mut self.tape.inner);
+        self.segments.push(Segment::Newton { operations: from..self.tape.operations.len(), tears });
+    }
+
+    /// Velocity, acceleration and, where needed, jerk of a block.
+    fn derivatives(&mut self, block: &Block, factors: &Factors) {
+        let outputs = &self.program.outputs;
+        for (order, right) in [(1, &outputs.nu), (2, &outputs.gamma), (3, &outputs.jerk)] {
+            if right.is_empty() {
+                continue;
+            }
+            let mut sums = Vec::with_capacity(block.rows.len());
+            for &row in &block.rows {
+                let mut sum = self.value(right[row as usize]);
+                for (at, column) in self.entries_outside(block, row) {
+                    let slope = self.value(outputs.phi_q[at]);
+                    let rate = self.value(self.coordinate(order, column));
+                    let product = self.tape.mul(slope, rate);
+                    sum = self.tape.sub(sum, product);
+                }
+                sums.push(sum);
+            }
+            let rates = self.solve(factors, sums);
+            for (&column, &rate) in block.columns.iter().zip(&rates) {
+                self.know(self.coordinate(order, column), rate);
+                self.store(order, column);
+            }
+        }
+    }
+
+    fn measures(&mut self, measures: &[usize]) {
+        let (system, outputs) = (self.system, &self.program.outputs);
+        for &k in measures {
+            let measure = &system.measures[k];
+            let before = |has: fn(&crate::ir::Measure) -> bool| system.measures[..k].iter().filter(|m| has(m)).count();
+            let mut put = |order: usize, list: &[Register], at: usize| {
+                let value = self.value(list[at]);
+                let a = self.tape.register(value);
+                self.tape.act(Op::Store { column: self.layout.measures[order] + at as u32, a });
+            };
+            put(0, &outputs.measures, k);
+            if measure.first.is_some() {
+                put(1, &outputs.measures_d, before(|m| m.first.is_some()));
+            }
+            if measure.second.is_some() {
+                put(2, &outputs.measures_dd, before(|m| m.second.is_some()));
+            }
+        }
+    }
+
+    fn store(&mut self, order: usize, column: u32) {
+        let value = self.value(self.coordinate(order, column));
+        let a = self.tape.register(value);
+        self.tape.act(Op::Store { column: self.layout.coordinates[order] + column, a });
+    }
+
+    /// The order of elimination of a block.
+    fn order(&self, block: &Block) -> Order {
+        let mut entries = Vec::new();
+        for (row, &number) in block.rows.iter().enumerate() {
+            for (column, at) in self.entries_inside(block, number) {
+                let value = self.values.entry(at);
+                entries.push(BlockEntry { row: row as u32, column, value, is_number: self.is_number(at) });
+            }
+        }
+        Order::new(block.rows.len(), &entries)
+    }
+
+    /// Eliminates a block's part of `Φ_q` in an order.
+    fn eliminate(&mut self, block: &Block, order: &Order, is_watched: bool) -> Factors {
+        let mut rows = self.inside(block);
+        let mut factors = Factors {
+            pivots: order.pivots.clone(),
+            inverses: Vec::with_capacity(rows.len()),
+            lower: Vec::with_capacity(rows.len()),
+            upper: Vec::with_capacity(rows.len()),
+        };
+        for (&(row, column), below) in order.pivots.iter().zip(&order.below) {
+            let mut line = std::mem::take(&mut rows[row as usize]);
+            let pivot = line.iter().position(|(own, _)| *own == column).map(|at| line.swap_remove(at).1);
+            let inverse = self.tape.recip(pivot.unwrap_or(Value::ZERO));
+            let mut lower = Vec::with_capacity(below.len());
+            for &other in below {
+                let target = &mut rows[other as usize];
+                let Some(at) = target.iter().position(|(own, _)| *own == column) else {
+                    continue;
+                };
+                let entry = target.swap_remove(at).1;
+                let multiplier = if is_watched {
+                    let weights = &mut self.weights;
+                    let norm = |row: u32| self.values.row_norm(block.rows[row as usize] as usize);
+                    self.tape.multiplier(entry, inverse, || {
+                        weights.push(norm(row) / norm(other));
+                        (weights.len() - 1) as u32
+                    })
+                } else {
+                    self.tape.mul(entry, inverse)
+                };
+                for &(own, value) in &line {
+                    let product = self.tape.mul(multiplier, value);
+                    match target.iter_mut().find(|(known, _)| *known == own) {
+                        Some((_, entry)) => *entry = self.tape.sub(*entry, product),
+                        None => target.push((own, product.negated())),
+                    }
+                }
+                lower.push((other, multiplier));
+            }
+            factors.inverses.push(inverse);
+            factors.lower.push(lower);
+            factors.upper.push(line);
+        }
+        factors
+    }
+
+    /// Solves with a block's factors: `right` by its rows becomes the solution by its columns.
+    fn solve(&mut self, factors: &Factors, mut right: Vec<Value>) -> Vec<Value> {
+        for (&(row, _), lower) in factors.pivots.iter().zip(&factors.lower) {
+            let own = right[row as usize];
+            for &(other, multiplier) in lower {
+                let product = self.tape.mul(multiplier, own);
+                right[other as usize] = self.tape.sub(right[other as usize], product);
+            }
+        }
+        let mut solution = vec![Value::ZERO; right.len()];
+        for (k, &(row, column)) in factors.pivots.iter().enumerate().rev() {
+            let mut sum = right[row as usize];
+            for &(other, value) in &factors.upper[k] {
+                let product = self.tape.mul(value, solution[other as usize]);
+                sum = self.tape.sub(sum, product);
+            }
+            solution[column as usize] = self.tape.mul(sum, factors.inverses[k]);
+        }
+        solution
+    }
+
+    /// The entries of a block's rows within the block.
+    fn inside(&mut self, block: &Block) -> Vec<Vec<(u32, Value)>> {
+        let mut rows = Vec::with_capacity(block.rows.len());
+        for &row in &block.rows {
+            let places: Vec<(u32, usize)> = self.entries_inside(block, row).collect();
+            let values =
+                places.iter().map(|&(place, at)| (place, self.value(self.program.outputs.phi_q[at]))).collect();
+            rows.push(values);
+        }
+        rows
+    }
+
+    /// The entries of a row within its block: place of the column, and position in the pattern.
+    fn entries_inside(&self, block: &Block, row: u32) -> impl Iterator<Item = (u32, usize)> + use<'s, '_, V> {
+        let own = self.groups.block_of_column[block.columns[0] as usize];
+        debug_assert!((self.place_of_row[row as usize] as usize) < block.rows.len());
+        let pattern = &self.system.phi_q;
+        let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
+        entries
+            .filter(move |(_, (column, _))| self.groups.block_of_column[*column as usize] == own)
+            .map(|(at, &(column, _))| (self.place_of_column[column as usize], at))
+    }
+
+    /// The entries of a row in blocks before its own: position in the pattern, and column.
+    fn entries_outside(&self, block: &Block, row: u32) -> Vec<(usize, u32)> {
+        let own = self.groups.block_of_column[block.columns[0] as usize];
+        let pattern = &self.system.phi_q;
+        let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
+        entries
+            .filter(|(_, (column, _))| self.groups.block_of_column[*column as usize] != own)
+            .map(|(at, &(column, _))| (at, column))
+            .collect()
+    }
+
+    /// Whether an entry of `Φ_q` is a number other than zero.
+    fn is_number(&self, position: usize) -> bool {
+        self.literals.get(&self.program.outputs.phi_q[position]).is_some_and(|&value| value != 0.0)
+    }
+
+    /// The program's register of a coordinate's derivative.
+    fn coordinate(&self, order: usize, column: u32) -> Register {
+        self.program.inputs.coordinates[order] + column
+    }
+
+    fn know(&mut self, register: Register, value: Value) {
+        self.known[register as usize] = (self.tape.age(value), value);
+    }
+
+    fn is_known(&self, register: Register) -> bool {
+        let (age, _) = self.known[register as usize];
+        age >= self.tape.least_age && (age % 2 == 0 || age == self.age)
+    }
+
+    /// The value of a register of the program; lays out what it needs.
+    fn value(&mut self, wanted: Register) -> Value {
+        let mut open = std::mem::take(&mut self.open);
+        open.push(wanted);
+        while let Some(&register) = open.last() {
+            if self.is_known(register) {
+                open.pop();
+            } else if let Some(value) = self.leaf(register) {
+                self.know(register, value);
+            } else if let Some((_, op)) = self.definitions[register as usize] {
+                let (reads, count) = op.reads();
+                let waiting = open.len();
+                open.extend(reads[..count].iter().filter(|&&read| !self.is_known(read)));
+                if open.len() == waiting {
+                    let operands = reads.map(|read| self.known[read as usize].1);
+                    self.learn(op, operands);
+                }
+            } else {
+                // derivatives that nothing needs
+                self.know(register, Value::ZERO);
+            }
+        }
+        self.open = open;
+        self.known[wanted as usize].1
+    }
+
+    fn learn(&mut self, op: program::Op, operands: [Value; 3]) {
+        let [first, second] = lower(&mut self.tape, op, operands);
+        if let program::Op::SinCos { sin, cos, .. } = op {
+            self.know(sin, first);
+            self.know(cos, second);
+        } else if let Some(to) = op.written() {
+            self.know(to, first);
+        }
+    }
+
+    /// A value that is not computed from others here.
+    fn leaf(&mut self, register: Register) -> Option<Value> {
+        let inputs = &self.program.inputs;
+        if let Some(&value) = self.literals.get(&register) {
+            return Some(Value::Number(value));
+        }
+        if register < inputs.time || self.is_loaded(register) {
+            return Some(self.tape.push(|to| Op::Load { to, from: register }));
+        }
+        if register == inputs.time {
+            return Some(self.tape.push(|to| Op::Time { to }));
+        }
+        let order = (0..4)
+            .find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register))?;
+        let column = register - inputs.coordinates[order];
+        let column = self.layout.coordinates[order] + column;
+        self.is_across.then(|| self.tape.push(|to| Op::Column { to, column }))
+    }
+
+    /// Whether a register of the program keeps its value within a step: it depends on parameters alone, or is a switch.
+    fn is_loaded(&self, register: Register) -> bool {
+        self.definitions[register as usize].is_some_and(|(stage, op)| {
+            let is_switch = op.switched().is_some() || matches!(op, program::Op::Pick { .. });
+            stage == Stage::Prologue || (is_switch && stage.can_switch())
+        })
+    }
+
+    /// The value of a sum in which an input, which it is linear in, is left out.
+    fn without(&mut self, sum: Register, left_out: Register) -> Value {
+        // none: it does not depend on that input
+        let mut found: FxHashMap<Register, Option<Value>> = FxHashMap::default();
+        found.insert(left_out, Some(Value::ZERO));
+        let mut open = vec![sum];
+        while let Some(&register) = open.last() {
+            let op = self.definitions[register as usize].filter(|_| !self.is_loaded(register));
+            let Some((_, op)) = op.filter(|_| !found.contains_key(&register)) else {
+                found.entry(register).or_insert(None);
+                open.pop();
+                continue;
+            };
+            let (reads, count) = op.reads();
+            let waiting = open.len();
+            open.extend(reads[..count].iter().filter(|read| !found.contains_key(read)));
+            if open.len() > waiting {
+                continue;
+            }
+            let (written, many) =
+                if let program::Op::SinCos { sin, cos, .. } = op { ([sin, cos], 2) } else { ([register; 2], 1) };
+            let results = if reads[..count].iter().all(|read| found[read].is_none()) {
+                [None; 2]
+            } else {
+                let mut operands = [Value::ZERO; 3];
+                for (operand, read) in operands.iter_mut().zip(&reads[..count]) {
+                    *operand = match found[read] {
+                        Some(value) => value,
+                        None => self.value(*read),
+                    };
+                }
+                lower(&mut self.tape, op, operands).map(Some)
+            };
+            for (register, result) in written.into_iter().zip(results).take(many) {
+                found.insert(register, result);
+            }
+        }
+        match found[&sum] {
+            Some(value) => value,
+            None => self.value(sum),
+        }
+    }
+}
+
+/// Lays an operation of a program out for operands some of which are numbers; a sine and cosine have two results.
+fn lower(tape: &mut Tape, op: program::Op, [a, b, c]: [Value; 3]) -> [Value; 2] {
+    use program::Op as P;
+    let result = match op {
+        P::Add { .. } => tape.add(a, b),
+        P::Sub { .. } => tape.sub(a, b),
+        P::Mul { .. } => tape.mul(a, b),
+        P::Div { .. } => tape.div(a, b),
+        P::Neg { .. } => a.negated(),
+        P::Recip { .. } => tape.recip(a),
+        P::Copy { .. } => a,
+        P::SinCos { .. } => {
+            if let Value::Number(x) = a {
+                let (sin, cos) = math::sin_cos(x);
+                return [Value::Number(sin), Value::Number(cos)];
+            }
+            let a = tape.register(a);
+            return tape.push_pair(|sin, cos| Op::SinCos { sin, cos, a });
+        }
+        _ => {
+            let (reads, _) = op.reads();
+            let registers = [a, b, c].map(|value| tape.register(value));
+            let place = |read: Register| reads.iter().position(|own| *own == read).map_or(read, |k| registers[k]);
+            tape.push(|to| Op::Other(op.renumbered(place, |_| to)))
+        }
+    };
+    [result, Value::ZERO]
+}
+
+/// The largest power of two that is not above a positive number.
+fn power_of_two_below(x: f64) -> f64 {
+    f64::from_bits(x.to_bits() & 0x7ff0_0000_0000_0000)
+}

@@ -1,0 +1,137 @@
+//! The determined system as straight-line operations that solve it.
+//!
+//! What is solved at compile time, and how:
+//!
+//! - Blocks that depend on each other make a component; components are independent.
+//! - In a block, equations with a pivot that is a number (`±1` mostly) give their coordinate once the others are known: such
+//!   coordinates become assignments. What is left is a few *tears*, guessed from the motion so far, and as many equations,
+//!   solved by Newton.
+//! - The linear systems, of Newton, velocity, acceleration and jerk, are eliminated symbolically in an order that is chosen once
+//!   ([`Order`]); numbers fold, and what nothing needs is left out. Velocity and acceleration share the factors.
+//!
+//! A tear's iterates lie on a grid, coarse beside rounding and fine beside convergence: Newton steps from the grid point next to the
+//! solution, whichever way that was found. So the numbers do not depend on where the iteration began.
+//!
+//! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
+
+mod build;
+mod finish;
+mod lanes;
+mod order;
+mod tape;
+mod tear;
+
+pub use lanes::{Batch, Lanes};
+pub use order::{BlockEntry, LEAST_PIVOT, Order};
+
+use crate::ir::ConstraintSystem;
+use crate::program::{Program, Register};
+use crate::structure::Determined;
+use std::ops::Range;
+use tape::Op;
+
+/// A scaled multiplier of an elimination beyond this loses digits.
+pub const LARGEST_MULTIPLIER: f64 = 16.0;
+
+/// A system whose elimination takes more operations than this is not laid out.
+const MOST_OPERATIONS: usize = 30_000_000;
+
+/// Operations that solve a constraint system at given times: position, velocity, acceleration, measures.
+#[derive(Clone, Debug)]
+pub struct Solver {
+    components: Vec<Component>,
+    /// Measures that join components, from what these have stored.
+    across: Component,
+    registers: usize,
+    /// Scales of the multipliers that are watched.
+    weights: Vec<f64>,
+    layout: RowLayout,
+}
+
+/// Blocks that depend on each other, in an order of solution, as operations.
+#[derive(Clone, Debug, Default)]
+struct Component {
+    operations: Vec<Op>,
+    segments: Vec<Segment>,
+}
+
+/// Operations that are run once, or until their tears have settled.
+#[derive(Clone, Debug)]
+enum Segment {
+    Once(Range<usize>),
+    Newton { operations: Range<usize>, tears: Vec<Tear> },
+}
+
+/// A coordinate that Newton solves for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+struct Tear {
+    x: Register,
+    delta: Register,
+    /// What a change is judged against (m, or 1 rad).
+    scale: f64,
+    /// The width of a cell of its grid.
+    cell: f64,
+}
+
+/// Where a result row holds what. Rows are in the order of the table, with what only measures need behind.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct RowLayout {
+    /// First column of `q`, `q̇`, `q̈`, `q⃛`.
+    pub coordinates: [u32; 4],
+    /// First column of the measures, and of their first and second derivatives.
+    pub measures: [u32; 3],
+    /// Columns that the table has.
+    pub printed: usize,
+    /// All columns.
+    pub stride: usize,
+}
+
+impl RowLayout {
+    /// The layout of a system's rows.
+    #[must_use]
+    pub fn new(system: &ConstraintSystem) -> RowLayout {
+        let n = system.coordinates.len() as u32;
+        let count = |having: fn(&crate::ir::Measure) -> bool| {
+            system.measures.iter().filter(|measure| having(measure)).count() as u32
+        };
+        let counts = [count(|_| true), count(|m| m.first.is_some()), count(|m| m.second.is_some())];
+        let (mut next, mut coordinates, mut measures) = (1, [0; 4], [0; 3]);
+        for order in 0..3 {
+            coordinates[order] = next;
+            measures[order] = next + n;
+            next += n + counts[order];
+        }
+        coordinates[3] = next;
+        let printed = next as usize;
+        let stride = if system.jerk.is_some() { printed + n as usize } else { printed };
+        RowLayout { coordinates, measures, printed, stride }
+    }
+}
+
+/// What is known of `Φ_q` where the orders of elimination are chosen.
+pub trait Values {
+    /// An entry by its position in the pattern, in scaled terms.
+    fn entry(&self, position: usize) -> f64;
+    /// The norm of a row in the scaled `Φ_q`.
+    fn row_norm(&self, row: usize) -> f64;
+}
+
+impl Solver {
+    /// Lays the solution of a system out; none where that takes too many operations.
+    #[must_use]
+    pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
+        build::build(determined, program, values)
+    }
+
+    /// Where its rows hold what.
+    #[must_use]
+    pub fn layout(&self) -> &RowLayout {
+        &self.layout
+    }
+
+    /// How many operations it has.
+    #[must_use]
+    pub fn operations(&self) -> usize {
+        self.components.iter().map(|component| component.operations.len()).sum::<usize>() + self.across.operations.len()
+    }
+}
