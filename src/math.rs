@@ -5,24 +5,10 @@
 //! elsewhere (`clippy.toml`). Angles are in radians.
 
 mod sin_cos;
+mod sin_cos_of_each;
 
 pub use sin_cos::sin_cos;
-
-/// Sine and cosine of several angles: the same bits as of each alone.
-#[must_use]
-pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]) {
-    let (mut sines, mut cosines) = ([0.0; W], [0.0; W]);
-    if angles.iter().all(|angle| angle.abs() < 1e6) {
-        for k in 0..W {
-            (sines[k], cosines[k]) = sin_cos::sin_cos_below_a_million(angles[k]);
-        }
-    } else {
-        for k in 0..W {
-            (sines[k], cosines[k]) = sin_cos(angles[k]);
-        }
-    }
-    (sines, cosines)
-}
+pub use sin_cos_of_each::sin_cos_of_each;
 
 /// Sine.
 #[must_use]

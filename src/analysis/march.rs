@@ -31,7 +31,9 @@ const SETTLED: f64 = 1e-7;
 /// Nearer to a singular position than this more digits are needed.
 const ILL: f64 = 0.01;
 /// Steps over the whole span at least, so that what happens in it is met.
-pub(super) const FEWEST_STEPS: f64 = 64.0;
+const FEWEST_STEPS: f64 = 32.0;
+/// Where a singular position may be as near as the motion of such a step is large, there are more of them.
+pub(super) const FEWEST_STEPS_NEAR: f64 = 64.0;
 /// Smallest step, as a part of the whole span.
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
@@ -97,7 +99,6 @@ pub struct Motion<'m, 'd> {
     /// The step that the error allows (s).
     pub(super) h: f64,
     smallest: f64,
-    largest: f64,
     /// Where the last step was looked into, from 0 to 1.
     probe: f64,
     pub(super) begun: bool,
@@ -113,6 +114,7 @@ pub struct Motion<'m, 'd> {
 pub(super) struct Accepted {
     first_correction: f64,
     between: f64,
+    motion: f64,
 }
 
 impl<'m, 'd> Motion<'m, 'd> {
@@ -162,9 +164,8 @@ impl<'m, 'd> Motion<'m, 'd> {
             way_before: Before::UNKNOWN,
             sides: vec![true; watches],
             trial_sides: vec![true; watches],
-            h: span / FEWEST_STEPS,
+            h: span / FEWEST_STEPS_NEAR,
             smallest,
-            largest: span / FEWEST_STEPS,
             probe: 0.0,
             begun: false,
             is_certain: true,
@@ -268,7 +269,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.look_between(h, between)?;
         }
         self.look_for_touch(h, motion)?;
-        Ok(Accepted { first_correction, between })
+        Ok(Accepted { first_correction, between, motion })
     }
 
     /// Whether the position that was factored is on the branch of the state: every determinant, and what is watched, has
@@ -405,13 +406,17 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.kinematics.measure_slopes(&self.state.q);
         self.keep_if_clear();
         self.keep_determinants(h);
+        // a singular value changes by no more than the motion, or little more
+        let longest = self.span / FEWEST_STEPS;
+        let is_near = 2.0 * accepted.motion * longest >= self.kinematics.linear().smallest_pivot() * h;
+        let longest = if is_near { self.span / FEWEST_STEPS_NEAR } else { longest };
         // the predictor's error grows with h³, the curve's between with h⁶
         let calm = accepted.first_correction < LARGEST_CORRECTION / 12.0 && accepted.between < LARGEST_BETWEEN / 100.0;
         if calm {
             // a step cut short by an output time says little of a longer one
-            self.h = self.h.max(2.0 * h).min(self.largest);
+            self.h = self.h.max(2.0 * h).min(longest);
         } else {
-            self.h = self.h.min(h);
+            self.h = self.h.min(h).min(longest);
         }
     }
 

@@ -8,11 +8,11 @@ use super::determinant::Determinant;
 use super::edges::{Edge, behind_start, shortly_after};
 use super::errors;
 use super::kinematics::{Kinematics, State};
-use super::march::{FEWEST_STEPS, MOST_STEPS, Motion};
+use super::march::{FEWEST_STEPS_NEAR, MOST_STEPS, Motion};
 use super::singular;
 use super::times::Times;
 use crate::diag::Diagnostic;
-use crate::solver::{Batch, Lanes, Solver};
+use crate::solver::{Batch, Bend, Lanes, Solver};
 
 /// Times that are solved at once.
 const LANES: usize = 16;
@@ -50,6 +50,11 @@ struct Rows<'m> {
     /// Where the step begins.
     origin: Bookmark,
     length: f64,
+    /// Where the step before began, if it led smoothly to this one.
+    before: State,
+    is_smooth: bool,
+    /// How the curve of each tear goes on from the step before.
+    bends: Vec<Bend>,
 }
 
 /// Where a row is.
@@ -93,6 +98,9 @@ impl<'m> Output<'m> {
                 h: 0.0,
             },
             length: 0.0,
+            before: state.clone(),
+            is_smooth: false,
+            bends: vec![Bend::NONE; solver.tears().len()],
         });
         let careful_until = f64::NEG_INFINITY;
         Output { times, next: 0, has_stopped: false, steps: 0, careful_until, rows, edge: None }
@@ -211,6 +219,9 @@ impl Motion<'_, '_> {
         let next = edge.map_or(target, |edge| edge.t);
         let h = next - self.state.t;
         if h <= 0.0 {
+            if let Some(rows) = &mut self.output.rows {
+                rows.length = 0.0;
+            }
             return edge.map_or(Ok(()), |edge| self.cross(edge));
         }
         match self.try_step(h, next, next >= upcoming, self.met.is_some_and(|met| met.t <= next)) {
@@ -247,12 +258,25 @@ impl Motion<'_, '_> {
         let behind = times.first_after(next, *number);
         let at_end = to_edge && behind > *number && times.at(behind - 1) >= next;
         (rows.first, rows.end) = (*number, *number);
-        (rows.last, rows.length) = (if at_end { behind - 1 } else { behind }, h);
-        if rows.last == rows.first {
-            return;
-        }
-        self.kinematics.write_bounds(&mut rows.bounds);
+        rows.last = if at_end { behind - 1 } else { behind };
         let origin = &mut rows.origin;
+        std::mem::swap(&mut rows.before, &mut origin.state);
+        let was_next_to_it = (rows.before.t + rows.length - self.state.t).abs() <= 1e-9 * h;
+        let comes_from = |smooth: bool| smooth && was_next_to_it && rows.length > 0.0;
+        let (before, bent) = (&rows.before, comes_from(rows.is_smooth));
+        for (bend, &tear) in rows.bends.iter_mut().zip(rows.solver.tears()) {
+            let k = tear as usize;
+            *bend = if bent {
+                let back = (self.state.t - before.t) / h;
+                Bend::new(&self.curve[k], [before.q[k], h * before.qd[k], h * h * before.qdd[k]], back)
+            } else {
+                Bend::NONE
+            };
+        }
+        (rows.length, rows.is_smooth) = (h, !to_edge);
+        if rows.last > rows.first {
+            self.kinematics.write_bounds(&mut rows.bounds);
+        }
         origin.state.copy_from(self.state);
         origin.clear.copy_from(&self.clear);
         origin.determinants.copy_from_slice(&self.determinants);
@@ -293,6 +317,7 @@ impl Motion<'_, '_> {
             from: rows.origin.state.t,
             length: rows.length,
             curve: &self.curve,
+            bends: &rows.bends,
             bounds: &rows.bounds,
         };
         let (program, registers) = self.kinematics.program();
@@ -324,7 +349,7 @@ impl Motion<'_, '_> {
         self.output.careful_until = self.state.t;
         self.output.edge = None;
         if let Some(mut rows) = self.output.rows.take() {
-            rows.last = rows.first;
+            (rows.last, rows.is_smooth) = (rows.first, false);
             self.go_back(&rows.origin);
             self.output.rows = Some(rows);
         }
@@ -333,7 +358,7 @@ impl Motion<'_, '_> {
     /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
     /// that is passed, and then the row lies on the way over it.
     fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
-        let ahead = t + self.span / FEWEST_STEPS;
+        let ahead = t + self.span / FEWEST_STEPS_NEAR;
         let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
         for _ in 0..STEPS_AHEAD {
             match self.step_towards(ahead) {

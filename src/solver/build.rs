@@ -39,13 +39,8 @@ pub(super) fn build(determined: &Determined, program: &Program, values: &impl Va
     builder.is_across = true;
     builder.measures(&measures[groups.blocks.len()]);
     let (across, used) = builder.finish();
-    Some(Solver {
-        components,
-        across,
-        registers: registers.max(used),
-        weights: builder.weights,
-        layout: builder.layout,
-    })
+    let Builder { weights, tears, layout, .. } = builder;
+    Some(Solver { components, across, registers: registers.max(used), weights, tears, layout })
 }
 
 /// Blocks that depend on each other.
@@ -131,6 +126,7 @@ struct Builder<'s, V> {
     tape: Tape,
     segments: Vec<Segment>,
     weights: Vec<f64>,
+    tears: Vec<u32>,
     age: u32,
     is_across: bool,
     open: Vec<Register>,
@@ -169,6 +165,7 @@ impl<'s, V: Values> Builder<'s, V> {
             tape: Tape::new(0),
             segments: Vec::new(),
             weights: Vec::new(),
+            tears: Vec::new(),
             age: 0,
             is_across: false,
             open: Vec::new(),
@@ -260,7 +257,9 @@ impl<'s, V: Values> Builder<'s, V> {
     /// A coordinate that iteration begins with.
     fn guess(&mut self, column: u32) -> Register {
         let x = self.tape.fresh(self.age);
-        self.tape.operations.push(Op::Curve { to: x, column });
+        let tear = self.tears.len() as u32;
+        self.tears.push(column);
+        self.tape.operations.push(Op::Curve { to: x, tear });
         self.know(self.coordinate(0, column), Value::Of { at: x, negative: false });
         x
     }

@@ -1,5 +1,6 @@
 //! Running a solver at several times at once. Allocates nothing but the registers, once.
 
+use super::curve::Bend;
 use super::tape::Op;
 use super::{Component, LARGEST_MULTIPLIER, Segment, Solver, Tear};
 use crate::expr::{binary_value, compare, unary_value};
@@ -41,6 +42,8 @@ pub struct Batch<'b, const W: usize> {
     pub length: f64,
     /// Each coordinate as a polynomial of the part of the step.
     pub curve: &'b [[f64; 6]],
+    /// How the curve of each tear goes on from the step before.
+    pub bends: &'b [Bend],
     /// By row of `Φ`: one over what may be left of it.
     pub bounds: &'b [f64],
 }
@@ -181,22 +184,15 @@ impl<const W: usize> Run<'_, W> {
                         row[column as usize] = value + 0.0;
                     }
                 }
-                Op::Curve { to, column } => v[to as usize] = Vector(self.batch.on_curve(column as usize)),
+                Op::Curve { to, tear } => {
+                    let column = self.solver.tears[tear as usize] as usize;
+                    let (curve, bend) = (&self.batch.curve[column], &self.batch.bends[tear as usize]);
+                    let (from, per_second) = (self.batch.from, 1.0 / self.batch.length);
+                    v[to as usize] = Vector(self.batch.times.map(|t| bend.on_curve(curve, (t - from) * per_second)));
+                }
                 Op::Other(op) => other(v, op, self.program, self.scalars),
             }
         }
-    }
-}
-
-impl<const W: usize> Batch<'_, W> {
-    /// A coordinate on the curve of the step.
-    fn on_curve(&self, column: usize) -> [f64; W] {
-        let curve = &self.curve[column];
-        let per_second = 1.0 / self.length;
-        self.times.map(|t| {
-            let x = (t - self.from) * per_second;
-            curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
-        })
     }
 }
 

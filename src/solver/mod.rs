@@ -15,12 +15,14 @@
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
 mod build;
+mod curve;
 mod finish;
 mod lanes;
 mod order;
 mod tape;
 mod tear;
 
+pub use curve::Bend;
 pub use lanes::{Batch, Lanes};
 pub use order::{BlockEntry, LEAST_PIVOT, Order};
 
@@ -45,6 +47,7 @@ pub struct Solver {
     registers: usize,
     /// Scales of the multipliers that are watched.
     weights: Vec<f64>,
+    tears: Vec<u32>,
     layout: RowLayout,
 }
 
@@ -127,6 +130,12 @@ impl Solver {
     #[must_use]
     pub fn layout(&self) -> &RowLayout {
         &self.layout
+    }
+
+    /// The coordinates that Newton solves for.
+    #[must_use]
+    pub fn tears(&self) -> &[u32] {
+        &self.tears
     }
 
     /// How many operations it has.

@@ -26,10 +26,10 @@ pub enum Op {
         to: Register,
         column: u32,
     },
-    /// A coordinate on the curve of the step, where Newton begins.
+    /// A tear, by its number, on the curve of the step: where Newton begins.
     Curve {
         to: Register,
-        column: u32,
+        tear: u32,
     },
     Add {
         to: Register,

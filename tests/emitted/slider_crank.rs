@@ -272,37 +272,22 @@ mod sine_and_cosine {
 /// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
 #[must_use]
 pub fn sin_cos(angle: f64) -> (f64, f64) {
-    if angle.abs() < 1e6 {
-        sin_cos_below_a_million(angle)
-    } else if angle.is_finite() {
-        let (quarter, r, tail) = reduce_large(angle);
-        in_quarter(quarter, r, tail)
-    } else {
-        (f64::NAN, f64::NAN)
+    if !angle.is_finite() {
+        return (f64::NAN, f64::NAN);
     }
-}
-
-/// As [`sin_cos`] for angles below a million, without a branch, so that a loop over many is done with several at once.
-#[inline]
-pub fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
-    let (quarter, r, tail) = reduce_small(angle);
-    in_quarter(quarter, r, tail)
-}
-
-/// Sine and cosine of `r + tail` and so many quarter turns, of which the last two bits count.
-#[inline]
-fn in_quarter(quarter: u64, r: f64, tail: f64) -> (f64, f64) {
-    let (sin, cos) = (sin_near_zero(r, tail).to_bits(), cos_near_zero(r, tail).to_bits());
-    // an odd quarter exchanges them, the second and third turn the sine's sign, the first and second the cosine's
-    let odd = (quarter & 1).wrapping_neg();
-    let (first, second) = ((sin & !odd) | (cos & odd), (cos & !odd) | (sin & odd));
-    let turned = |quarter: u64| (quarter & 2) << 62;
-    (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
+    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
+    let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
+    match quarter & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
 }
 
 /// `sin(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
 #[inline]
-fn sin_near_zero(r: f64, tail: f64) -> f64 {
+pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
     let cube = z * r;
     let higher = 8.333_333_333_322_49e-3
@@ -313,7 +298,7 @@ fn sin_near_zero(r: f64, tail: f64) -> f64 {
 
 /// `cos(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
 #[inline]
-fn cos_near_zero(r: f64, tail: f64) -> f64 {
+pub(super) fn cos_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
     let higher = z
         * (4.166_666_666_666_66e-2
@@ -336,7 +321,7 @@ fn two_sum(a: f64, b: f64) -> (f64, f64) {
 
 /// The nearest whole number of quarter turns, by its last bits, and what is left of an angle below a million.
 #[inline]
-fn reduce_small(angle: f64) -> (u64, f64, f64) {
+pub(super) fn reduce_small(angle: f64) -> (u64, f64, f64) {
     // pi/2 in three pieces of 33 bits and a rest
     const PIECES: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
     const REST: f64 = 8.478_427_660_368_9e-32;

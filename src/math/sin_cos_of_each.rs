@@ -1,0 +1,64 @@
+//! Sine and cosine of several angles at once.
+
+use super::sin_cos::{cos_near_zero, reduce_small, sin_cos, sin_near_zero};
+
+/// Sine and cosine of several angles (rad): the same bits as of each alone.
+#[must_use]
+pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]) {
+    let (mut sines, mut cosines) = ([0.0; W], [0.0; W]);
+    if angles.iter().all(|angle| angle.abs() < 1e6) {
+        for k in 0..W {
+            (sines[k], cosines[k]) = sin_cos_below_a_million(angles[k]);
+        }
+    } else {
+        for k in 0..W {
+            (sines[k], cosines[k]) = sin_cos(angles[k]);
+        }
+    }
+    (sines, cosines)
+}
+
+/// As [`sin_cos`] for angles below a million, without a branch, so that a loop over many does several at once.
+#[inline]
+fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
+    let (quarter, r, tail) = reduce_small(angle);
+    let (sin, cos) = (sin_near_zero(r, tail).to_bits(), cos_near_zero(r, tail).to_bits());
+    // an odd quarter exchanges them, the second and third turn the sine's sign, the first and second the cosine's
+    let odd = (quarter & 1).wrapping_neg();
+    let (first, second) = ((sin & !odd) | (cos & odd), (cos & !odd) | (sin & odd));
+    let turned = |quarter: u64| (quarter & 2) << 62;
+    (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{sin_cos, sin_cos_of_each};
+
+    #[test]
+    fn many_at_once_have_the_bits_of_each_alone() {
+        let mut angle = -9.7e5;
+        while angle < 1.1e6 {
+            let angles: [f64; 8] = std::array::from_fn(|k| angle + 0.7 * k as f64);
+            let (sines, cosines) = sin_cos_of_each(&angles);
+            for (k, angle) in angles.into_iter().enumerate() {
+                let (sin, cos) = sin_cos(angle);
+                assert_eq!((sines[k].to_bits(), cosines[k].to_bits()), (sin.to_bits(), cos.to_bits()), "of {angle}");
+            }
+            angle += 97.3;
+        }
+        let odd = [0.0, -0.0, f64::NAN, f64::INFINITY, 1e300, -1e-300, 0.5 * std::f64::consts::PI, -3.0];
+        let (sines, cosines) = sin_cos_of_each(&odd);
+        for (k, angle) in odd.into_iter().enumerate() {
+            let (sin, cos) = sin_cos(angle);
+            assert!(sines[k].to_bits() == sin.to_bits() && cosines[k].to_bits() == cos.to_bits(), "of {angle}");
+        }
+        let tiny = odd.map(|angle| if angle.abs() < 1e6 { angle } else { 1e-310 });
+        let (sines, cosines) = sin_cos_of_each(&tiny);
+        for (k, angle) in tiny.into_iter().enumerate() {
+            assert_eq!(
+                (sines[k].to_bits(), cosines[k].to_bits()),
+                (sin_cos(angle).0.to_bits(), sin_cos(angle).1.to_bits())
+            );
+        }
+    }
+}
