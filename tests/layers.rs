@@ -21,7 +21,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("structure", &["ir", "expr", "diag"]),
     ("program", &["ir", "expr", "math"]),
     ("solver", &["program", "structure", "ir", "expr", "math"]),
-    ("analysis", &["solver", "program", "structure", "ir", "diag", "math"]),
+    ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math"]),
     ("emit", &["program", "structure", "ir", "expr"]),
     ("output", &[]),
     ("import", &["source", "diag", "syntax"]),

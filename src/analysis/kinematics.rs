@@ -347,10 +347,10 @@ impl<'d> Kinematics<'d> {
         (self.program, &self.registers)
     }
 
-    /// By row, one over what may be left of it where Φ_q was factored.
+    /// By row, one over what may be left of it: its tolerance and rounding, where the position was set and factored.
     pub fn write_bounds(&self, bounds: &mut [f64]) {
         for (row, bound) in bounds.iter_mut().enumerate() {
-            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row));
+            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row) + self.rounding(row));
         }
     }
 

@@ -8,7 +8,8 @@ use super::GOLDEN;
 use super::dense::{factor_dense, solve_dense, solve_dense_transposed};
 use super::determinant::Determinant;
 use super::sparse::Plan;
-use crate::ir::ConstraintSystem;
+use crate::expr::{Dependence, ExprId, Symbol};
+use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::solver::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT};
 use crate::structure::Block;
 use std::ops::Range;
@@ -86,6 +87,9 @@ pub(super) struct BlockLu {
     entries: Vec<Entry>,
     /// Scale of each coordinate: the size of its body, or 1 rad.
     column_scale: Vec<f64>,
+    /// Coordinates that a step is judged by, and those of them that need iteration.
+    judged: Vec<u32>,
+    judged_implicit: Vec<u32>,
     /// What each scaled row is divided by: its norm, or the least norm where that is larger.
     row_norm: Vec<f64>,
     /// By row; 0 where the norm itself is meant.
@@ -155,6 +159,9 @@ impl BlockLu {
             part.inside.end = inside_blocks.len();
         }
         let column_scale = system.coordinates.iter().map(|coordinate| coordinate.scale).collect();
+        let judged = judged_coordinates(system);
+        let is_implicit = |column: &u32| !parts[part_of_column[*column as usize] as usize].explicit;
+        let judged_implicit = judged.iter().copied().filter(is_implicit).collect();
         BlockLu {
             parts,
             rows,
@@ -164,6 +171,8 @@ impl BlockLu {
             inside: inside_blocks,
             entries,
             column_scale,
+            judged,
+            judged_implicit,
             row_norm: vec![1.0; n],
             least_norm: vec![0.0; n],
             dense: vec![0.0; matrix],
@@ -378,6 +387,22 @@ impl BlockLu {
         x.iter().zip(&self.column_scale).map(|(x, scale)| x.abs() / scale).fold(0.0, f64::max)
     }
 
+    /// The largest scaled `|x|` of the coordinates that a step is judged by.
+    pub fn largest_judged(&self, x: &[f64]) -> f64 {
+        self.largest_of(&self.judged, x)
+    }
+
+    /// As [`BlockLu::largest_judged`] without those that follow without iteration: they have no branches.
+    pub fn largest_judged_implicit(&self, x: &[f64]) -> f64 {
+        self.largest_of(&self.judged_implicit, x)
+    }
+
+    /// The largest scaled `|x|` of some coordinates; not a number if one is not.
+    fn largest_of(&self, columns: &[u32], x: &[f64]) -> f64 {
+        let scaled = columns.iter().map(|&column| x[column as usize].abs() / self.column_scale[column as usize]);
+        scaled.fold(0.0, |largest, size| if size <= largest { largest } else { size })
+    }
+
     /// The largest scaled `|x|` of the coordinates that need iteration.
     pub fn largest_implicit(&self, x: &[f64]) -> f64 {
         let implicit = self.parts.iter().filter(|part| !part.explicit);
@@ -505,6 +530,24 @@ impl BlockLu {
     fn factors(&self) -> Factors<'_> {
         Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots }
     }
+}
+
+/// The coordinates that a step is judged by: those that `Φ_q` depends on, those that an equation of time speaks of, and all
+/// angles. The places that are left follow from these, however far they go.
+fn judged_coordinates(system: &ConstraintSystem) -> Vec<u32> {
+    let slopes: Vec<ExprId> = system.phi_q.entries().iter().map(|&(_, slope)| slope).collect();
+    let mut is_judged: Vec<bool> = system.coordinates.iter().map(|c| c.kind != CoordinateKind::Length).collect();
+    for symbol in system.graph.symbols_of_all(&slopes) {
+        if let Symbol::Coordinate { index, .. } = symbol {
+            is_judged[index as usize] = true;
+        }
+    }
+    for (k, row) in system.rows.iter().enumerate() {
+        if system.graph.dependence(row.phi).on(Dependence::TIME) {
+            system.phi_q.row(k).iter().for_each(|&(column, _)| is_judged[column as usize] = true);
+        }
+    }
+    (0..is_judged.len() as u32).filter(|&column| is_judged[column as usize]).collect()
 }
 
 /// The factors of all blocks.

@@ -18,7 +18,8 @@ use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
 use crate::solver::Solver;
 
-/// Largest first correction of a step, scaled.
+/// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
+/// from other coordinates: the upper end of a tall lift goes far.
 const LARGEST_CORRECTION: f64 = 0.05;
 /// Largest correction between the ends of a step, on the curve through both, scaled.
 const LARGEST_BETWEEN: f64 = 1e-3;
@@ -292,7 +293,7 @@ impl<'m, 'd> Motion<'m, 'd> {
             self.trial.q[k] = self.state.q[k] + self.delta[k];
         }
         // what follows without iteration has no branches, and may go as far as the predictor is right
-        let motion = self.kinematics.linear().largest_implicit(&self.delta);
+        let motion = self.kinematics.linear().largest_judged_implicit(&self.delta);
         if motion <= LARGEST_MOTION { Ok(motion) } else { Err(Fault::TooFar) }
     }
 
@@ -303,7 +304,8 @@ impl<'m, 'd> Motion<'m, 'd> {
         let mut first = None;
         for _ in 0..ITERATIONS {
             self.kinematics.factor()?;
-            let size = self.kinematics.correction(&mut self.delta);
+            self.kinematics.correction(&mut self.delta);
+            let size = self.kinematics.linear().largest_judged(&self.delta);
             let bound = if first.is_none() { LARGEST_CORRECTION } else { 0.25 * LARGEST_CORRECTION };
             if size.is_nan() || size > bound {
                 return Err(Fault::TooFar);
@@ -367,7 +369,8 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
         self.kinematics.set_time(self.state.t + x * h);
         self.kinematics.set_position(&self.middle)?;
-        let size = self.kinematics.correction(&mut self.delta);
+        self.kinematics.correction(&mut self.delta);
+        let size = self.kinematics.linear().largest_judged(&self.delta);
         if size <= LARGEST_BETWEEN { Ok(size) } else { Err(Fault::TooFar) }
     }
 

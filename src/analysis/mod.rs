@@ -110,6 +110,12 @@ impl<'d> Started<'d> {
         self.kinematics.worst().sigma
     }
 
+    /// What solves for rows; none where it would be too large.
+    #[must_use]
+    pub fn solver(&self) -> Option<&Solver> {
+        self.solver.as_ref()
+    }
+
     /// Names of the result's columns, in order.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {

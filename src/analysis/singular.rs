@@ -233,7 +233,9 @@ fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
 fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > 0.1 * largest).collect();
-    rows.sort_by(|&a, &b| left[b].abs().total_cmp(&left[a].abs()));
+    // rounding does not order what weighs the same
+    let weight = |row: usize| (left[row].abs() / largest * 1e6).round();
+    rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
     let mut joints: Vec<usize> = Vec::new();
     for row in rows {
         let declaration = system.rows[row].declaration;

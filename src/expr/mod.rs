@@ -326,8 +326,14 @@ impl Graph {
     /// The symbols that a formula holds, in their order.
     #[must_use]
     pub fn symbols(&self, root: ExprId) -> Vec<Symbol> {
+        self.symbols_of_all(&[root])
+    }
+
+    /// The symbols in some formulas, each once, ordered.
+    #[must_use]
+    pub fn symbols_of_all(&self, roots: &[ExprId]) -> Vec<Symbol> {
         let mut list: Vec<Symbol> = self
-            .reachable(&[root])
+            .reachable(roots)
             .into_iter()
             .filter_map(|id| match self.node(id) {
                 Node::Symbol(symbol) => Some(symbol),

@@ -1,0 +1,186 @@
+//! What a step costs: position, velocity and acceleration of all bodies at one output time.
+//!
+//! ```sh
+//! cargo bench --bench steps
+//! ```
+//!
+//! `docs/speed.md` tells how to read what it prints. Before anything is timed, the ways that are compared must agree.
+
+#![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
+
+mod closed_form;
+mod mechanisms;
+mod newton;
+mod timing;
+
+use closed_form::closed_form;
+use mechanisms::{Compiled, compile};
+use mechc::analysis::{self, Started, TOLERANCE, Times};
+use mechc::output::{TableFormat, TableWriter};
+use mechc::program::Program;
+use newton::{Dense, Linear, Newton, Sparse};
+use std::f64::consts::PI;
+use std::hint::black_box;
+use timing::{Table, median, per_step};
+
+/// Times a turn, both ends counted.
+const STEPS: u32 = 1001;
+/// Unknowns beyond which a dense matrix is not worth waiting for.
+const LARGEST_DENSE: usize = 200;
+/// Steps that are enough to time the ways that take long.
+const A_FEW_STEPS: u32 = 12;
+
+fn main() {
+    let floor = median(9, || per_step(STEPS, || turn().for_each(|t| drop(black_box(closed_form(black_box(t)))))));
+    println!("closed form of the four-bar, by hand: {floor:.0} ns a step\n");
+    agree();
+    single(floor);
+    four_bars(floor);
+    scissor_lifts(floor);
+    set_up();
+    output();
+}
+
+/// One turn of the four-bar's crank.
+fn turn() -> impl Iterator<Item = f64> {
+    (0..STEPS).map(|k| PI * f64::from(k) / f64::from(STEPS - 1))
+}
+
+/// Every number of every way is that of the closed form, to 1e-9.
+fn agree() {
+    let compiled = compile(&mechanisms::four_bars(1));
+    let program = Program::new(compiled.system());
+    let mut started = started(&compiled, &program);
+    let mut dense = Newton::new(Dense::new(&compiled), &compiled, &program, started.q());
+    let mut sparse = Newton::new(Sparse::new(&compiled), &compiled, &program, started.q());
+    let mut motion = started.motion(&Times::listed(0.0, turn().collect()));
+    for t in turn() {
+        let row = motion.next_row().expect("a row").expect("it moves");
+        for (name, got) in [("mechc", &row[1..]), ("dense", &dense.step(t)), ("sparse", &sparse.step(t))] {
+            for (k, (a, b)) in got.iter().zip(closed_form(t)).enumerate() {
+                assert!((a - b).abs() < 1e-9, "{name}, number {k} at t = {t}: {a} instead of {b}");
+            }
+        }
+    }
+}
+
+/// Mechanisms of one loop or a few.
+fn single(floor: f64) {
+    let mut table = Table::new("one mechanism, 1001 times a turn", floor);
+    for (name, text) in mechanisms::singles() {
+        let compiled = compile(&text);
+        table.row(name, 1.0, &ways(&compiled, STEPS));
+    }
+}
+
+fn four_bars(floor: f64) {
+    let mut table = Table::new("N four-bars; per four-bar", floor);
+    for n in [1, 10, 100, 1_000, 10_000] {
+        let compiled = compile(&mechanisms::four_bars(n));
+        table.row(&n.to_string(), n as f64, &ways(&compiled, STEPS));
+    }
+}
+
+fn scissor_lifts(floor: f64) {
+    let mut table = Table::new("scissor lift of N cells; per cell", floor);
+    for n in [1, 10, 100, 1_000, 10_000] {
+        let compiled = compile(&mechanisms::scissor_lift(n));
+        table.row(&n.to_string(), n as f64, &ways(&compiled, STEPS));
+    }
+}
+
+/// ns a step: mechc, and the same Newton with a dense LU (where that can be waited for) and with a sparse one.
+fn ways(compiled: &Compiled, steps: u32) -> [Option<f64>; 3] {
+    let program = Program::new(compiled.system());
+    let n = compiled.system().coordinates.len();
+    let [from, to, _] = compiled.system().analysis.expect("an analysis");
+    let every = (to - from) / f64::from(steps - 1);
+    let times = Times::grid(from, to, every).expect("a grid");
+    let mut started = started(compiled, &program);
+    let start = started.q().to_vec();
+    let rounds = if n > 2_000 { 3 } else { 9 };
+    let library = median(rounds, || {
+        let mut started = self::started(compiled, &program);
+        per_step(steps, || {
+            let mut motion = started.motion(&times);
+            while let Some(row) = motion.next_row() {
+                black_box(row.expect("it moves"));
+            }
+        })
+    });
+    let few = if n > 2_000 { A_FEW_STEPS } else { 100 };
+    let dense = (n <= LARGEST_DENSE).then(|| {
+        let mut newton = Newton::new(Dense::new(compiled), compiled, &program, &start);
+        followed(&mut newton, few, from, every)
+    });
+    let mut newton = Newton::new(Sparse::new(compiled), compiled, &program, &start);
+    let sparse = followed(&mut newton, few, from, every);
+    let _ = started.conditioning();
+    [Some(library), dense, Some(sparse)]
+}
+
+/// ns a step of a Newton, after some steps that are not counted.
+fn followed<L: Linear>(newton: &mut Newton<'_, L>, steps: u32, from: f64, every: f64) -> f64 {
+    let mut k = 0;
+    median(3, || {
+        per_step(steps, || {
+            for _ in 0..steps {
+                k += 1;
+                black_box(newton.step(black_box(from + f64::from(k) * every)));
+            }
+        })
+    })
+}
+
+fn started<'d>(compiled: &'d Compiled, program: &'d Program) -> Started<'d> {
+    let [from, ..] = compiled.system().analysis.expect("an analysis");
+    analysis::start(compiled, program, from, TOLERANCE).expect("it assembles")
+}
+
+/// From text to the first row.
+fn set_up() {
+    println!("set-up, from text to the first row");
+    for (name, text) in [
+        ("four-bar", mechanisms::four_bars(1)),
+        ("999 bodies: 333 four-bars", mechanisms::four_bars(333)),
+        ("1,000 bodies: scissor lift", mechanisms::scissor_lift(500)),
+        ("9,999 bodies: 3,333 four-bars", mechanisms::four_bars(3_333)),
+        ("10,000 bodies: scissor lift", mechanisms::scissor_lift(5_000)),
+    ] {
+        let time = median(3, || {
+            per_step(1, || {
+                let compiled = compile(&text);
+                let program = Program::new(compiled.system());
+                let mut started = started(&compiled, &program);
+                let mut motion = started.motion(&Times::listed(0.0, vec![0.0]));
+                black_box(motion.next_row().expect("a row").expect("it moves"));
+            })
+        });
+        println!("  {name:<32} {:>9.2} ms", time * 1e-6);
+    }
+    println!();
+}
+
+/// Rows of the four-bar as text.
+fn output() {
+    println!("the four-bar's table, 28 numbers a row, solving not counted");
+    let compiled = compile(&mechanisms::four_bars(1));
+    let program = Program::new(compiled.system());
+    let mut started = started(&compiled, &program);
+    let columns = started.columns();
+    let mut motion = started.motion(&Times::listed(0.0, turn().collect()));
+    let mut rows = Vec::new();
+    while let Some(row) = motion.next_row() {
+        rows.push(row.expect("it moves").to_vec());
+    }
+    for (name, format) in [("CSV", TableFormat::Csv), ("JSON", TableFormat::Json)] {
+        let time = median(9, || {
+            per_step(STEPS, || {
+                let mut table = TableWriter::new(std::io::sink(), format, &columns).expect("a sink");
+                rows.iter().for_each(|row| table.row(row).expect("a sink"));
+                table.finish().expect("a sink");
+            })
+        });
+        println!("  {name:<32} {time:>9.0} ns a row");
+    }
+}

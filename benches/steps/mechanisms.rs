@@ -1,0 +1,101 @@
+//! The mechanisms, as text.
+
+use mechc::check::Surroundings;
+use mechc::source::Sources;
+use mechc::structure::Determined;
+use mechc::syntax;
+
+pub type Compiled = Determined;
+
+pub fn compile(text: &str) -> Compiled {
+    let mut sources = Sources::default();
+    let file = sources.add("bench.mech", text.to_owned());
+    let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+    let (determined, diagnostics) = mechc::compile(&tree.mechanisms[0], &Surroundings::default(), &sources);
+    assert!(determined.is_some(), "{diagnostics:?}");
+    determined.expect("it is determined")
+}
+
+/// Those of one loop or a few, a turn of the crank each, without measures.
+pub fn singles() -> Vec<(&'static str, String)> {
+    let without_measures = |text: &str| {
+        let lines: Vec<&str> = text.lines().filter(|line| !line.trim_start().starts_with("measure")).collect();
+        lines.join("\n")
+    };
+    vec![
+        ("four-bar", four_bars(1)),
+        ("slider-crank", slider_crank()),
+        ("Andrews", without_measures(include_str!("../../tests/cases/andrews.mech"))),
+        ("Jansen", without_measures(include_str!("../../tests/cases/jansen.mech"))),
+    ]
+}
+
+/// The four-bar of `tests/cases/four_bar.mech`, so many times, each with a ground of its own.
+pub fn four_bars(n: usize) -> String {
+    let mut text = "mechanism four_bars {\n    ground {\n".to_owned();
+    // in rows of a hundred: no floor is a hundred kilometres long
+    let places: Vec<[usize; 2]> = (0..n).map(|k| [5 * (k % 100), 5 * (k / 100)]).collect();
+    for (k, [x, y]) in places.iter().enumerate() {
+        text += &format!("        point A{k} = ({x}, {y})\n        point B{k} = ({}, {y})\n", x + 4);
+    }
+    text += "    }\n";
+    for (k, [x, y]) in places.iter().map(|place| place.map(|x| x as f64)).enumerate() {
+        text += &format!(
+            "    body crank{k} at ({x}, {y}, 0.5) {{ point A = (0, 0) point C = (1, 0) }}\n    \
+             body coupler{k} at ({}, {}, 0.78) {{ point C = (0, 0) point D = (3.5, 0) }}\n    \
+             body rocker{k} at ({}, {}, 1.8) {{ point B = (-1.5, 0) point D = (1.5, 0) }}\n    \
+             joint main{k}: revolute(ground.A{k}, crank{k}.A)\n    \
+             joint pin{k}: revolute(crank{k}.C, coupler{k}.C)\n    \
+             joint knee{k}: revolute(coupler{k}.D, rocker{k}.D)\n    \
+             joint pivot{k}: revolute(ground.B{k}, rocker{k}.B)\n    \
+             driver motor{k}: rotation(main{k}) = 0.5 + 2 * t\n",
+            x + 0.88,
+            y + 0.48,
+            x + 3.7,
+            y + 1.5,
+        );
+    }
+    text + "    analysis from 0 to pi every 0.01\n}\n"
+}
+
+fn slider_crank() -> String {
+    "mechanism slider_crank {
+        ground { point O = (0, 0) axis way = O along (1, 0) }
+        body crank at (0, 0, 0.5) { point O = (0, 0) point pin = (1, 0) }
+        body rod at (0.88, 0.48, -0.16) { point pin = (0, 0) point wrist = (3, 0) }
+        body slider at (3.84, 0, 0) { point wrist = (0, 0) axis way = wrist along (1, 0) }
+        joint main: revolute(ground.O, crank.O)
+        joint big: revolute(crank.pin, rod.pin)
+        joint small: revolute(rod.wrist, slider.wrist)
+        joint guide: translational(ground.way, slider.way)
+        driver motor: rotation(main) = 0.5 + 2 * t
+        analysis from 0 to pi every 0.01
+    }"
+    .to_owned()
+}
+
+/// Pairs of crossed bars, one on the other, spread at the bottom.
+pub fn scissor_lift(cells: usize) -> String {
+    let (sin, cos) = mechc::math::sin_cos(0.5);
+    let mut text = "mechanism scissor_lift {\n    ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
+    for k in 0..cells {
+        let (x, y) = (0.5 * cos, (k as f64 + 0.5) * sin);
+        for (bar, turn) in [("a", 0.5), ("b", -0.5)] {
+            text += &format!(
+                "    body {bar}{k} at ({x}, {y}, {turn}) {{ point L = (-0.5, 0) point M = (0, 0) point R = (0.5, 0) }}\n"
+            );
+        }
+    }
+    text += "    joint base: revolute(ground.O, a0.L)\n    joint roll: revolute_translational(b0.R, ground.floor)\n";
+    for k in 0..cells {
+        text += &format!("    joint m{k}: revolute(a{k}.M, b{k}.M)\n");
+    }
+    for k in 1..cells {
+        text += &format!(
+            "    joint l{k}: revolute(b{}.L, a{k}.L)\n    joint r{k}: revolute(a{}.R, b{k}.R)\n",
+            k - 1,
+            k - 1
+        );
+    }
+    text + &format!("    driver lift: x(b0.R) = {cos} + 0.1 * sin(t)\n    analysis from 0 to 2 * pi every 0.01\n}}\n")
+}
