@@ -45,6 +45,38 @@ fn files_that_cannot_be_read_or_written() {
 }
 
 #[test]
+fn a_parquet_table_holds_the_numbers_of_the_csv() {
+    use parquet::file::reader::{FileReader, SerializedFileReader};
+    use parquet::record::RowAccessor;
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    mechc().args(["run", SLIDER_CRANK, "-o", &inside("out.csv")]).assert().success();
+    mechc().args(["run", SLIDER_CRANK, "-o", &inside("out.parquet")]).assert().success().stdout("");
+    mechc().args(["run", SLIDER_CRANK, "--format", "parquet", "-o", &inside("plain")]).assert().success();
+    assert_eq!(
+        fs::read(inside("out.parquet")).unwrap(),
+        fs::read(inside("plain")).unwrap(),
+        "by its ending or by name"
+    );
+    let piped = mechc().args(["run", SLIDER_CRANK, "--format", "parquet"]).output().unwrap().stdout;
+    assert_eq!(piped, fs::read(inside("plain")).unwrap());
+    let text = fs::read_to_string(inside("out.csv")).unwrap();
+    let mut lines = text.lines();
+    let reader = SerializedFileReader::new(fs::File::open(inside("out.parquet")).unwrap()).unwrap();
+    let schema = reader.metadata().file_metadata().schema_descr();
+    let names: Vec<&str> = schema.columns().iter().map(|column| column.name()).collect();
+    assert_eq!(names.join(","), lines.next().expect("a header"));
+    for row in reader.get_row_iter(None).unwrap() {
+        let row = row.unwrap();
+        let numbers: Vec<f64> = lines.next().expect("a row").split(',').map(|n| n.parse().unwrap()).collect();
+        for (k, number) in numbers.iter().enumerate() {
+            assert_eq!(row.get_double(k).unwrap().to_bits(), number.to_bits(), "{}", names[k]);
+        }
+    }
+    assert_eq!(lines.next(), None);
+}
+
+#[test]
 fn a_result_is_replaced_whole_or_not_at_all() {
     let folder = tempfile::tempdir().expect("a folder");
     let out = folder.path().join("out.csv");

@@ -71,7 +71,9 @@ impl Sparse {
         let mut order: Vec<usize> = (0..places.len()).collect();
         order.sort_by_key(|&at| (places[at].1, places[at].0));
         let mut starts = vec![0; n + 1];
-        places.iter().for_each(|&(_, column)| starts[column + 1] += 1);
+        for &(_, column) in &places {
+            starts[column + 1] += 1;
+        }
         (0..n).for_each(|column| starts[column + 1] += starts[column]);
         let rows = order.iter().map(|&at| places[at].0).collect();
         let pattern = SymbolicSparseColMat::new_checked(n, n, starts, None, rows);

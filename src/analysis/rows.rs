@@ -16,6 +16,9 @@ use crate::solver::{Batch, Bend, Lanes, Solver};
 
 /// Times that are solved at once.
 const LANES: usize = 16;
+/// A solver with so many operations is worth a thread for every so many times, up to as many threads.
+const WORTH_A_THREAD: usize = 20_000;
+const MOST_THREADS: usize = 8;
 /// Steps that are tried behind a row that cannot be printed, to tell why.
 const STEPS_AHEAD: usize = 1_000;
 
@@ -38,9 +41,10 @@ pub(super) struct Output<'m> {
 /// Rows within a step, a few at a time.
 struct Rows<'m> {
     solver: &'m Solver,
-    lanes: Lanes<LANES>,
+    /// The registers of each thread.
+    lanes: Vec<Lanes<LANES>>,
     values: Vec<f64>,
-    holds: [bool; LANES],
+    holds: Vec<[bool; LANES]>,
     /// The numbers of the times whose rows are there, and of the last one in the step.
     first: u64,
     end: u64,
@@ -80,11 +84,15 @@ impl<'m> Output<'m> {
     pub fn new(kinematics: &Kinematics<'_>, state: &State, solver: Option<&'m Solver>, times: Times) -> Output<'m> {
         // what was left out of the equations is looked at wherever a row is printed
         let solver = solver.filter(|_| kinematics.system().checks.is_empty());
+        let threads = |solver: &Solver| {
+            let most = std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS));
+            if solver.operations() < WORTH_A_THREAD { 1 } else { most }
+        };
         let rows = solver.map(|solver| Rows {
             solver,
-            lanes: Lanes::new(solver),
-            values: vec![0.0; LANES * solver.layout().stride],
-            holds: [false; LANES],
+            lanes: vec![Lanes::new(solver); threads(solver)],
+            values: vec![0.0; threads(solver) * LANES * solver.layout().stride],
+            holds: vec![[false; LANES]; threads(solver)],
             first: 0,
             end: 0,
             last: 0,
@@ -293,7 +301,7 @@ impl Motion<'_, '_> {
         }
         let rows = self.output.rows.as_ref()?;
         let lane = (number - rows.first) as usize;
-        if rows.holds[lane] {
+        if rows.holds[lane / LANES][lane % LANES] {
             return Some(Place::Lane(lane));
         }
         if self.row_on_curve(t) {
@@ -303,25 +311,38 @@ impl Motion<'_, '_> {
         None
     }
 
-    /// Solves for the next rows of a step.
+    /// Solves for the next rows of a step, in threads where there is enough to do: each has times of its own, so that the bits
+    /// are the same.
     fn solve_batch(&mut self) {
         let Output { times, next, rows, .. } = &mut self.output;
         let Some(rows) = rows else {
             return;
         };
-        rows.first = *next;
-        rows.end = rows.last.min(*next + LANES as u64);
-        let batch = Batch {
+        let Rows { solver, lanes, values, holds, bounds, bends, .. } = rows;
+        let (first, last) = (*next, rows.last.min(*next + (LANES * lanes.len()) as u64));
+        (rows.first, rows.end) = (first, last);
+        let batch = |part: usize| Batch {
             // the lanes that are left over do the last time again
-            times: std::array::from_fn(|lane| times.at((rows.first + lane as u64).min(rows.end - 1))),
+            times: std::array::from_fn(|lane| times.at((first + (part * LANES + lane) as u64).min(last - 1))),
             from: rows.origin.state.t,
             length: rows.length,
             curve: &self.curve,
-            bends: &rows.bends,
-            bounds: &rows.bounds,
+            bends,
+            bounds,
         };
         let (program, registers) = self.kinematics.program();
-        rows.holds = rows.lanes.run(rows.solver, program, registers, &batch, &mut rows.values);
+        let parts = (last - first).div_ceil(LANES as u64) as usize;
+        let solve =
+            |(part, ((lanes, values), holds)): (usize, ((&mut Lanes<LANES>, &mut [f64]), &mut [bool; LANES]))| {
+                *holds = lanes.run(solver, program, registers, &batch(part), values);
+            };
+        let all = lanes.iter_mut().zip(values.chunks_exact_mut(LANES * solver.layout().stride)).zip(holds).enumerate();
+        if parts == 1 {
+            all.take(1).for_each(solve);
+        } else {
+            let solve = &solve;
+            std::thread::scope(|scope| all.take(parts).for_each(|part| drop(scope.spawn(move || solve(part)))));
+        }
     }
 
     /// Writes the row of a time within the last step by solving from its curve, with pivots that suit it; whether it holds.

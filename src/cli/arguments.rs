@@ -276,6 +276,8 @@ pub(super) enum Format {
     Csv,
     /// {"columns": […], "rows": [[…], …]}
     Json,
+    /// Apache Parquet: columns of 64-bit numbers
+    Parquet,
 }
 
 fn positive(text: &str) -> Result<f64, String> {

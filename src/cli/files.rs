@@ -4,7 +4,7 @@ use super::failure::Failure;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources, Span};
 use std::fs::{self, File};
-use std::io::{self, BufWriter, Read, Write};
+use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 
 /// The text of a file, or of standard input for `-`.
@@ -70,7 +70,7 @@ fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagn
 
 /// Where results go: standard output, or a file that is replaced whole at the end.
 pub(super) enum Destination {
-    Standard(io::StdoutLock<'static>),
+    Standard(io::Stdout),
     /// Something that is no file, `/dev/null` say: written as it comes.
     Device(File),
     File {
@@ -106,11 +106,8 @@ impl Write for Destination {
 impl Output {
     /// Opens it; a file's place is tried at once, so that no work is done for nothing.
     pub fn open(name: &str) -> Result<Output, Failure> {
-        let destination = if name == "-" {
-            Ok(Destination::Standard(io::stdout().lock()))
-        } else {
-            Destination::beside(Path::new(name))
-        };
+        let destination =
+            if name == "-" { Ok(Destination::Standard(io::stdout())) } else { Destination::beside(Path::new(name)) };
         let destination = destination.map_err(|error| cannot_write(name, &error))?;
         let name = if name == "-" { "standard output" } else { name };
         Ok(Output { name: name.to_owned(), writer: BufWriter::with_capacity(1 << 16, destination) })
@@ -125,12 +122,17 @@ impl Output {
         output.close()
     }
 
+    /// Whether it is standard output, and that a terminal.
+    pub fn is_terminal(&self) -> bool {
+        matches!(self.writer.get_ref(), Destination::Standard(out) if out.is_terminal())
+    }
+
     /// Whether it is standard output.
     pub fn is_standard(&self) -> bool {
         matches!(self.writer.get_ref(), Destination::Standard(_))
     }
 
-    pub fn writer(&mut self) -> &mut impl Write {
+    pub fn writer(&mut self) -> &mut (impl Write + Send + use<>) {
         &mut self.writer
     }
 

@@ -19,6 +19,9 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let determined = input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
     let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
     let output = Output::open(&arguments.output)?;
+    if format(arguments) == TableFormat::Parquet && output.is_terminal() {
+        return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
+    }
     let program = Program::new(determined.system());
     timings.end(Phase::Program);
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
@@ -87,10 +90,14 @@ impl Table {
 
 fn format(arguments: &RunArguments) -> TableFormat {
     let ending = Path::new(&arguments.output).extension();
+    let ends_in = |wanted: &str| ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted));
     match arguments.format {
+        Some(Format::Csv) => TableFormat::Csv,
         Some(Format::Json) => TableFormat::Json,
-        None if ending.is_some_and(|ending| ending.eq_ignore_ascii_case("json")) => TableFormat::Json,
-        Some(Format::Csv) | None => TableFormat::Csv,
+        Some(Format::Parquet) => TableFormat::Parquet,
+        None if ends_in("json") => TableFormat::Json,
+        None if ends_in("parquet") => TableFormat::Parquet,
+        None => TableFormat::Csv,
     }
 }
 

@@ -1,7 +1,8 @@
-//! Result tables as text.
-//!
-//! Numbers are written as the shortest decimal that reads back to the same `f64`.
+//! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and as Parquet.
 
+mod parquet;
+
+use parquet::ParquetWriter;
 use std::io::{self, Write};
 
 /// The forms of a result table.
@@ -12,28 +13,32 @@ pub enum TableFormat {
     Csv,
     /// `{"columns": […], "rows": [[…], …]}`
     Json,
+    /// Apache Parquet, for programs that read tables by columns.
+    Parquet,
 }
 
 /// Writes a table row by row.
-pub struct TableWriter<W: Write> {
-    out: W,
-    format: TableFormat,
-    number: zmij::Buffer,
-    rows: u64,
+pub struct TableWriter<W: Write + Send> {
+    form: Form<W>,
 }
 
-impl<W: Write> TableWriter<W> {
+enum Form<W: Write + Send> {
+    Text(TextWriter<W>),
+    Parquet(Box<ParquetWriter<W>>),
+}
+
+impl<W: Write + Send> TableWriter<W> {
     /// Begins a table with its columns' names.
     ///
     /// # Errors
     /// As the writer underneath.
-    pub fn new(mut out: W, format: TableFormat, columns: &[String]) -> io::Result<TableWriter<W>> {
-        match format {
-            // a name holds neither comma nor quote
-            TableFormat::Csv => writeln!(out, "{}", columns.join(","))?,
-            TableFormat::Json => write!(out, "{{\"columns\": {}, \"rows\": [", serde_json::json!(columns))?,
-        }
-        Ok(TableWriter { out, format, number: zmij::Buffer::new(), rows: 0 })
+    pub fn new(out: W, format: TableFormat, columns: &[String]) -> io::Result<TableWriter<W>> {
+        let form = match format {
+            TableFormat::Csv => Form::Text(TextWriter::new(out, false, columns)?),
+            TableFormat::Json => Form::Text(TextWriter::new(out, true, columns)?),
+            TableFormat::Parquet => Form::Parquet(Box::new(ParquetWriter::new(out, columns)?)),
+        };
+        Ok(TableWriter { form })
     }
 
     /// Writes a row of finite numbers.
@@ -41,28 +46,62 @@ impl<W: Write> TableWriter<W> {
     /// # Errors
     /// As the writer underneath.
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
-        if self.format == TableFormat::Json {
-            self.out.write_all(if self.rows == 0 { b"\n[" } else { b",\n[" })?;
+        match &mut self.form {
+            Form::Text(text) => text.row(values),
+            Form::Parquet(parquet) => parquet.row(values),
         }
-        self.rows += 1;
-        for (k, &value) in values.iter().enumerate() {
-            if k > 0 {
-                self.out.write_all(b",")?;
-            }
-            self.out.write_all(self.number.format_finite(value).as_bytes())?;
-        }
-        self.out.write_all(match self.format {
-            TableFormat::Csv => b"\n",
-            TableFormat::Json => b"]",
-        })
     }
 
     /// Ends the table and gives the writer back, flushed.
     ///
     /// # Errors
     /// As the writer underneath.
-    pub fn finish(mut self) -> io::Result<W> {
-        if self.format == TableFormat::Json {
+    pub fn finish(self) -> io::Result<W> {
+        match self.form {
+            Form::Text(text) => text.finish(),
+            Form::Parquet(parquet) => parquet.finish(),
+        }
+    }
+}
+
+/// A table as CSV or JSON.
+struct TextWriter<W> {
+    out: W,
+    is_json: bool,
+    number: zmij::Buffer,
+    line: Vec<u8>,
+    rows: u64,
+}
+
+impl<W: Write> TextWriter<W> {
+    fn new(mut out: W, is_json: bool, columns: &[String]) -> io::Result<TextWriter<W>> {
+        if is_json {
+            write!(out, "{{\"columns\": {}, \"rows\": [", serde_json::json!(columns))?;
+        } else {
+            // a name holds neither comma nor quote
+            writeln!(out, "{}", columns.join(","))?;
+        }
+        Ok(TextWriter { out, is_json, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
+    }
+
+    fn row(&mut self, values: &[f64]) -> io::Result<()> {
+        self.line.clear();
+        if self.is_json {
+            self.line.extend_from_slice(if self.rows == 0 { b"\n[" } else { b",\n[" });
+        }
+        self.rows += 1;
+        for (k, &value) in values.iter().enumerate() {
+            if k > 0 {
+                self.line.push(b',');
+            }
+            self.line.extend_from_slice(self.number.format_finite(value).as_bytes());
+        }
+        self.line.push(if self.is_json { b']' } else { b'\n' });
+        self.out.write_all(&self.line)
+    }
+
+    fn finish(mut self) -> io::Result<W> {
+        if self.is_json {
             self.out.write_all(b"\n]}\n")?;
         }
         self.out.flush()?;

@@ -1,0 +1,120 @@
+//! Rows that are solved for several at a time.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::analysis::{self, TOLERANCE, Times};
+use mechc::program::Program;
+use mechc::solver::{Batch, Bend, Lanes};
+use mechc::source::Sources;
+use mechc::structure::Determined;
+use std::fs;
+use support::{compile, files};
+
+fn compiled(name: &str, text: &str) -> Determined {
+    compile(&mut Sources::default(), name, text).0.expect("determined")
+}
+
+fn rows(determined: &Determined, times: &Times) -> Vec<Vec<f64>> {
+    let program = Program::new(determined.system());
+    let mut started = analysis::start(determined, &program, times.from(), TOLERANCE).expect("it assembles");
+    let mut motion = started.motion(times);
+    let mut rows = Vec::new();
+    while let Some(row) = motion.next_row() {
+        rows.push(row.expect("it moves").to_vec());
+    }
+    rows
+}
+
+/// Four-bars side by side, so many that threads are worth while.
+fn four_bars(n: usize) -> String {
+    let mut text = "mechanism many { ground {\n".to_owned();
+    for k in 0..n {
+        text += &format!("point A{k} = ({}, 0) point B{k} = ({}, 0)\n", 5 * k, 5 * k + 4);
+    }
+    text += "}\n";
+    for k in 0..n {
+        let x = 5.0 * k as f64;
+        text += &format!(
+            "body crank{k} at ({x}, 0, 0.5) {{ point A = (0, 0) point C = (1, 0) }}
+             body coupler{k} at ({}, 0.48, 0.78) {{ point C = (0, 0) point D = (3.5, 0) }}
+             body rocker{k} at ({}, 1.5, 1.8) {{ point B = (-1.5, 0) point D = (1.5, 0) }}
+             joint main{k}: revolute(ground.A{k}, crank{k}.A)
+             joint pin{k}: revolute(crank{k}.C, coupler{k}.C)
+             joint knee{k}: revolute(coupler{k}.D, rocker{k}.D)
+             joint pivot{k}: revolute(ground.B{k}, rocker{k}.B)
+             driver motor{k}: rotation(main{k}) = 0.5 + {} * t\n",
+            x + 0.88,
+            x + 3.7,
+            1.0 + 0.001 * k as f64,
+        );
+    }
+    text + "analysis from 0 to 2 every 0.01 }"
+}
+
+#[test]
+fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
+    let case = |name: &str| fs::read_to_string(format!("tests/cases/{name}.mech")).expect("a text");
+    let mut texts: Vec<(String, String)> =
+        ["four_bar", "andrews", "jansen", "digger", "slots"].map(|name| (name.to_owned(), case(name))).to_vec();
+    texts.push(("many".to_owned(), four_bars(150)));
+    for (name, text) in texts {
+        let determined = compiled(&name, &text);
+        let [from, to, _] = determined.system().analysis.expect("an analysis");
+        let all: Vec<f64> = (0..=700).map(|k| from + (to - from) * f64::from(k) / 700.0).collect();
+        let seventh: Vec<f64> = all.iter().step_by(7).copied().collect();
+        let (all, seventh) = (Times::listed(from, all), Times::listed(from, seventh));
+        let (many, few) = (rows(&determined, &all), rows(&determined, &seventh));
+        // the first row is that of the assembled start
+        for (k, (a, b)) in many.iter().step_by(7).zip(&few).enumerate().skip(1) {
+            let bits = |row: &[f64]| row.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+            assert_eq!(bits(a), bits(b), "{name}, row {k}: {a:?}\n{b:?}");
+        }
+    }
+}
+
+#[test]
+fn every_case_is_solved_for_in_lanes() {
+    let mut seen = 0;
+    for path in files("tests/cases", "mech") {
+        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
+        let mut sources = Sources::default();
+        let text = fs::read_to_string(&path).expect("a text");
+        let (Some(determined), _) = compile(&mut sources, &name, &text) else {
+            continue;
+        };
+        let program = Program::new(determined.system());
+        // where formulas have branches, lanes need to be told which of them is taken
+        let (Some([from, to, every]), true) = (determined.system().analysis, program.switches().is_empty()) else {
+            continue;
+        };
+        seen += 1;
+        let wanted = rows(&determined, &Times::grid(from, to, every).expect("a grid"));
+        let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
+        let started = analysis::start(&determined, &program, from, TOLERANCE).expect("it assembles");
+        let solver = started.solver().expect("it is small");
+        let layout = solver.layout();
+        let (mut lanes, mut found) = (Lanes::<1>::new(solver), vec![0.0; layout.stride]);
+        let bounds = vec![1e8; determined.system().rows.len()];
+        let mut others = 0;
+        for want in wanted.iter().skip(1) {
+            let q = &want[layout.coordinates[0] as usize..][..determined.system().coordinates.len()];
+            let curve: Vec<[f64; 6]> = q.iter().map(|&q| [q, 0.0, 0.0, 0.0, 0.0, 0.0]).collect();
+            let bends = vec![Bend::NONE; solver.tears().len()];
+            let batch =
+                Batch { times: [want[0]], from: want[0], length: 1.0, curve: &curve, bends: &bends, bounds: &bounds };
+            let [holds] = lanes.run(solver, &program, &program.start(&params), &batch, &mut found);
+            if !holds {
+                // the order of elimination does not suit every position
+                others += 1;
+                continue;
+            }
+            for (a, b) in found.iter().zip(want) {
+                assert!((a - b).abs() <= 1e-9 * (1.0 + b.abs()), "{name} at {}: {a} instead of {b}", want[0]);
+            }
+        }
+        assert!(20 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
+    }
+    assert!(seen > 20, "only {seen} cases");
+}
