@@ -114,7 +114,7 @@ fn every_case_is_solved_for_in_lanes() {
                 assert!((a - b).abs() <= 1e-9 * (1.0 + b.abs()), "{name} at {}: {a} instead of {b}", want[0]);
             }
         }
-        assert!(20 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
+        assert!(10 * others <= wanted.len(), "{name}: {others} of {} rows have no lane", wanted.len());
     }
     assert!(seen > 20, "only {seen} cases");
 }

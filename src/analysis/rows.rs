@@ -332,16 +332,20 @@ impl Motion<'_, '_> {
         };
         let (program, registers) = self.kinematics.program();
         let parts = (last - first).div_ceil(LANES as u64) as usize;
-        let solve =
-            |(part, ((lanes, values), holds)): (usize, ((&mut Lanes<LANES>, &mut [f64]), &mut [bool; LANES]))| {
-                *holds = lanes.run(solver, program, registers, &batch(part), values);
-            };
-        let all = lanes.iter_mut().zip(values.chunks_exact_mut(LANES * solver.layout().stride)).zip(holds).enumerate();
+        let solve = |part: usize, lanes: &mut Lanes<LANES>, values: &mut [f64], holds: &mut [bool; LANES]| {
+            *holds = lanes.run(solver, program, registers, &batch(part), values);
+        };
+        let rows = values.chunks_exact_mut(LANES * solver.layout().stride);
+        let all = lanes.iter_mut().zip(rows).zip(holds).enumerate().take(parts);
         if parts == 1 {
-            all.take(1).for_each(solve);
+            all.for_each(|(part, ((lanes, values), holds))| solve(part, lanes, values, holds));
         } else {
             let solve = &solve;
-            std::thread::scope(|scope| all.take(parts).for_each(|part| drop(scope.spawn(move || solve(part)))));
+            std::thread::scope(|scope| {
+                for (part, ((lanes, values), holds)) in all {
+                    scope.spawn(move || solve(part, lanes, values, holds));
+                }
+            });
         }
     }
 

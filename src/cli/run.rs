@@ -92,12 +92,11 @@ fn format(arguments: &RunArguments) -> TableFormat {
     let ending = Path::new(&arguments.output).extension();
     let ends_in = |wanted: &str| ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted));
     match arguments.format {
-        Some(Format::Csv) => TableFormat::Csv,
         Some(Format::Json) => TableFormat::Json,
         Some(Format::Parquet) => TableFormat::Parquet,
         None if ends_in("json") => TableFormat::Json,
         None if ends_in("parquet") => TableFormat::Parquet,
-        None => TableFormat::Csv,
+        Some(Format::Csv) | None => TableFormat::Csv,
     }
 }
 
