@@ -97,7 +97,9 @@ mod tests {
         let columns = ["t".to_owned(), "rod.phi.dd".to_owned()];
         let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
         let rows = [[0.0, 0.1 + 0.2], [1.0, -5e-324], [2.0, f64::MAX]];
-        rows.iter().for_each(|row| writer.row(row).unwrap());
+        for row in &rows {
+            writer.row(row).unwrap();
+        }
         let reader = read(writer.finish().unwrap());
         let schema = reader.metadata().file_metadata().schema_descr();
         let names: Vec<String> = schema.columns().iter().map(|column| column.name().to_owned()).collect();
@@ -120,7 +122,7 @@ mod tests {
         (0..rows).for_each(|_| writer.row(&row).unwrap());
         let reader = read(writer.finish().unwrap());
         assert_eq!(reader.num_row_groups(), 2);
-        assert_eq!(reader.metadata().file_metadata().num_rows(), rows as i64);
+        assert_eq!(reader.metadata().file_metadata().num_rows(), i64::try_from(rows).unwrap());
     }
 
     #[test]
