@@ -20,9 +20,9 @@ use crate::solver::Solver;
 
 /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
 /// from other coordinates: the upper end of a tall lift goes far.
-const LARGEST_CORRECTION: f64 = 0.05;
+pub(super) const LARGEST_CORRECTION: f64 = 0.05;
 /// Largest correction between the ends of a step, on the curve through both, scaled.
-const LARGEST_BETWEEN: f64 = 1e-3;
+pub(super) const LARGEST_BETWEEN: f64 = 1e-3;
 /// Largest predicted motion of a step, scaled: a coordinate's way in sizes of its body, or its turn in radians.
 const LARGEST_MOTION: f64 = 0.5;
 /// Corrections of a step at most.
@@ -113,9 +113,9 @@ pub struct Motion<'m, 'd> {
 
 /// How well a step went.
 pub(super) struct Accepted {
-    first_correction: f64,
-    between: f64,
-    motion: f64,
+    pub first_correction: f64,
+    pub between: f64,
+    pub motion: f64,
 }
 
 impl<'m, 'd> Motion<'m, 'd> {
@@ -340,7 +340,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     /// No step ends too near to a singular position.
-    fn keep_away(&mut self) -> Result<(), Fault> {
+    pub(super) fn keep_away(&mut self) -> Result<(), Fault> {
         if self.kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
     }
 
@@ -352,12 +352,17 @@ impl<'m, 'd> Motion<'m, 'd> {
         if uncertain > ACCURACY { Err(Fault::Uncertain) } else { Ok(()) }
     }
 
+    /// The place of a step that is looked at next, as a part of the step.
+    pub(super) fn next_probe(&mut self) -> f64 {
+        self.probe = (self.probe + GOLDEN).fract();
+        0.3 + 0.4 * self.probe
+    }
+
     /// Newton's correction between the ends, on the quintic that both ends give, with the factors of the end.
     ///
     /// The place wanders from step to step, so that no period of a driver can hide from it.
     fn correction_between(&mut self, h: f64) -> Result<f64, Fault> {
-        self.probe = (self.probe + GOLDEN).fract();
-        let x = 0.3 + 0.4 * self.probe;
+        let x = self.next_probe();
         self.draw_curve(h);
         self.correction_at(h, x)
     }
@@ -375,7 +380,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     /// The quintic with value, slope and curvature of both ends, by its coefficients.
-    fn draw_curve(&mut self, h: f64) {
+    pub(super) fn draw_curve(&mut self, h: f64) {
         let (a, b) = (&*self.state, &self.trial);
         for (k, curve) in self.curve.iter_mut().enumerate() {
             let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);

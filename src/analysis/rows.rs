@@ -7,8 +7,8 @@
 use super::determinant::Determinant;
 use super::edges::{Edge, behind_start, shortly_after};
 use super::errors;
-use super::kinematics::{Kinematics, State};
-use super::march::{FEWEST_STEPS_NEAR, MOST_STEPS, Motion};
+use super::kinematics::{Fault, Kinematics, State};
+use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS, Motion};
 use super::singular;
 use super::times::Times;
 use crate::diag::Diagnostic;
@@ -19,6 +19,8 @@ const LANES: usize = 16;
 /// A solver with so many operations is worth a thread for every so many times, up to as many threads.
 const WORTH_A_THREAD: usize = 20_000;
 const MOST_THREADS: usize = 8;
+/// So many rows within a step show what its curve is worth.
+const ENOUGH: u64 = 4;
 /// Steps that are tried behind a row that cannot be printed, to tell why.
 const STEPS_AHEAD: usize = 1_000;
 
@@ -45,12 +47,16 @@ struct Rows<'m> {
     lanes: Vec<Lanes<LANES>>,
     values: Vec<f64>,
     holds: Vec<[bool; LANES]>,
+    /// For the end of a step.
+    alone: Lanes<1>,
+    alone_row: Vec<f64>,
     /// The numbers of the times whose rows are there, and of the last one in the step.
     first: u64,
     end: u64,
     last: u64,
     /// What may be left of each row of Φ, as its inverse.
     bounds: Vec<f64>,
+    has_bounds: bool,
     /// Where the step begins.
     origin: Bookmark,
     length: f64,
@@ -59,6 +65,22 @@ struct Rows<'m> {
     is_smooth: bool,
     /// How the curve of each tear goes on from the step before.
     bends: Vec<Bend>,
+}
+
+impl Rows<'_> {
+    /// Solves at one time, of a step from a time and of a length; says whether it holds.
+    fn solve_alone(&mut self, kinematics: &Kinematics<'_>, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
+        let batch = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
+        let (program, registers) = kinematics.program();
+        let [holds] = self.alone.run(self.solver, program, registers, &batch, &mut self.alone_row);
+        holds
+    }
+
+    /// Forgets the step.
+    fn close(&mut self) {
+        (self.first, self.end, self.last) = (0, 0, 0);
+        (self.length, self.is_smooth) = (0.0, false);
+    }
 }
 
 /// Where a row is.
@@ -93,9 +115,12 @@ impl<'m> Output<'m> {
             lanes: vec![Lanes::new(solver); threads(solver)],
             values: vec![0.0; threads(solver) * LANES * solver.layout().stride],
             holds: vec![[false; LANES]; threads(solver)],
+            alone: Lanes::new(solver),
+            alone_row: vec![0.0; solver.layout().stride],
             first: 0,
             end: 0,
             last: 0,
+            has_bounds: false,
             bounds: vec![0.0; kinematics.system().rows.len()],
             origin: Bookmark {
                 state: state.clone(),
@@ -228,23 +253,111 @@ impl Motion<'_, '_> {
         let h = next - self.state.t;
         if h <= 0.0 {
             if let Some(rows) = &mut self.output.rows {
-                rows.length = 0.0;
+                rows.close();
             }
             return edge.map_or(Ok(()), |edge| self.cross(edge));
         }
-        match self.try_step(h, next, next >= upcoming, self.met.is_some_and(|met| met.t <= next)) {
-            Ok(accepted) => {
-                if next >= upcoming && !(self.is_certain && self.is_clear()) {
-                    self.output.careful_until = upcoming;
-                    return Ok(());
-                }
-                self.open_step(h, next, edge.is_some());
+        match self.try_leap(h, next, edge.is_some(), self.met.is_some_and(|met| met.t <= next)) {
+            Ok(Some(accepted)) => {
                 self.accept(h, &accepted);
                 self.output.edge = edge;
                 Ok(())
             }
-            Err(fault) => self.give_way(h, fault, upcoming),
+            Ok(None) => {
+                self.output.careful_until = upcoming;
+                Ok(())
+            }
+            Err(fault) => {
+                if let Some(rows) = &mut self.output.rows {
+                    rows.close();
+                }
+                self.give_way(h, fault, upcoming)
+            }
         }
+    }
+
+    /// A step of length `h` to time `t`, solved for like a row, which says more of the way between than one place of it does;
+    /// none where steps had better go to each output time on their own.
+    fn try_leap(&mut self, h: f64, t: f64, to_edge: bool, to_edge_of_motion: bool) -> Result<Option<Accepted>, Fault> {
+        let motion = self.predict(h, t)?;
+        let Some(first_correction) = self.solve_ahead(h, t) else {
+            return Ok(None);
+        };
+        if first_correction.is_nan() || first_correction > LARGEST_CORRECTION {
+            return Err(Fault::TooFar);
+        }
+        self.kinematics.set_time(t);
+        self.kinematics.set_position(&self.trial.q)?;
+        if !to_edge_of_motion && let Some(switch) = self.edge_met() {
+            return Err(Fault::Edge { t, switch });
+        }
+        self.kinematics.factor()?;
+        self.same_branch()?;
+        self.keep_away()?;
+        if !self.is_clear() {
+            return Ok(None);
+        }
+        self.draw_curve(h);
+        self.open_step(h, t, to_edge);
+        let between = self.corrections_between(h);
+        if between.is_nan() || between > LARGEST_BETWEEN {
+            return Err(Fault::TooFar);
+        }
+        self.look_at_signals(h)?;
+        if !to_edge_of_motion {
+            self.look_between(h, between)?;
+        }
+        self.look_for_touch(h, motion)?;
+        Ok(Some(Accepted { first_correction, between, motion }))
+    }
+
+    /// Solves at the end of a step from Taylor's prediction, and gives the correction; none where that does not hold.
+    fn solve_ahead(&mut self, h: f64, t: f64) -> Option<f64> {
+        let Output { rows: Some(rows), .. } = &mut self.output else {
+            return None;
+        };
+        if !rows.has_bounds {
+            self.kinematics.write_bounds(&mut rows.bounds);
+            rows.has_bounds = true;
+        }
+        for &tear in rows.solver.tears() {
+            let k = tear as usize;
+            let (slope, bend) = (h * self.state.qd[k], 0.5 * h * h * self.state.qdd[k]);
+            self.curve[k] = [self.state.q[k], slope, bend, 0.0, 0.0, 0.0];
+        }
+        if !rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, t]) {
+            // one that is far off wants a shorter step, and not more care
+            let size = rows.alone.first_corrections()[0];
+            return Some(size).filter(|size| size.is_nan() || *size > LARGEST_CORRECTION);
+        }
+        let (layout, n) = (rows.solver.layout(), self.trial.q.len());
+        let part = |order: usize| &rows.alone_row[layout.coordinates[order] as usize..][..n];
+        for (k, q) in part(0).iter().enumerate() {
+            self.middle[k] = q - self.trial.q[k];
+        }
+        self.trial.q.copy_from_slice(part(0));
+        self.trial.qd.copy_from_slice(part(1));
+        self.trial.qdd.copy_from_slice(part(2));
+        if layout.stride > layout.printed {
+            self.trial.qddd.copy_from_slice(part(3));
+        }
+        Some(self.kinematics.linear().largest_judged(&self.middle))
+    }
+
+    /// How far the curve of a step is from the motion: at the first rows within it, or where there are few, at some place.
+    fn corrections_between(&mut self, h: f64) -> f64 {
+        let probe = self.next_probe();
+        let Some(rows) = &mut self.output.rows else {
+            return f64::NAN;
+        };
+        if rows.last - rows.first < ENOUGH {
+            let holds = rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
+            return if holds { rows.alone.first_corrections()[0] } else { f64::NAN };
+        }
+        self.solve_batch();
+        let lanes = self.output.rows.iter().flat_map(|rows| rows.lanes.iter().zip(&rows.holds));
+        let all = lanes.flat_map(|(lanes, holds)| lanes.first_corrections().iter().zip(holds));
+        all.filter(|(_, holds)| **holds).map(|(size, _)| *size).fold(0.0, f64::max)
     }
 
     /// An edge that is meant to be at an output time is there.
@@ -282,9 +395,7 @@ impl Motion<'_, '_> {
             };
         }
         (rows.length, rows.is_smooth) = (h, !to_edge);
-        if rows.last > rows.first {
-            self.kinematics.write_bounds(&mut rows.bounds);
-        }
+        self.kinematics.write_bounds(&mut rows.bounds);
         origin.state.copy_from(self.state);
         origin.clear.copy_from(&self.clear);
         origin.determinants.copy_from_slice(&self.determinants);
@@ -374,7 +485,7 @@ impl Motion<'_, '_> {
         self.output.careful_until = self.state.t;
         self.output.edge = None;
         if let Some(mut rows) = self.output.rows.take() {
-            (rows.last, rows.is_smooth) = (rows.first, false);
+            rows.close();
             self.go_back(&rows.origin);
             self.output.rows = Some(rows);
         }

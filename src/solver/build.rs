@@ -130,6 +130,10 @@ struct Builder<'s, V> {
     age: u32,
     is_across: bool,
     open: Vec<Register>,
+    /// Registers whose values hold for this block alone: they depend on coordinates of later blocks, which cancel in what the
+    /// block needs.
+    passing: Vec<Register>,
+    is_passing: Vec<bool>,
 }
 
 /// The factors of a block's part of `Φ_q`, by places within the block.
@@ -169,6 +173,8 @@ impl<'s, V: Values> Builder<'s, V> {
             age: 0,
             is_across: false,
             open: Vec::new(),
+            passing: Vec::new(),
+            is_passing: vec![false; program.registers()],
         }
     }
 
@@ -199,6 +205,10 @@ impl<'s, V: Values> Builder<'s, V> {
             self.store(0, column);
         }
         self.derivatives(block, &factors);
+        for register in std::mem::take(&mut self.passing) {
+            self.is_passing[register as usize] = false;
+            self.known[register as usize] = (0, Value::ZERO);
+        }
     }
 
     /// One equation that is linear in its coordinate.
@@ -214,11 +224,7 @@ impl<'s, V: Values> Builder<'s, V> {
 
     /// Equations that are solved by iteration for some coordinates, the others following from these.
     fn implicit(&mut self, block: &Block) -> Factors {
-        let pattern: Vec<Vec<(u32, bool)>> = block
-            .rows
-            .iter()
-            .map(|&row| self.entries_inside(block, row).map(|(place, at)| (place, self.is_number(at))).collect())
-            .collect();
+        let pattern: Vec<Vec<(u32, bool)>> = block.rows.iter().map(|&row| self.assignable(block, row)).collect();
         let tearing = tear(&pattern);
         let order = self.order(block);
         // the loop
@@ -252,6 +258,15 @@ impl<'s, V: Values> Builder<'s, V> {
             self.tape.act(Op::Residual { a, row });
         }
         self.eliminate(block, &order, true)
+    }
+
+    /// The entries of a row within its block, and whether the row can be solved for the coordinate of each without losing digits:
+    /// its slope is a number, and no other number in the row is larger.
+    fn assignable(&self, block: &Block, row: u32) -> Vec<(u32, bool)> {
+        let slope = |at: usize| self.literals.get(&self.program.outputs.phi_q[at]).map_or(0.0, |slope| slope.abs());
+        let entries = || self.entries_inside(block, row);
+        let largest = entries().map(|(_, at)| slope(at)).fold(0.0, f64::max);
+        entries().map(|(place, at)| (place, slope(at) > 0.0 && slope(at) >= largest)).collect()
     }
 
     /// A coordinate that iteration begins with.
@@ -485,12 +500,16 @@ impl<'s, V: Values> Builder<'s, V> {
                 let waiting = open.len();
                 open.extend(reads[..count].iter().filter(|&&read| !self.is_known(read)));
                 if open.len() == waiting {
-                    let operands = reads.map(|read| self.known[read as usize].1);
+                    let mut operands = [Value::ZERO; 3];
+                    for (operand, &read) in operands.iter_mut().zip(&reads[..count]) {
+                        *operand = self.known[read as usize].1;
+                    }
                     self.learn(op, operands);
                 }
             } else {
-                // derivatives that nothing needs
+                // a coordinate of a later block, or a derivative that nothing needs: it cancels, and may be anything
                 self.know(register, Value::ZERO);
+                self.let_pass(register);
             }
         }
         self.open = open;
@@ -498,13 +517,22 @@ impl<'s, V: Values> Builder<'s, V> {
     }
 
     fn learn(&mut self, op: program::Op, operands: [Value; 3]) {
-        let [first, second] = lower(&mut self.tape, op, operands);
-        if let program::Op::SinCos { sin, cos, .. } = op {
-            self.know(sin, first);
-            self.know(cos, second);
-        } else if let Some(to) = op.written() {
-            self.know(to, first);
+        let results = lower(&mut self.tape, op, operands);
+        let (reads, count) = op.reads();
+        let passes = reads[..count].iter().any(|&read| self.is_passing[read as usize]);
+        let (written, many) = written(op);
+        for (&register, value) in written[..many].iter().zip(results) {
+            self.know(register, value);
+            if passes {
+                self.let_pass(register);
+            }
         }
+    }
+
+    /// Forgets the value of a register when the block is done.
+    fn let_pass(&mut self, register: Register) {
+        self.is_passing[register as usize] = true;
+        self.passing.push(register);
     }
 
     /// A value that is not computed from others here.
@@ -528,10 +556,8 @@ impl<'s, V: Values> Builder<'s, V> {
 
     /// Whether a register of the program keeps its value within a step: it depends on parameters alone, or is a switch.
     fn is_loaded(&self, register: Register) -> bool {
-        self.definitions[register as usize].is_some_and(|(stage, op)| {
-            let is_switch = op.switched().is_some() || matches!(op, program::Op::Pick { .. });
-            stage == Stage::Prologue || (is_switch && stage.can_switch())
-        })
+        self.definitions[register as usize]
+            .is_some_and(|(stage, op)| stage == Stage::Prologue || (op.switched().is_some() && stage.can_switch()))
     }
 
     /// The value of a sum in which an input, which it is linear in, is left out.
@@ -553,8 +579,7 @@ impl<'s, V: Values> Builder<'s, V> {
             if open.len() > waiting {
                 continue;
             }
-            let (written, many) =
-                if let program::Op::SinCos { sin, cos, .. } = op { ([sin, cos], 2) } else { ([register; 2], 1) };
+            let (written, many) = written(op);
             let results = if reads[..count].iter().all(|read| found[read].is_none()) {
                 [None; 2]
             } else {
@@ -578,6 +603,14 @@ impl<'s, V: Values> Builder<'s, V> {
     }
 }
 
+/// The registers that an operation of a program writes, and how many they are.
+fn written(op: program::Op) -> ([Register; 2], usize) {
+    match op {
+        program::Op::SinCos { sin, cos, .. } => ([sin, cos], 2),
+        _ => op.written().map_or(([0; 2], 0), |to| ([to, 0], 1)),
+    }
+}
+
 /// Lays an operation of a program out for operands some of which are numbers; a sine and cosine have two results.
 fn lower(tape: &mut Tape, op: program::Op, [a, b, c]: [Value; 3]) -> [Value; 2] {
     use program::Op as P;
@@ -598,9 +631,13 @@ fn lower(tape: &mut Tape, op: program::Op, [a, b, c]: [Value; 3]) -> [Value; 2] 
             return tape.push_pair(|sin, cos| Op::SinCos { sin, cos, a });
         }
         _ => {
-            let (reads, _) = op.reads();
-            let registers = [a, b, c].map(|value| tape.register(value));
-            let place = |read: Register| reads.iter().position(|own| *own == read).map_or(read, |k| registers[k]);
+            let (reads, count) = op.reads();
+            let mut registers = [0; 3];
+            for (register, value) in registers.iter_mut().zip([a, b, c]).take(count) {
+                *register = tape.register(value);
+            }
+            let place =
+                |read: Register| reads[..count].iter().position(|own| *own == read).map_or(read, |k| registers[k]);
             tape.push(|to| Op::Other(op.renumbered(place, |_| to)))
         }
     };

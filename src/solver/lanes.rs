@@ -11,7 +11,7 @@ use std::ops::Range;
 /// Iterations of a block at most.
 const ITERATIONS: usize = 6;
 /// Largest first correction, scaled: the curve of a step is nearer than this.
-const LARGEST_CORRECTION: f64 = 1e-2;
+const LARGEST_CORRECTION: f64 = 0.05;
 /// A correction of just half a cell, to rounding, stays in it.
 const HALF_A_CELL: f64 = 0.5 + 1e-6;
 
@@ -29,6 +29,8 @@ pub struct Lanes<const W: usize> {
     residual: [f64; W],
     /// Lanes whose iteration has gone astray.
     is_lost: [bool; W],
+    /// The largest first correction of each lane, scaled.
+    first_correction: [f64; W],
 }
 
 /// Times to solve at, and what is known there.
@@ -42,7 +44,7 @@ pub struct Batch<'b, const W: usize> {
     pub length: f64,
     /// Each coordinate as a polynomial of the part of the step.
     pub curve: &'b [[f64; 6]],
-    /// How the curve of each tear goes on from the step before.
+    /// How the curve of each tear goes on from the step before, where there was one.
     pub bends: &'b [Bend],
     /// By row of `Φ`: one over what may be left of it.
     pub bounds: &'b [f64],
@@ -53,7 +55,13 @@ impl<const W: usize> Lanes<W> {
     #[must_use]
     pub fn new(solver: &Solver) -> Lanes<W> {
         let values = vec![Vector([0.0; W]); solver.registers];
-        Lanes { values, multiplier: [0.0; W], residual: [0.0; W], is_lost: [false; W] }
+        Lanes { values, multiplier: [0.0; W], residual: [0.0; W], is_lost: [false; W], first_correction: [0.0; W] }
+    }
+
+    /// How far the curve was from the solution in the last run: the largest first correction of each lane, scaled.
+    #[must_use]
+    pub fn first_corrections(&self) -> &[f64; W] {
+        &self.first_correction
     }
 
     /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
@@ -69,6 +77,7 @@ impl<const W: usize> Lanes<W> {
         rows: &mut [f64],
     ) -> [bool; W] {
         (self.multiplier, self.residual, self.is_lost) = ([0.0; W], [0.0; W], [false; W]);
+        self.first_correction = [0.0; W];
         for (row, t) in rows.chunks_exact_mut(solver.layout.stride).zip(batch.times) {
             row[0] = t;
         }
@@ -112,6 +121,9 @@ impl<const W: usize> Run<'_, W> {
             let mut is_settled = true;
             for tear in tears {
                 let delta = self.lanes.values[tear.delta as usize].0;
+                if iteration == 0 {
+                    keep_largest(&mut self.lanes.first_correction, &delta, 1.0 / tear.scale);
+                }
                 let is_lost = &mut self.lanes.is_lost;
                 for k in 0..W {
                     is_lost[k] |= delta[k].is_nan() || delta[k].abs() > LARGEST_CORRECTION * tear.scale;
@@ -186,7 +198,8 @@ impl<const W: usize> Run<'_, W> {
                 }
                 Op::Curve { to, tear } => {
                     let column = self.solver.tears[tear as usize] as usize;
-                    let (curve, bend) = (&self.batch.curve[column], &self.batch.bends[tear as usize]);
+                    let curve = &self.batch.curve[column];
+                    let bend = self.batch.bends.get(tear as usize).unwrap_or(&Bend::NONE);
                     let (from, per_second) = (self.batch.from, 1.0 / self.batch.length);
                     v[to as usize] = Vector(self.batch.times.map(|t| bend.on_curve(curve, (t - from) * per_second)));
                 }
