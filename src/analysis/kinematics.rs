@@ -74,6 +74,9 @@ pub(super) struct Kinematics<'d> {
     beside: Vec<f64>,
 }
 
+/// What rounding makes of a term.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// How far beside a position the slope of a row that is bent is looked at, scaled.
 const BESIDE: f64 = 0.1;
 
@@ -347,10 +350,12 @@ impl<'d> Kinematics<'d> {
         (self.program, &self.registers)
     }
 
-    /// By row, one over what may be left of it: its tolerance and rounding, where the position was set and factored.
+    /// By row, one over what may be left of it: its tolerance and what the coordinates' rounding makes, where the position was
+    /// set and factored.
     pub fn write_bounds(&self, bounds: &mut [f64]) {
         for (row, bound) in bounds.iter_mut().enumerate() {
-            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row) + self.rounding(row));
+            let rounding = ROUNDING * self.steps(row).fold(0.0, f64::max);
+            *bound = 1.0 / (self.tolerance * self.linear.row_norm(row) + rounding);
         }
     }
 
@@ -432,13 +437,17 @@ impl<'d> Kinematics<'d> {
 
     /// 8 eps times the largest term of a row, the steps of its coordinates included.
     fn rounding(&self, row: usize) -> f64 {
-        let pattern = &self.system().phi_q;
         let terms = self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs());
-        let steps = pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {
+        ROUNDING * terms.chain(self.steps(row)).fold(0.0, f64::max)
+    }
+
+    /// What each coordinate contributes to a row by its slope.
+    fn steps(&self, row: usize) -> impl Iterator<Item = f64> {
+        let pattern = &self.system().phi_q;
+        pattern.range(row).zip(pattern.row(row)).map(|(position, &(column, _))| {
             let q = self.registers.get(self.program.inputs.coordinates[0] + column);
             (self.phi_q(position) * q).abs()
-        });
-        8.0 * f64::EPSILON * terms.chain(steps).fold(0.0, f64::max)
+        })
     }
 
     /// The formula that must be positive and is not, where time or a position was set.

@@ -107,8 +107,9 @@ impl<'m> Output<'m> {
         // what was left out of the equations is looked at wherever a row is printed
         let solver = solver.filter(|_| kinematics.system().checks.is_empty());
         let threads = |solver: &Solver| {
-            let most = std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS));
-            if solver.operations() < WORTH_A_THREAD { 1 } else { most }
+            // asking for the processors takes as long as a hundred steps of a four-bar
+            let most = || std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS));
+            if solver.operations() < WORTH_A_THREAD { 1 } else { most() }
         };
         let rows = solver.map(|solver| Rows {
             solver,

@@ -9,8 +9,8 @@ use parquet::schema::types::Type;
 use std::io::{self, Write};
 use std::sync::Arc;
 
-/// Numbers that are gathered before they are written: 32 MB.
-const GROUP: usize = 1 << 22;
+/// Numbers that are gathered before they are written: 128 MB.
+const GROUP: usize = 1 << 24;
 
 /// Writes a table; rows are gathered, since the format stores column after column.
 pub(super) struct ParquetWriter<W: Write + Send> {

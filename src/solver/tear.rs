@@ -2,6 +2,9 @@
 
 use std::collections::BTreeSet;
 
+/// Rows in which a tear is looked for.
+const CANDIDATES: usize = 64;
+
 /// How a block falls apart once its tears are known; rows and columns are counted within the block.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub(super) struct Tearing {
@@ -101,16 +104,19 @@ impl<'r> Search<'r> {
         }
     }
 
-    /// Of the row with the fewest unknowns the coordinate that no equation gives, or else the one that most rows use.
+    /// Of the rows with the fewest unknowns a coordinate that no equation gives, the one that most rows use; or else of the
+    /// first of them any.
     fn best_tear(&self) -> u32 {
-        let unknown = |&&(column, _): &&Entry| !self.is_known[column as usize];
-        let worth = |column: u32| (!self.is_assignable[column as usize], self.users[column as usize].len());
-        let row = self.left.first().map(|&(_, row)| row as usize);
-        let best = row.and_then(|row| {
-            self.rows[row].iter().filter(unknown).map(|&(column, _)| column).max_by_key(|&column| worth(column))
-        });
+        let users = |column: u32| self.users[column as usize].len();
+        let rows = || self.left.iter().take(CANDIDATES).map(|&(_, row)| self.rows[row as usize].as_slice());
+        let unknowns = |row: &'r [Entry]| row.iter().map(|&(column, _)| column).filter(|&c| !self.is_known[c as usize]);
+        let hopeless = |row: &'r [Entry]| {
+            unknowns(row).filter(|&column| !self.is_assignable[column as usize]).max_by_key(|&column| users(column))
+        };
+        let any = || rows().next().and_then(|row| unknowns(row).max_by_key(|&column| users(column)));
         // rows that cannot be solved for their last unknown leave it to be torn
-        best.unwrap_or_else(|| self.is_known.iter().position(|known| !known).unwrap_or(0) as u32)
+        let left_over = || self.is_known.iter().position(|known| !known).unwrap_or(0) as u32;
+        rows().find_map(hopeless).or_else(any).unwrap_or_else(left_over)
     }
 
     fn finish(mut self) -> Tearing {
@@ -147,6 +153,22 @@ mod tests {
             assert!(rows[row as usize].iter().all(|&(c, _)| c == column || known.contains(&c)), "out of order");
             known.push(column);
         }
+    }
+
+    #[test]
+    fn angles_are_torn_rather_than_places() {
+        // two crossed bars, each with an end on what is known; their middles are joined
+        let rows = [
+            vec![(0, true), (3, true)],
+            vec![(1, true), (4, true)],
+            vec![(0, true), (2, false)],
+            vec![(1, true), (2, false)],
+            vec![(3, true), (5, false)],
+            vec![(4, true), (5, false)],
+        ];
+        let mut tears = tear(&rows).tears;
+        tears.sort_unstable();
+        assert_eq!(tears, [2, 5]);
     }
 
     #[test]
