@@ -6,7 +6,8 @@
 //! ```
 //!
 //! Steps are chosen by the solver's own error (`march`), so that output times only decide what is printed. A row is
-//! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there.
+//! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there; equations that were solved for a
+//! coordinate hold by that.
 
 mod assembly;
 mod bridge;

@@ -19,6 +19,8 @@ const LANES: usize = 16;
 /// A solver with so many operations is worth a thread for every so many times, up to as many threads.
 const WORTH_A_THREAD: usize = 20_000;
 const MOST_THREADS: usize = 8;
+/// A step below this part of the span is short.
+const SHORT: f64 = 1e-4;
 /// So many rows within a step show what its curve is worth.
 const ENOUGH: u64 = 4;
 /// Steps that are tried behind a row that cannot be printed, to tell why.
@@ -74,6 +76,15 @@ impl Rows<'_> {
         let (program, registers) = kinematics.program();
         let [holds] = self.alone.run(self.solver, program, registers, &batch, &mut self.alone_row);
         holds
+    }
+
+    /// Whether the coordinates of a lane's row and their derivatives are numbers.
+    fn is_finite(&self, lane: usize) -> bool {
+        let layout = self.solver.layout();
+        let row = &self.values[lane * layout.stride..][..layout.stride];
+        let n = self.bounds.len();
+        let mut parts = layout.coordinates[..3].iter().map(|&first| &row[first as usize..][..n]);
+        parts.all(|part| part.iter().all(|value| value.is_finite()))
     }
 
     /// Forgets the step.
@@ -243,6 +254,8 @@ impl Motion<'_, '_> {
         let (upcoming, farthest) = (times.at(*number), self.state.t + self.h);
         let behind = times.first_after(farthest, *number);
         // no crumb at the end
+        // what does not change the time is no step
+        let farthest = if farthest > self.state.t { farthest } else { upcoming };
         let target = if self.h >= 0.999 * (upcoming - self.state.t) {
             times.at(behind.saturating_sub(1).max(*number))
         } else {
@@ -301,7 +314,11 @@ impl Motion<'_, '_> {
         self.draw_curve(h);
         self.open_step(h, t, to_edge);
         let between = self.corrections_between(h);
-        if between.is_nan() || between > LARGEST_BETWEEN {
+        if between.is_nan() || (between > LARGEST_BETWEEN && self.is_short(h)) {
+            self.output.rows.iter_mut().for_each(Rows::close);
+            return Ok(None);
+        }
+        if between > LARGEST_BETWEEN {
             return Err(Fault::TooFar);
         }
         self.look_at_signals(h)?;
@@ -310,6 +327,12 @@ impl Motion<'_, '_> {
         }
         self.look_for_touch(h, motion)?;
         Ok(Some(Accepted { first_correction, between, motion }))
+    }
+
+    /// Whether a step is so short that a correction which is not small shows pivots that do not suit the position, and no bend
+    /// of the way.
+    fn is_short(&self, h: f64) -> bool {
+        h <= SHORT * self.span
     }
 
     /// Solves at the end of a step from Taylor's prediction, and gives the correction; none where that does not hold.
@@ -329,7 +352,7 @@ impl Motion<'_, '_> {
         if !rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, t]) {
             // one that is far off wants a shorter step, and not more care
             let size = rows.alone.first_corrections()[0];
-            return Some(size).filter(|size| size.is_nan() || *size > LARGEST_CORRECTION);
+            return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
         }
         let (layout, n) = (rows.solver.layout(), self.trial.q.len());
         let part = |order: usize| &rows.alone_row[layout.coordinates[order] as usize..][..n];
@@ -352,13 +375,13 @@ impl Motion<'_, '_> {
             return f64::NAN;
         };
         if rows.last - rows.first < ENOUGH {
-            let holds = rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
-            return if holds { rows.alone.first_corrections()[0] } else { f64::NAN };
+            rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
+            return rows.alone.first_corrections()[0];
         }
         self.solve_batch();
-        let lanes = self.output.rows.iter().flat_map(|rows| rows.lanes.iter().zip(&rows.holds));
-        let all = lanes.flat_map(|(lanes, holds)| lanes.first_corrections().iter().zip(holds));
-        all.filter(|(_, holds)| **holds).map(|(size, _)| *size).fold(0.0, f64::max)
+        // whichever threads there are, the first lanes are the same
+        let lanes = self.output.rows.iter().flat_map(|rows| rows.lanes[0].first_corrections());
+        lanes.fold(0.0, |largest, &size| if size <= largest { largest } else { size })
     }
 
     /// An edge that is meant to be at an output time is there.
@@ -413,7 +436,7 @@ impl Motion<'_, '_> {
         }
         let rows = self.output.rows.as_ref()?;
         let lane = (number - rows.first) as usize;
-        if rows.holds[lane / LANES][lane % LANES] {
+        if rows.holds[lane / LANES][lane % LANES] && rows.is_finite(lane) {
             return Some(Place::Lane(lane));
         }
         if self.row_on_curve(t) {
@@ -472,6 +495,8 @@ impl Motion<'_, '_> {
             *q = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
         }
         let is_solved = self.correct().is_ok()
+            && self.edge_met().is_none()
+            && self.same_branch().is_ok()
             && self.kinematics.derivatives(&mut self.trial).is_ok()
             && self.is_clear()
             && Self::trustworthy(self.kinematics, &self.trial).is_ok();

@@ -74,7 +74,7 @@ impl Times {
         match &self.kind {
             Kind::Grid { every, to, last } => {
                 let t = self.from + number as f64 * every;
-                if number == *last && (t - to).abs() <= 1e-9 * every { *to } else { t }
+                if number == *last && number > 0 && (t - to).abs() <= 1e-9 * every { *to } else { t }
             }
             Kind::Listed(times) => times[number as usize],
         }

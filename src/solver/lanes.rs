@@ -38,9 +38,9 @@ pub struct Lanes<const W: usize> {
 pub struct Batch<'b, const W: usize> {
     /// The times (s), ascending; all within a step.
     pub times: [f64; W],
-    /// Where the step begins, and its length (s).
+    /// Where the step begins (s).
     pub from: f64,
-    /// See there.
+    /// The length of the step (s).
     pub length: f64,
     /// Each coordinate as a polynomial of the part of the step.
     pub curve: &'b [[f64; 6]],

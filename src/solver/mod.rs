@@ -10,7 +10,8 @@
 //!   ([`Order`]); numbers fold, and what nothing needs is left out. Velocity and acceleration share the factors.
 //!
 //! A tear's iterates lie on a grid, coarse beside rounding and fine beside convergence: Newton steps from the grid point next to the
-//! solution, whichever way that was found. So the numbers do not depend on where the iteration began.
+//! solution, whichever way that was found. So the numbers do not depend on where the iteration
+//! began, unless a tear lies on the very border of two cells.
 //!
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
