@@ -20,27 +20,30 @@ pub(super) fn build(determined: &Determined, program: &Program, values: &impl Va
     let groups = Groups::new(determined);
     let measures = groups.measures(system);
     let mut builder = Builder::new(determined, program, values, &groups);
-    let (mut components, mut registers, mut operations) = (Vec::new(), 0, 0);
+    let (mut segments, mut registers, mut operations) = (Vec::new(), 0, Vec::new());
+    let mut append = |(component, used): (Component, usize), operations: &mut Vec<Op>| {
+        let from = operations.len();
+        operations.extend(component.operations);
+        segments.extend(component.segments.into_iter().map(|segment| segment.behind(from)));
+        registers = registers.max(used);
+    };
     for (group, measures) in groups.blocks.iter().zip(&measures) {
         builder.begin();
         for &block in group {
             builder.block(&determined.blocks()[block]);
         }
         builder.measures(measures);
-        let (component, used) = builder.finish();
-        operations += component.operations.len();
-        if operations > MOST_OPERATIONS {
+        append(builder.finish(), &mut operations);
+        if operations.len() > MOST_OPERATIONS {
             return None;
         }
-        registers = registers.max(used);
-        components.push(component);
     }
     builder.begin();
     builder.is_across = true;
     builder.measures(&measures[groups.blocks.len()]);
-    let (across, used) = builder.finish();
+    append(builder.finish(), &mut operations);
     let Builder { weights, tears, layout, .. } = builder;
-    Some(Solver { components, across, registers: registers.max(used), weights, tears, layout })
+    Some(Solver { operations, segments, registers, weights, tears, layout })
 }
 
 /// Blocks that depend on each other.

@@ -2,7 +2,7 @@
 
 use super::curve::Bend;
 use super::tape::Op;
-use super::{Component, LARGEST_MULTIPLIER, Segment, Solver, Tear};
+use super::{LARGEST_MULTIPLIER, Segment, Solver, Tear};
 use crate::expr::{binary_value, compare, unary_value};
 use crate::math;
 use crate::program::{self, Program, Register, Registers};
@@ -82,10 +82,7 @@ impl<const W: usize> Lanes<W> {
             row[0] = t;
         }
         let mut run = Run { lanes: self, solver, program, scalars, batch, rows };
-        for component in &solver.components {
-            run.component(component);
-        }
-        run.component(&solver.across);
+        run.segments(&solver.segments);
         std::array::from_fn(|k| !self.is_lost[k] && self.multiplier[k] <= LARGEST_MULTIPLIER && self.residual[k] <= 1.0)
     }
 }
@@ -100,24 +97,24 @@ struct Run<'r, const W: usize> {
 }
 
 impl<const W: usize> Run<'_, W> {
-    fn component(&mut self, component: &Component) {
-        for segment in &component.segments {
+    fn segments(&mut self, segments: &[Segment]) {
+        for segment in segments {
             match segment {
-                Segment::Once(range) => self.operations(component, range.clone()),
-                Segment::Newton { operations, tears } => self.newton(component, operations.clone(), tears),
+                Segment::Once(range) => self.operations(range.clone()),
+                Segment::Newton { operations, tears } => self.newton(operations.clone(), tears),
             }
         }
     }
 
     /// Newton from grid point to grid point, until every lane's correction stays in the cell.
-    fn newton(&mut self, component: &Component, operations: Range<usize>, tears: &[Tear]) {
+    fn newton(&mut self, operations: Range<usize>, tears: &[Tear]) {
         for iteration in 0..ITERATIONS {
             for tear in tears {
                 // adding and taking away 1.5 · 2⁵² cells rounds to a whole number of them
                 let rounding = 6_755_399_441_055_744.0 * tear.cell;
                 self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = (*x + rounding) - rounding);
             }
-            self.operations(component, operations.clone());
+            self.operations(operations.clone());
             let mut is_settled = true;
             for tear in tears {
                 let delta = self.lanes.values[tear.delta as usize].0;
@@ -153,10 +150,10 @@ impl<const W: usize> Run<'_, W> {
         }
     }
 
-    fn operations(&mut self, component: &Component, range: Range<usize>) {
+    fn operations(&mut self, range: Range<usize>) {
         let lanes = &mut *self.lanes;
         let v = lanes.values.as_mut_slice();
-        for op in &component.operations[range] {
+        for op in &self.solver.operations[range] {
             match *op {
                 Op::Add { to, a, b } => combine(v, to, a, b, |a, b| a + b),
                 Op::Sub { to, a, b } => combine(v, to, a, b, |a, b| a - b),

@@ -42,9 +42,10 @@ const MOST_OPERATIONS: usize = 30_000_000;
 /// Operations that solve a constraint system at given times: position, velocity, acceleration, measures.
 #[derive(Clone, Debug)]
 pub struct Solver {
-    components: Vec<Component>,
-    /// Measures that join components, from what these have stored.
-    across: Component,
+    /// Those of all components one behind the other: they are read in a row, time and again.
+    operations: Vec<Op>,
+    /// What there is to run, component by component, and last the measures that join components, from what these have stored.
+    segments: Vec<Segment>,
     registers: usize,
     /// Scales of the multipliers that are watched.
     weights: Vec<f64>,
@@ -64,6 +65,17 @@ struct Component {
 enum Segment {
     Once(Range<usize>),
     Newton { operations: Range<usize>, tears: Vec<Tear> },
+}
+
+impl Segment {
+    /// The same, of operations that stand so many places further on.
+    fn behind(self, places: usize) -> Segment {
+        let moved = |range: Range<usize>| range.start + places..range.end + places;
+        match self {
+            Segment::Once(range) => Segment::Once(moved(range)),
+            Segment::Newton { operations, tears } => Segment::Newton { operations: moved(operations), tears },
+        }
+    }
 }
 
 /// A coordinate that Newton solves for.
@@ -148,6 +160,6 @@ impl Solver {
     /// How many operations it has.
     #[must_use]
     pub fn operations(&self) -> usize {
-        self.components.iter().map(|component| component.operations.len()).sum::<usize>() + self.across.operations.len()
+        self.operations.len()
     }
 }
