@@ -244,13 +244,7 @@ impl<'m, 'd> Motion<'m, 'd> {
     }
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
-    pub(super) fn try_step(
-        &mut self,
-        h: f64,
-        t: f64,
-        wanted: bool,
-        to_edge_of_motion: bool,
-    ) -> Result<Accepted, Fault> {
+    fn try_step(&mut self, h: f64, t: f64, wanted: bool, to_edge_of_motion: bool) -> Result<Accepted, Fault> {
         let motion = self.predict(h, t)?;
         let first_correction = self.correct()?;
         if !to_edge_of_motion && let Some(switch) = self.edge_met() {
@@ -428,7 +422,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
     }
 
-    pub(super) fn shorten(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
+    fn shorten(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
         self.h = 0.5 * h;
         let vanishes = self.state.t + self.h <= self.state.t;
         if self.h < self.smallest || vanishes {

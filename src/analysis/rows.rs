@@ -253,9 +253,9 @@ impl Motion<'_, '_> {
         let Output { times, next: number, .. } = &self.output;
         let (upcoming, farthest) = (times.at(*number), self.state.t + self.h);
         let behind = times.first_after(farthest, *number);
-        // no crumb at the end
         // what does not change the time is no step
         let farthest = if farthest > self.state.t { farthest } else { upcoming };
+        // no crumb at the end
         let target = if self.h >= 0.999 * (upcoming - self.state.t) {
             times.at(behind.saturating_sub(1).max(*number))
         } else {

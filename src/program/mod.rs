@@ -51,57 +51,34 @@ impl Op {
     /// The registers that an operation reads, tables' columns not counted, and how many they are.
     #[must_use]
     pub fn reads(self) -> ([Register; 3], usize) {
-        match self {
-            Op::Neg { a, .. }
-            | Op::Recip { a, .. }
-            | Op::Not { a, .. }
-            | Op::Copy { a, .. }
-            | Op::Unary { a, .. }
-            | Op::SinCos { a, .. }
-            | Op::Piece { a, .. } => ([a, 0, 0], 1),
-            Op::Pick { piece, .. } => ([piece, 0, 0], 1),
-            Op::Add { a, b, .. }
-            | Op::Sub { a, b, .. }
-            | Op::Mul { a, b, .. }
-            | Op::Div { a, b, .. }
-            | Op::Binary { a, b, .. }
-            | Op::Compare { a, b, .. }
-            | Op::And { a, b, .. }
-            | Op::Or { a, b, .. } => ([a, b, 0], 2),
-            Op::Select { condition, a, b, .. } | Op::Either { condition, a, b, .. } => ([condition, a, b], 3),
-        }
+        let (mut reads, mut count) = ([0; 3], 0);
+        let read = |register| {
+            reads[count] = register;
+            count += 1;
+            register
+        };
+        let _ = self.renumbered(read, |register| register);
+        (reads, count)
     }
 
-    /// The register that it writes; none for a sine and cosine, which write two.
+    /// The registers that it writes, and how many they are.
     #[must_use]
-    pub fn written(self) -> Option<Register> {
-        match self {
-            Op::SinCos { .. } => None,
-            Op::Add { to, .. }
-            | Op::Sub { to, .. }
-            | Op::Mul { to, .. }
-            | Op::Div { to, .. }
-            | Op::Neg { to, .. }
-            | Op::Recip { to, .. }
-            | Op::Unary { to, .. }
-            | Op::Binary { to, .. }
-            | Op::Compare { to, .. }
-            | Op::And { to, .. }
-            | Op::Or { to, .. }
-            | Op::Not { to, .. }
-            | Op::Select { to, .. }
-            | Op::Either { to, .. }
-            | Op::Copy { to, .. }
-            | Op::Piece { to, .. }
-            | Op::Pick { to, .. } => Some(to),
-        }
+    pub fn writes(self) -> ([Register; 2], usize) {
+        let (mut writes, mut count) = ([0; 2], 0);
+        let write = |register| {
+            writes[count] = register;
+            count += 1;
+            register
+        };
+        let _ = self.renumbered(|register| register, write);
+        (writes, count)
     }
 
     /// The same with other registers: `read` for those it reads, `write` for those it writes.
     #[must_use]
     pub fn renumbered(
         mut self,
-        read: impl Fn(Register) -> Register,
+        mut read: impl FnMut(Register) -> Register,
         mut write: impl FnMut(Register) -> Register,
     ) -> Op {
         match &mut self {
@@ -402,16 +379,9 @@ impl Program {
         let mut definitions = vec![None; self.registers];
         for stage in STAGES {
             for &op in self.stage(stage) {
-                match op {
-                    Op::SinCos { sin, cos, .. } => {
-                        definitions[sin as usize] = Some((stage, op));
-                        definitions[cos as usize] = Some((stage, op));
-                    }
-                    _ => {
-                        if let Some(to) = op.written() {
-                            definitions[to as usize] = Some((stage, op));
-                        }
-                    }
+                let (writes, count) = op.writes();
+                for &register in &writes[..count] {
+                    definitions[register as usize] = Some((stage, op));
                 }
             }
         }
@@ -427,32 +397,12 @@ impl Program {
     /// The registers that an operation reads, and those that it writes.
     #[must_use]
     pub fn operands(&self, op: Op) -> (Vec<Register>, Vec<Register>) {
-        match op {
-            Op::Neg { to, a }
-            | Op::Recip { to, a }
-            | Op::Not { to, a }
-            | Op::Copy { to, a }
-            | Op::Unary { to, a, .. } => (vec![a], vec![to]),
-            Op::Piece { to, table, a } => {
-                let knots = self.tables[table as usize].column(Column::Knots);
-                (knots.chain([a]).collect(), vec![to])
-            }
-            Op::Pick { to, table, column, piece } => {
-                let cells = self.tables[table as usize].column(column);
-                (cells.chain([piece]).collect(), vec![to])
-            }
-            Op::SinCos { sin, cos, a } => (vec![a], vec![sin, cos]),
-            Op::Add { to, a, b }
-            | Op::Sub { to, a, b }
-            | Op::Mul { to, a, b }
-            | Op::Div { to, a, b }
-            | Op::Binary { to, a, b, .. }
-            | Op::Compare { to, a, b, .. }
-            | Op::And { to, a, b }
-            | Op::Or { to, a, b } => (vec![a, b], vec![to]),
-            Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
-                (vec![condition, a, b], vec![to])
-            }
-        }
+        let cells = match op {
+            Op::Piece { table, .. } => self.tables[table as usize].column(Column::Knots),
+            Op::Pick { table, column, .. } => self.tables[table as usize].column(column),
+            _ => 0..0,
+        };
+        let ((reads, read), (writes, written)) = (op.reads(), op.writes());
+        (cells.chain(reads[..read].iter().copied()).collect(), writes[..written].to_vec())
     }
 }

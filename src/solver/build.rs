@@ -123,8 +123,7 @@ struct Builder<'s, V> {
     literals: FxHashMap<Register, f64>,
     /// By register of the program: its value, and how old that is.
     known: Vec<(u32, Value)>,
-    /// Each row's and column's place in its block.
-    place_of_row: Vec<u32>,
+    /// Each column's place in its block.
     place_of_column: Vec<u32>,
     tape: Tape,
     segments: Vec<Segment>,
@@ -152,10 +151,10 @@ impl<'s, V: Values> Builder<'s, V> {
     fn new(determined: &'s Determined, program: &'s Program, values: &'s V, groups: &'s Groups) -> Builder<'s, V> {
         let system = determined.system();
         let n = system.coordinates.len();
-        let (mut place_of_row, mut place_of_column) = (vec![0; n], vec![0; n]);
+        let mut place_of_column = vec![0; n];
         for block in determined.blocks() {
-            for (place, (&row, &column)) in block.rows.iter().zip(&block.columns).enumerate() {
-                (place_of_row[row as usize], place_of_column[column as usize]) = (place as u32, place as u32);
+            for (place, &column) in block.columns.iter().enumerate() {
+                place_of_column[column as usize] = place as u32;
             }
         }
         Builder {
@@ -167,7 +166,6 @@ impl<'s, V: Values> Builder<'s, V> {
             definitions: program.definitions(),
             literals: program.constants().iter().copied().collect(),
             known: vec![(0, Value::ZERO); program.registers()],
-            place_of_row,
             place_of_column,
             tape: Tape::new(0),
             segments: Vec::new(),
@@ -451,7 +449,6 @@ impl<'s, V: Values> Builder<'s, V> {
     /// The entries of a row within its block: place of the column, and position in the pattern.
     fn entries_inside(&self, block: &Block, row: u32) -> impl Iterator<Item = (u32, usize)> + use<'s, '_, V> {
         let own = self.groups.block_of_column[block.columns[0] as usize];
-        debug_assert!((self.place_of_row[row as usize] as usize) < block.rows.len());
         let pattern = &self.system.phi_q;
         let entries = pattern.range(row as usize).zip(pattern.row(row as usize));
         entries
@@ -523,7 +520,7 @@ impl<'s, V: Values> Builder<'s, V> {
         let results = lower(&mut self.tape, op, operands);
         let (reads, count) = op.reads();
         let passes = reads[..count].iter().any(|&read| self.is_passing[read as usize]);
-        let (written, many) = written(op);
+        let (written, many) = op.writes();
         for (&register, value) in written[..many].iter().zip(results) {
             self.know(register, value);
             if passes {
@@ -582,7 +579,7 @@ impl<'s, V: Values> Builder<'s, V> {
             if open.len() > waiting {
                 continue;
             }
-            let (written, many) = written(op);
+            let (written, many) = op.writes();
             let results = if reads[..count].iter().all(|read| found[read].is_none()) {
                 [None; 2]
             } else {
@@ -603,14 +600,6 @@ impl<'s, V: Values> Builder<'s, V> {
             Some(value) => value,
             None => self.value(sum),
         }
-    }
-}
-
-/// The registers that an operation of a program writes, and how many they are.
-fn written(op: program::Op) -> ([Register; 2], usize) {
-    match op {
-        program::Op::SinCos { sin, cos, .. } => ([sin, cos], 2),
-        _ => op.written().map_or(([0; 2], 0), |to| ([to, 0], 1)),
     }
 }
 

@@ -151,12 +151,6 @@ impl Solver {
         &self.tears
     }
 
-    /// How many registers its lanes need.
-    #[must_use]
-    pub fn registers(&self) -> usize {
-        self.registers
-    }
-
     /// How many operations it has.
     #[must_use]
     pub fn operations(&self) -> usize {

@@ -10,9 +10,9 @@ const CANDIDATES: usize = 4;
 /// An entry of a block.
 #[derive(Clone, Copy, Debug)]
 pub struct BlockEntry {
-    /// Row and column within the block.
+    /// Its row within the block.
     pub row: u32,
-    #[allow(missing_docs)]
+    /// Its column there.
     pub column: u32,
     /// Its value where the order is chosen, scaled.
     pub value: f64,

@@ -110,51 +110,32 @@ pub enum Op {
 impl Op {
     /// The registers that it reads, and how many they are.
     pub(super) fn reads(self) -> ([Register; 3], usize) {
-        match self {
-            Op::Number { .. } | Op::Load { .. } | Op::Time { .. } | Op::Column { .. } | Op::Curve { .. } => ([0; 3], 0),
-            Op::Add { a, b, .. }
-            | Op::Sub { a, b, .. }
-            | Op::Mul { a, b, .. }
-            | Op::Div { a, b, .. }
-            | Op::Multiplier { a, b, .. } => ([a, b, 0], 2),
-            Op::MulAdd { a, b, c, .. } | Op::MulLess { a, b, c, .. } | Op::LessMul { a, b, c, .. } => ([a, b, c], 3),
-            Op::Neg { a, .. }
-            | Op::Recip { a, .. }
-            | Op::SinCos { a, .. }
-            | Op::Residual { a, .. }
-            | Op::Store { a, .. } => ([a, 0, 0], 1),
-            Op::Other(op) => op.reads(),
-        }
+        let (mut reads, mut count) = ([0; 3], 0);
+        let read = |register| {
+            reads[count] = register;
+            count += 1;
+            register
+        };
+        let _ = self.renumbered(read, |register| register);
+        (reads, count)
     }
 
     /// The registers that it writes, and how many they are.
     pub(super) fn writes(self) -> ([Register; 2], usize) {
-        match self {
-            Op::SinCos { sin, cos, .. } => ([sin, cos], 2),
-            Op::Residual { .. } | Op::Store { .. } => ([0; 2], 0),
-            Op::Number { to, .. }
-            | Op::Load { to, .. }
-            | Op::Time { to }
-            | Op::Column { to, .. }
-            | Op::Curve { to, .. }
-            | Op::Add { to, .. }
-            | Op::Sub { to, .. }
-            | Op::Mul { to, .. }
-            | Op::Div { to, .. }
-            | Op::MulAdd { to, .. }
-            | Op::MulLess { to, .. }
-            | Op::LessMul { to, .. }
-            | Op::Neg { to, .. }
-            | Op::Recip { to, .. }
-            | Op::Multiplier { to, .. } => ([to, 0], 1),
-            Op::Other(op) => op.written().map_or(([0; 2], 0), |to| ([to, 0], 1)),
-        }
+        let (mut writes, mut count) = ([0; 2], 0);
+        let write = |register| {
+            writes[count] = register;
+            count += 1;
+            register
+        };
+        let _ = self.renumbered(|register| register, write);
+        (writes, count)
     }
 
     /// The same with other registers: `read` for those it reads, then `write` for those it writes.
     pub(super) fn renumbered(
         mut self,
-        read: impl Fn(Register) -> Register,
+        mut read: impl FnMut(Register) -> Register,
         mut write: impl FnMut(Register) -> Register,
     ) -> Op {
         match &mut self {
