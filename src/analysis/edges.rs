@@ -276,11 +276,7 @@ impl Motion<'_, '_> {
 
     /// Looks at one place of the curve through both ends of a step.
     fn look_at(&mut self, h: f64, x: f64) -> Result<(), Fault> {
-        for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
-            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
-        }
-        self.kinematics.set_time(self.state.t + x * h);
-        self.kinematics.set_position(&self.middle)?;
+        self.set_on_curve(h, x)?;
         if let Some(switch) = self.edge_met() {
             return Err(Fault::Edge { t: self.state.t + x * h, switch });
         }

@@ -4,7 +4,7 @@ use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
-use crate::solver::{Solver, Values};
+use crate::solver::{RowLayout, Solver, Values};
 use crate::structure::Determined;
 
 /// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
@@ -563,9 +563,7 @@ impl<'d> Kinematics<'d> {
 
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
-        let outputs = &self.program.outputs;
-        let measures = outputs.measures.len() + outputs.measures_d.len() + outputs.measures_dd.len();
-        1 + 3 * self.system().coordinates.len() + measures
+        RowLayout::new(self.system()).printed
     }
 
     /// Evaluates and factors at a state again.

@@ -361,13 +361,18 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.correction_at(h, x)
     }
 
-    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
-    pub(super) fn correction_at(&mut self, h: f64, x: f64) -> Result<f64, Fault> {
+    /// Evaluates at a place of the curve, given as a part of the step.
+    pub(super) fn set_on_curve(&mut self, h: f64, x: f64) -> Result<(), Fault> {
         for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
-            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
+            *middle = along(curve, x);
         }
         self.kinematics.set_time(self.state.t + x * h);
-        self.kinematics.set_position(&self.middle)?;
+        self.kinematics.set_position(&self.middle)
+    }
+
+    /// Newton's correction at a place of the curve, given as a part of the step, with the factors of its end.
+    pub(super) fn correction_at(&mut self, h: f64, x: f64) -> Result<f64, Fault> {
+        self.set_on_curve(h, x)?;
         self.kinematics.correction(&mut self.delta);
         let size = self.kinematics.linear().largest_judged(&self.delta);
         if size <= LARGEST_BETWEEN { Ok(size) } else { Err(Fault::TooFar) }
@@ -430,4 +435,9 @@ impl<'m, 'd> Motion<'m, 'd> {
         }
         Ok(())
     }
+}
+
+/// A coordinate on its curve, at a part of the step.
+pub(super) fn along(curve: &[f64; 6], x: f64) -> f64 {
+    curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }

@@ -8,7 +8,7 @@ use super::determinant::Determinant;
 use super::edges::{Edge, behind_start, shortly_after};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
-use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS, Motion};
+use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS, Motion, along};
 use super::singular;
 use super::times::Times;
 use crate::diag::Diagnostic;
@@ -117,16 +117,29 @@ impl<'m> Output<'m> {
     pub fn new(kinematics: &Kinematics<'_>, state: &State, solver: Option<&'m Solver>, times: Times) -> Output<'m> {
         // what was left out of the equations is looked at wherever a row is printed
         let solver = solver.filter(|_| kinematics.system().checks.is_empty());
-        let threads = |solver: &Solver| {
-            // asking for the processors takes as long as a hundred steps of a four-bar
-            let most = || std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS));
-            if solver.operations() < WORTH_A_THREAD { 1 } else { most() }
-        };
-        let rows = solver.map(|solver| Rows {
+        let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
+        let careful_until = f64::NEG_INFINITY;
+        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, rows, edge: None }
+    }
+}
+
+/// How many threads a solver is worth.
+fn threads(solver: &Solver) -> usize {
+    if solver.operations() < WORTH_A_THREAD {
+        // asking for the processors takes as long as a hundred steps of a four-bar
+        return 1;
+    }
+    std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS))
+}
+
+impl<'m> Rows<'m> {
+    fn new(kinematics: &Kinematics<'_>, state: &State, solver: &'m Solver) -> Rows<'m> {
+        let threads = threads(solver);
+        Rows {
             solver,
-            lanes: vec![Lanes::new(solver); threads(solver)],
-            values: vec![0.0; threads(solver) * LANES * solver.layout().stride],
-            holds: vec![[false; LANES]; threads(solver)],
+            lanes: vec![Lanes::new(solver); threads],
+            values: vec![0.0; threads * LANES * solver.layout().stride],
+            holds: vec![[false; LANES]; threads],
             alone: Lanes::new(solver),
             alone_row: vec![0.0; solver.layout().stride],
             first: 0,
@@ -146,9 +159,7 @@ impl<'m> Output<'m> {
             before: state.clone(),
             is_smooth: false,
             bends: vec![Bend::NONE; solver.tears().len()],
-        });
-        let careful_until = f64::NEG_INFINITY;
-        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, rows, edge: None }
+        }
     }
 }
 
@@ -351,7 +362,7 @@ impl Motion<'_, '_> {
         }
         if !rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, t]) {
             // one that is far off wants a shorter step, and not more care
-            let size = rows.alone.first_corrections()[0];
+            let size = rows.alone.first_correction();
             return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
         }
         let (layout, n) = (rows.solver.layout(), self.trial.q.len());
@@ -376,12 +387,11 @@ impl Motion<'_, '_> {
         };
         if rows.last - rows.first < ENOUGH {
             rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
-            return rows.alone.first_corrections()[0];
+            return rows.alone.first_correction();
         }
         self.solve_batch();
         // whichever threads there are, the first lanes are the same
-        let lanes = self.output.rows.iter().flat_map(|rows| rows.lanes[0].first_corrections());
-        lanes.fold(0.0, |largest, &size| if size <= largest { largest } else { size })
+        self.output.rows.as_ref().map_or(f64::NAN, |rows| rows.lanes[0].first_correction())
     }
 
     /// An edge that is meant to be at an output time is there.
@@ -492,7 +502,7 @@ impl Motion<'_, '_> {
         let x = (t - rows.origin.state.t) / rows.length;
         self.trial.t = t;
         for (q, curve) in self.trial.q.iter_mut().zip(&self.curve) {
-            *q = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
+            *q = along(curve, x);
         }
         let is_solved = self.correct().is_ok()
             && self.edge_met().is_none()

@@ -132,11 +132,7 @@ impl Motion<'_, '_> {
 
     /// Factors at a place of the curve, given as a part of the step.
     fn factor_within(&mut self, h: f64, x: f64) -> Result<(), Fault> {
-        for (middle, curve) in self.middle.iter_mut().zip(&self.curve) {
-            *middle = curve.iter().rev().fold(0.0, |sum, c| sum * x + c);
-        }
-        self.kinematics.set_time(self.state.t + x * h);
-        self.kinematics.set_position(&self.middle)?;
+        self.set_on_curve(h, x)?;
         self.kinematics.factor()?;
         if self.kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
     }

@@ -58,10 +58,10 @@ impl<const W: usize> Lanes<W> {
         Lanes { values, multiplier: [0.0; W], residual: [0.0; W], is_lost: [false; W], first_correction: [0.0; W] }
     }
 
-    /// How far the curve was from the solution in the last run: the largest first correction of each lane, scaled.
+    /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
     #[must_use]
-    pub fn first_corrections(&self) -> &[f64; W] {
-        &self.first_correction
+    pub fn first_correction(&self) -> f64 {
+        self.first_correction.iter().fold(0.0, |largest, &size| if size <= largest { largest } else { size })
     }
 
     /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
