@@ -4,6 +4,8 @@
 //! the standard library's `sin` and its like do not give the same bits on every platform, so they are forbidden
 //! elsewhere (`clippy.toml`). Angles are in radians.
 
+/// Linear equations in blocks, with partial pivoting.
+pub mod blocks;
 mod sin_cos;
 mod sin_cos_of_each;
 

@@ -4,7 +4,7 @@ use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
-use crate::solver::{RowLayout, Solver, Values};
+use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
 use crate::structure::Determined;
 
 /// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
@@ -345,6 +345,11 @@ impl<'d> Kinematics<'d> {
         Solver::new(self.determined, self.program, self)
     }
 
+    /// As [`Kinematics::solver`], to be written as code.
+    pub fn solver_for_code(&self) -> Option<Solver> {
+        Solver::for_code(self.determined, self.program, self)
+    }
+
     /// The program with its registers, whose switches stand as they are in this step.
     pub fn program(&self) -> (&'d Program, &Registers) {
         (self.program, &self.registers)
@@ -461,21 +466,10 @@ impl<'d> Kinematics<'d> {
 
     /// Velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
     pub fn derivatives(&mut self, state: &mut State) -> Result<(), Fault> {
-        let program = self.program;
-        let [_, qd, qdd, qddd] = program.inputs.coordinates;
-        let outputs = &program.outputs;
-        program.run(Stage::Velocity, &mut self.registers);
-        let (linear, registers) = (&mut self.linear, &mut self.registers);
-        linear.solve(|row| registers.get(outputs.nu[row]), &mut state.qd);
-        registers.set_all(qd, &state.qd);
-        program.run(Stage::Acceleration, registers);
-        linear.solve(|row| registers.get(outputs.gamma[row]), &mut state.qdd);
-        if !outputs.jerk.is_empty() {
-            registers.set_all(qdd, &state.qdd);
-            program.run(Stage::Jerk, registers);
-            linear.solve(|row| registers.get(outputs.jerk[row]), &mut state.qddd);
-            registers.set_all(qddd, &state.qddd);
-        }
+        let linear = &mut self.linear;
+        rates(self.program, &mut self.registers, state, |registers, right, x| {
+            linear.solve(|row| registers.get(right[row]), x);
+        });
         self.all_finite(state)
     }
 
@@ -538,6 +532,22 @@ impl<'d> Kinematics<'d> {
         }
     }
 
+    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
+    pub fn pivoted_row(&mut self, pivoting: &mut Pivoting, state: &mut State, row: &mut [f64]) -> bool {
+        self.set_time(state.t);
+        if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
+            return false;
+        }
+        rates(self.program, &mut self.registers, state, |registers, right, x| {
+            pivoting.solve(|row| registers.get(right[row]), x);
+        });
+        let is_finite = self.all_finite(state).is_ok();
+        if is_finite {
+            self.write_row(state, row);
+        }
+        is_finite
+    }
+
     /// Writes a result row of a state whose derivatives were found otherwise than by solving.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
         let [_, qd, qdd, qddd] = self.program.inputs.coordinates;
@@ -585,6 +595,20 @@ impl<'d> Kinematics<'d> {
     }
 }
 
+impl Equations for Kinematics<'_> {
+    fn set_position(&mut self, q: &[f64]) -> bool {
+        Kinematics::set_position(self, q).is_ok()
+    }
+
+    fn phi(&self, row: usize) -> f64 {
+        Kinematics::phi(self, row)
+    }
+
+    fn slope(&self, position: usize) -> f64 {
+        self.phi_q(position)
+    }
+}
+
 impl Values for Kinematics<'_> {
     fn entry(&self, position: usize) -> f64 {
         let pattern = &self.system().phi_q;
@@ -594,6 +618,28 @@ impl Values for Kinematics<'_> {
 
     fn row_norm(&self, row: usize) -> f64 {
         self.linear.row_norm(row)
+    }
+}
+
+/// Velocity, acceleration and, where needed, jerk of a state whose position was set, by what solves `Φ_q x = b` for a right side.
+fn rates(
+    program: &Program,
+    registers: &mut Registers,
+    state: &mut State,
+    mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
+) {
+    let [_, qd, qdd, qddd] = program.inputs.coordinates;
+    let outputs = &program.outputs;
+    program.run(Stage::Velocity, registers);
+    solve(registers, &outputs.nu, &mut state.qd);
+    registers.set_all(qd, &state.qd);
+    program.run(Stage::Acceleration, registers);
+    solve(registers, &outputs.gamma, &mut state.qdd);
+    if !outputs.jerk.is_empty() {
+        registers.set_all(qdd, &state.qdd);
+        program.run(Stage::Jerk, registers);
+        solve(registers, &outputs.jerk, &mut state.qddd);
+        registers.set_all(qddd, &state.qddd);
     }
 }
 

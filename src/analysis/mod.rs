@@ -117,6 +117,22 @@ impl<'d> Started<'d> {
         self.solver.as_ref()
     }
 
+    /// The same operations, to be written as code.
+    #[must_use]
+    pub fn solver_for_code(&mut self) -> Option<Solver> {
+        self.kinematics.restore(&self.state);
+        self.kinematics.solver_for_code()
+    }
+
+    /// By row of `Φ`: what may be left of it at the start.
+    #[must_use]
+    pub fn bounds(&mut self) -> Vec<f64> {
+        self.kinematics.restore(&self.state);
+        let mut inverses = vec![0.0; self.state.q.len()];
+        self.kinematics.write_bounds(&mut inverses);
+        inverses.iter().map(|inverse| 1.0 / inverse).collect()
+    }
+
     /// Names of the result's columns, in order.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {

@@ -12,7 +12,7 @@ use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECT
 use super::singular;
 use super::times::Times;
 use crate::diag::Diagnostic;
-use crate::solver::{Batch, Bend, Lanes, Solver};
+use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 
 /// Times that are solved at once.
 const LANES: usize = 16;
@@ -52,6 +52,10 @@ struct Rows<'m> {
     /// For the end of a step.
     alone: Lanes<1>,
     alone_row: Vec<f64>,
+    /// A position as a curve that stays there.
+    rest: Vec<[f64; 6]>,
+    /// Where the solver's order of elimination loses digits; none where a block is too large.
+    pivoting: Option<Pivoting>,
     /// The numbers of the times whose rows are there, and of the last one in the step.
     first: u64,
     end: u64,
@@ -142,6 +146,8 @@ impl<'m> Rows<'m> {
             holds: vec![[false; LANES]; threads],
             alone: Lanes::new(solver),
             alone_row: vec![0.0; solver.layout().stride],
+            rest: vec![[0.0; 6]; kinematics.system().coordinates.len()],
+            pivoting: Pivoting::new(kinematics.determined()),
             first: 0,
             end: 0,
             last: 0,
@@ -221,10 +227,17 @@ impl Motion<'_, '_> {
                 return row.map(|()| Place::Own);
             }
             if t <= self.state.t {
-                return self.row_at_rest().map(|()| Place::Own);
+                self.row_at_rest()?;
+                self.refine(t);
+                return Ok(Place::Own);
             }
             if !self.may_leap() {
-                return self.go_to(t).map(|()| Place::Own);
+                self.go_to(t)?;
+                // beside a bifurcation that is passed every digit counts
+                if !self.is_near {
+                    self.refine(t);
+                }
+                return Ok(Place::Own);
             }
             self.count_step(t)?;
             self.leap()?;
@@ -450,6 +463,7 @@ impl Motion<'_, '_> {
             return Some(Place::Lane(lane));
         }
         if self.row_on_curve(t) {
+            self.refine(t);
             return Some(Place::Own);
         }
         self.take_step_back();
@@ -514,6 +528,33 @@ impl Motion<'_, '_> {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         is_solved
+    }
+
+    /// Solves again for a row that was found otherwise, by the operations that all other rows come from: whichever way it was
+    /// found, its bits are the same.
+    fn refine(&mut self, t: f64) {
+        let Some(rows) = &mut self.output.rows else {
+            return;
+        };
+        self.kinematics.write_bounds(&mut rows.bounds);
+        for (rest, q) in rows.rest.iter_mut().zip(&self.row[1..]) {
+            rest[0] = *q;
+        }
+        let batch = Batch { times: [t], from: t, length: 1.0, curve: &rows.rest, bends: &[], bounds: &rows.bounds };
+        let (program, registers) = self.kinematics.program();
+        let [holds] = rows.alone.run(rows.solver, program, registers, &batch, &mut rows.alone_row);
+        if holds {
+            let printed = self.row.len();
+            self.row.copy_from_slice(&rows.alone_row[..printed]);
+            return;
+        }
+        if let Some(pivoting) = &mut rows.pivoting {
+            self.trial.t = t;
+            let n = self.trial.q.len();
+            self.trial.q.copy_from_slice(&self.row[1..=n]);
+            self.kinematics.pivoted_row(pivoting, &mut self.trial, &mut self.row);
+            self.kinematics.restore(self.state);
+        }
     }
 
     /// Goes back to where the last step began, to go over it time by time.

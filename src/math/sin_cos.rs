@@ -25,10 +25,11 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 #[inline]
 pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
-    let cube = z * r;
-    let higher = 8.333_333_333_322_49e-3
-        + z * (-1.984_126_982_985_795e-4
-            + z * (2.755_731_370_707_006_8e-6 + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)));
+    let (cube, square) = (z * r, z * z);
+    // in halves that do not wait for each other (G. Estrin, 1960)
+    let lower = 8.333_333_333_322_49e-3 - z * 1.984_126_982_985_795e-4;
+    let upper = (2.755_731_370_707_006_8e-6 - z * 2.505_076_025_340_686_3e-8) + square * 1.589_690_995_211_55e-10;
+    let higher = lower + square * upper;
     r - ((z * (0.5 * tail - cube * higher) - tail) + cube * 1.666_666_666_666_663_2e-1)
 }
 
@@ -36,12 +37,11 @@ pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
 #[inline]
 pub(super) fn cos_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
-    let higher = z
-        * (4.166_666_666_666_66e-2
-            + z * (-1.388_888_888_887_411e-3
-                + z * (2.480_158_728_947_673e-5
-                    + z * (-2.755_731_435_139_066_3e-7
-                        + z * (2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11)))));
+    let square = z * z;
+    let lower = 4.166_666_666_666_66e-2 - z * 1.388_888_888_887_411e-3;
+    let middle = 2.480_158_728_947_673e-5 - z * 2.755_731_435_139_066_3e-7;
+    let upper = 2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11;
+    let higher = z * (lower + square * (middle + square * upper));
     let half = 0.5 * z;
     let most = 1.0 - half;
     most + (((1.0 - most) - half) + (z * higher - r * tail))

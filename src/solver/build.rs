@@ -4,7 +4,7 @@ use super::finish::finish;
 use super::order::{BlockEntry, Order};
 use super::tape::{Op, Tape, Value};
 use super::tear::tear;
-use super::{Component, MOST_OPERATIONS, RowLayout, Segment, Solver, Tear, Values};
+use super::{Component, MOST_OPERATIONS, Pivot, RowLayout, Segment, Solver, Tear, Turn, Values};
 use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
 use crate::math;
@@ -13,19 +13,41 @@ use crate::structure::{Block, Determined};
 use rustc_hash::FxHashMap;
 
 /// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
-const CELL: f64 = 1.0 / 134_217_728.0;
+pub(super) const CELL: f64 = 1.0 / 134_217_728.0;
 
-pub(super) fn build(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
+/// Within a cell that is no wider the sine is a parabola, to rounding.
+const WIDEST_CELL: f64 = 8.0 * CELL;
+
+/// The width of a cell of a coordinate's grid, by what the coordinate is judged against.
+pub(super) fn cell(scale: f64) -> f64 {
+    CELL * power_of_two_below(scale)
+}
+
+pub(super) fn build(
+    determined: &Determined,
+    program: &Program,
+    values: &impl Values,
+    notes_pivots: bool,
+) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
     let measures = groups.measures(system);
     let mut builder = Builder::new(determined, program, values, &groups);
+    builder.notes_pivots = notes_pivots;
     let (mut segments, mut registers, mut operations) = (Vec::new(), 0, Vec::new());
     let mut append = |(component, used): (Component, usize), operations: &mut Vec<Op>| {
         let from = operations.len();
-        operations.extend(component.operations);
-        segments.extend(component.segments.into_iter().map(|segment| segment.behind(from)));
-        registers = registers.max(used);
+        if notes_pivots {
+            // every value has a register of its own
+            let own = |register: Register| register + registers as Register;
+            operations.extend(component.operations.into_iter().map(|op| op.renumbered(own, own)));
+            segments.extend(component.segments.into_iter().map(|segment| segment.behind(from).renumbered(own)));
+            registers += used;
+        } else {
+            operations.extend(component.operations);
+            segments.extend(component.segments.into_iter().map(|segment| segment.behind(from)));
+            registers = registers.max(used);
+        }
     };
     for (group, measures) in groups.blocks.iter().zip(&measures) {
         builder.begin();
@@ -42,8 +64,8 @@ pub(super) fn build(determined: &Determined, program: &Program, values: &impl Va
     builder.is_across = true;
     builder.measures(&measures[groups.blocks.len()]);
     append(builder.finish(), &mut operations);
-    let Builder { weights, tears, layout, .. } = builder;
-    Some(Solver { operations, segments, registers, weights, tears, layout })
+    let Builder { weights, tears, pivots, turns, layout, .. } = builder;
+    Some(Solver { operations, segments, registers, weights, tears, pivots, turns, layout })
 }
 
 /// Blocks that depend on each other.
@@ -136,6 +158,20 @@ struct Builder<'s, V> {
     /// block needs.
     passing: Vec<Register>,
     is_passing: Vec<bool>,
+    /// Of the block's tears that have one: sine and cosine at the grid point, and from there on the correction.
+    pairs: Vec<Pair>,
+    notes_pivots: bool,
+    pivots: Vec<Pivot>,
+    turns: Vec<Turn>,
+}
+
+/// A tear with its sine and cosine where Newton has evaluated them last.
+struct Pair {
+    x: Register,
+    sin: Register,
+    cos: Register,
+    /// From there to the solution; none while Newton goes on.
+    delta: Option<Register>,
 }
 
 /// The factors of a block's part of `Φ_q`, by places within the block.
@@ -145,6 +181,17 @@ struct Factors {
     /// For each pivot the rows below it with their multipliers, and the rest of its row.
     lower: Vec<Vec<(u32, Value)>>,
     upper: Vec<Vec<(u32, Value)>>,
+    /// The last two unknowns, where they are found together.
+    pair: Option<TwoByTwo>,
+}
+
+/// Two equations for two unknowns, by rows, with one over their determinant (G. Cramer, 1750): one division instead of two, one
+/// after the other.
+struct TwoByTwo {
+    rows: [u32; 2],
+    columns: [u32; 2],
+    entries: [[Value; 2]; 2],
+    inverse: Value,
 }
 
 impl<'s, V: Values> Builder<'s, V> {
@@ -176,6 +223,10 @@ impl<'s, V: Values> Builder<'s, V> {
             open: Vec::new(),
             passing: Vec::new(),
             is_passing: vec![false; program.registers()],
+            pairs: Vec::new(),
+            notes_pivots: false,
+            pivots: Vec::new(),
+            turns: Vec::new(),
         }
     }
 
@@ -189,7 +240,7 @@ impl<'s, V: Values> Builder<'s, V> {
     fn finish(&mut self) -> (Component, usize) {
         self.close_once();
         let operations = std::mem::take(&mut self.tape.operations);
-        finish(operations, std::mem::take(&mut self.segments), self.tape.registers())
+        finish(operations, std::mem::take(&mut self.segments), self.tape.registers(), !self.notes_pivots)
     }
 
     /// Ends a run of operations that are done once.
@@ -205,10 +256,46 @@ impl<'s, V: Values> Builder<'s, V> {
         for &column in &block.columns {
             self.store(0, column);
         }
+        if self.notes_pivots {
+            self.note_pivots(block, &factors);
+        }
         self.derivatives(block, &factors);
+        self.pairs.clear();
         for register in std::mem::take(&mut self.passing) {
             self.is_passing[register as usize] = false;
             self.known[register as usize] = (0, Value::ZERO);
+        }
+    }
+
+    /// Notes the pivots of a block that are no numbers, with what the others and their order make of the determinant's sign.
+    fn note_pivots(&mut self, block: &Block, factors: &Factors) {
+        let turn = self.turns.len() as u32;
+        let mut is_negative = is_odd(&factors.pivots);
+        let before = self.pivots.len();
+        let weight = |builder: &Self, row: u32, column: u32| {
+            let scale = builder.system.coordinates[block.columns[column as usize] as usize].scale;
+            builder.values.row_norm(block.rows[row as usize] as usize) / scale
+        };
+        let singles = factors.pivots.iter().zip(&factors.inverses);
+        let mut noted: Vec<(Value, f64)> =
+            singles.map(|(&(row, column), &inverse)| (inverse, weight(self, row, column))).collect();
+        if let Some(TwoByTwo { rows, columns, inverse, .. }) = factors.pair {
+            noted.push((inverse, weight(self, rows[0], columns[0]) * weight(self, rows[1], columns[1])));
+        }
+        for (inverse, weight) in noted {
+            match inverse {
+                Value::Number(x) => is_negative ^= x < 0.0,
+                Value::Of { at, negative } => {
+                    is_negative ^= negative;
+                    let pivot = self.pivots.len() as u32;
+                    self.pivots.push(Pivot { turn, weight });
+                    self.tape.act(Op::Pivot { a: at, pivot });
+                }
+            }
+        }
+        if self.pivots.len() > before {
+            let block = self.groups.block_of_column[block.columns[0] as usize] as u32;
+            self.turns.push(Turn { block, is_negative });
         }
     }
 
@@ -220,7 +307,13 @@ impl<'s, V: Values> Builder<'s, V> {
         let value = self.tape.div(rest.negated(), slope);
         self.know(self.coordinate(0, column), value);
         let inverse = self.tape.recip(slope);
-        Factors { pivots: vec![(0, 0)], inverses: vec![inverse], lower: vec![Vec::new()], upper: vec![Vec::new()] }
+        Factors {
+            pivots: vec![(0, 0)],
+            inverses: vec![inverse],
+            lower: vec![Vec::new()],
+            upper: vec![Vec::new()],
+            pair: None,
+        }
     }
 
     /// Equations that are solved by iteration for some coordinates, the others following from these.
@@ -241,9 +334,10 @@ impl<'s, V: Values> Builder<'s, V> {
         let tear = |builder: &mut Self, (&place, &x): (&u32, &Register)| {
             let scale = builder.system.coordinates[block.columns[place as usize] as usize].scale;
             let delta = builder.tape.register(corrections[place as usize]);
-            Tear { x, delta, scale, cell: CELL * power_of_two_below(scale) }
+            Tear { x, delta, scale, cell: cell(scale) }
         };
-        let all = tearing.tears.iter().zip(&tears).map(|pair| tear(self, pair)).collect();
+        let all: Vec<Tear> = tearing.tears.iter().zip(&tears).map(|pair| tear(self, pair)).collect();
+        self.settle_pairs(&all);
         self.close_loop(all);
         // where it has settled
         self.age += 1;
@@ -296,6 +390,37 @@ impl<'s, V: Values> Builder<'s, V> {
         }
     }
 
+    /// From now on sines and cosines of tears are those of the grid point, turned by the correction.
+    fn settle_pairs(&mut self, tears: &[Tear]) {
+        self.pairs.retain_mut(|pair| {
+            let tear = tears.iter().find(|tear| tear.x == pair.x && tear.cell <= WIDEST_CELL);
+            pair.delta = tear.map(|tear| tear.delta);
+            pair.delta.is_some()
+        });
+        for pair in &self.pairs {
+            for register in [pair.sin, pair.cos].into_iter().chain(pair.delta) {
+                self.tape.set_age(register, self.age + 1);
+            }
+        }
+    }
+
+    /// Sine and cosine of a tear that has settled: three terms of Taylor's series are enough.
+    fn turned(&mut self, x: Value) -> Option<[Value; 2]> {
+        let of = |at: Register| Value::Of { at, negative: false };
+        let pair = self.pairs.iter().find(|pair| x == of(pair.x))?;
+        let (sin, cos, delta) = (of(pair.sin), of(pair.cos), of(pair.delta?));
+        let tape = &mut self.tape;
+        let half = tape.mul(Value::Number(0.5), delta);
+        let bend = tape.mul(half, sin);
+        let slope = tape.sub(cos, bend);
+        let way = tape.mul(delta, slope);
+        let turned_sin = tape.add(sin, way);
+        let bend = tape.mul(half, cos);
+        let slope = tape.add(sin, bend);
+        let way = tape.mul(delta, slope);
+        Some([turned_sin, tape.sub(cos, way)])
+    }
+
     fn close_loop(&mut self, tears: Vec<Tear>) {
         self.close_once();
         let from = self.tape.operations.len();
@@ -324,7 +449,10 @@ impl<'s, V: Values> Builder<'s, V> {
             let rates = self.solve(factors, sums);
             for (&column, &rate) in block.columns.iter().zip(&rates) {
                 self.know(self.coordinate(order, column), rate);
-                self.store(order, column);
+                // code has no use for third derivatives but in its measures
+                if order < 3 || !self.notes_pivots {
+                    self.store(order, column);
+                }
             }
         }
     }
@@ -375,8 +503,15 @@ impl<'s, V: Values> Builder<'s, V> {
             inverses: Vec::with_capacity(rows.len()),
             lower: Vec::with_capacity(rows.len()),
             upper: Vec::with_capacity(rows.len()),
+            pair: None,
         };
         for (&(row, column), below) in order.pivots.iter().zip(&order.below) {
+            if factors.inverses.len() + 2 == order.pivots.len() {
+                factors.pair = self.two_by_two(order, &rows);
+                if factors.pair.is_some() {
+                    break;
+                }
+            }
             let mut line = std::mem::take(&mut rows[row as usize]);
             let pivot = line.iter().position(|(own, _)| *own == column).map(|at| line.swap_remove(at).1);
             let inverse = self.tape.recip(pivot.unwrap_or(Value::ZERO));
@@ -413,6 +548,23 @@ impl<'s, V: Values> Builder<'s, V> {
         factors
     }
 
+    /// The last two unknowns of an elimination, where either equation holds both and no pivot is a number.
+    fn two_by_two(&mut self, order: &Order, rows: &[Vec<(u32, Value)>]) -> Option<TwoByTwo> {
+        let &[.., (upper, first), (lower, second)] = order.pivots.as_slice() else {
+            return None;
+        };
+        let entry = |row: u32, column: u32| {
+            let found = rows[row as usize].iter().find(|(own, _)| *own == column).map(|(_, value)| *value);
+            found.filter(|value| matches!(value, Value::Of { .. }))
+        };
+        let entries = [[entry(upper, first)?, entry(upper, second)?], [entry(lower, first)?, entry(lower, second)?]];
+        let tape = &mut self.tape;
+        let (down, up) = (tape.mul(entries[0][0], entries[1][1]), tape.mul(entries[0][1], entries[1][0]));
+        let determinant = tape.sub(down, up);
+        let inverse = tape.recip(determinant);
+        Some(TwoByTwo { rows: [upper, lower], columns: [first, second], entries, inverse })
+    }
+
     /// Solves with a block's factors: `right` by its rows becomes the solution by its columns.
     fn solve(&mut self, factors: &Factors, mut right: Vec<Value>) -> Vec<Value> {
         for (&(row, _), lower) in factors.pivots.iter().zip(&factors.lower) {
@@ -423,7 +575,17 @@ impl<'s, V: Values> Builder<'s, V> {
             }
         }
         let mut solution = vec![Value::ZERO; right.len()];
-        for (k, &(row, column)) in factors.pivots.iter().enumerate().rev() {
+        if let Some(TwoByTwo { rows, columns, entries: [[a, b], [c, d]], inverse }) = factors.pair {
+            let [upper, lower] = rows.map(|row| right[row as usize]);
+            for (column, [(x, p), (y, q)]) in
+                columns.into_iter().zip([[(d, upper), (b, lower)], [(a, lower), (c, upper)]])
+            {
+                let (plus, minus) = (self.tape.mul(x, p), self.tape.mul(y, q));
+                let difference = self.tape.sub(plus, minus);
+                solution[column as usize] = self.tape.mul(difference, inverse);
+            }
+        }
+        for (k, &(row, column)) in factors.pivots[..factors.inverses.len()].iter().enumerate().rev() {
             let mut sum = right[row as usize];
             for &(other, value) in &factors.upper[k] {
                 let product = self.tape.mul(value, solution[other as usize]);
@@ -517,7 +679,7 @@ impl<'s, V: Values> Builder<'s, V> {
     }
 
     fn learn(&mut self, op: program::Op, operands: [Value; 3]) {
-        let results = lower(&mut self.tape, op, operands);
+        let results = self.sine_and_cosine(op, operands[0]).unwrap_or_else(|| lower(&mut self.tape, op, operands));
         let (reads, count) = op.reads();
         let passes = reads[..count].iter().any(|&read| self.is_passing[read as usize]);
         let (written, many) = op.writes();
@@ -527,6 +689,21 @@ impl<'s, V: Values> Builder<'s, V> {
                 self.let_pass(register);
             }
         }
+    }
+
+    /// Those of a tear, of which they are noted while Newton goes on.
+    fn sine_and_cosine(&mut self, op: program::Op, a: Value) -> Option<[Value; 2]> {
+        let (program::Op::SinCos { .. }, Value::Of { at, negative: false }) = (op, a) else {
+            return None;
+        };
+        if self.age.is_multiple_of(2) {
+            return self.turned(a);
+        }
+        let results = lower(&mut self.tape, op, [a; 3]);
+        if let [Value::Of { at: sin, .. }, Value::Of { at: cos, .. }] = results {
+            self.pairs.push(Pair { x: at, sin, cos, delta: None });
+        }
+        Some(results)
     }
 
     /// Forgets the value of a register when the block is done.
@@ -634,6 +811,23 @@ fn lower(tape: &mut Tape, op: program::Op, [a, b, c]: [Value; 3]) -> [Value; 2] 
         }
     };
     [result, Value::ZERO]
+}
+
+/// Whether an order of rows with their columns takes an odd number of exchanges to make.
+fn is_odd(pivots: &[(u32, u32)]) -> bool {
+    let mut column_of = vec![0; pivots.len()];
+    for &(row, column) in pivots {
+        column_of[row as usize] = column as usize;
+    }
+    let mut is_odd = false;
+    for row in 0..column_of.len() {
+        while column_of[row] != row {
+            let other = column_of[row];
+            column_of.swap(row, other);
+            is_odd = !is_odd;
+        }
+    }
+    is_odd
 }
 
 /// The largest power of two that is not above a positive number.

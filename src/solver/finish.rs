@@ -7,13 +7,19 @@ use std::ops::Range;
 
 const NONE: u32 = u32::MAX;
 
-/// A component from its operations and segments, with `registers` registers, each written once; and how many registers are left.
-pub(super) fn finish(mut operations: Vec<Op>, segments: Vec<Segment>, registers: usize) -> (Component, usize) {
+/// A component from its operations and segments, with `registers` registers, each written once; and how many registers are left,
+/// which may be used several times if they are shared.
+pub(super) fn finish(
+    mut operations: Vec<Op>,
+    segments: Vec<Segment>,
+    registers: usize,
+    are_shared: bool,
+) -> (Component, usize) {
     let is_needed = needed(&operations, &segments, registers);
     let is_joined = join(&mut operations, &segments, &is_needed, registers);
     let keep: Vec<bool> = is_needed.iter().zip(&is_joined).map(|(needed, joined)| *needed && !joined).collect();
     let mut component = compact(&operations, segments, &keep);
-    let registers = share_registers(&mut component, registers);
+    let registers = if are_shared { share_registers(&mut component, registers) } else { registers };
     (component, registers)
 }
 

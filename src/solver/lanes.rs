@@ -9,11 +9,18 @@ use crate::program::{self, Program, Register, Registers};
 use std::ops::Range;
 
 /// Iterations of a block at most.
-const ITERATIONS: usize = 6;
+pub const ITERATIONS: usize = 6;
 /// Largest first correction, scaled: the curve of a step is nearer than this.
-const LARGEST_CORRECTION: f64 = 0.05;
+pub const LARGEST_CORRECTION: f64 = 0.05;
 /// A correction of just half a cell, to rounding, stays in it.
-const HALF_A_CELL: f64 = 0.5 + 1e-6;
+pub const HALF_A_CELL: f64 = 0.5 + 1e-6;
+
+/// The grid point next to a value, cells being so wide.
+pub(super) fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 · 2⁵² cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
 
 /// The values of one register, a lane for each time.
 #[derive(Clone, Copy, Debug)]
@@ -110,9 +117,7 @@ impl<const W: usize> Run<'_, W> {
     fn newton(&mut self, operations: Range<usize>, tears: &[Tear]) {
         for iteration in 0..ITERATIONS {
             for tear in tears {
-                // adding and taking away 1.5 · 2⁵² cells rounds to a whole number of them
-                let rounding = 6_755_399_441_055_744.0 * tear.cell;
-                self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = (*x + rounding) - rounding);
+                self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
             }
             self.operations(operations.clone());
             let mut is_settled = true;
@@ -175,6 +180,7 @@ impl<const W: usize> Run<'_, W> {
                 Op::Residual { a, row } => {
                     keep_largest(&mut lanes.residual, &v[a as usize].0, self.batch.bounds[row as usize]);
                 }
+                Op::Pivot { .. } => {}
                 Op::Number { to, bits: [low, high] } => {
                     v[to as usize] = Vector([f64::from_bits(u64::from(low) | (u64::from(high) << 32)); W]);
                 }

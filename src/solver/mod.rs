@@ -20,18 +20,21 @@ mod curve;
 mod finish;
 mod lanes;
 mod order;
+mod pivoting;
 mod tape;
 mod tear;
 
 pub use curve::Bend;
 pub use lanes::{Batch, Lanes};
+pub use lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
 pub use order::{BlockEntry, LEAST_PIVOT, Order};
+pub use pivoting::{BlockTables, Equations, Pivoting};
+pub use tape::Op;
 
 use crate::ir::ConstraintSystem;
 use crate::program::{Program, Register};
 use crate::structure::Determined;
 use std::ops::Range;
-use tape::Op;
 
 /// A scaled multiplier of an elimination beyond this loses digits.
 pub const LARGEST_MULTIPLIER: f64 = 16.0;
@@ -50,7 +53,28 @@ pub struct Solver {
     /// Scales of the multipliers that are watched.
     weights: Vec<f64>,
     tears: Vec<u32>,
+    /// What its operations note of pivots; empty unless they are asked to.
+    pivots: Vec<Pivot>,
+    turns: Vec<Turn>,
     layout: RowLayout,
+}
+
+/// A pivot that is no number.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Pivot {
+    /// Which of [`Solver::turns`] it counts for.
+    pub turn: u32,
+    /// What makes one over it a pure number.
+    pub weight: f64,
+}
+
+/// A block whose determinant changes with the position.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Turn {
+    /// The block, by its number.
+    pub block: u32,
+    /// Whether the determinant is negative where its pivots are positive.
+    pub is_negative: bool,
 }
 
 /// Blocks that depend on each other, in an order of solution, as operations.
@@ -62,9 +86,16 @@ struct Component {
 
 /// Operations that are run once, or until their tears have settled.
 #[derive(Clone, Debug)]
-enum Segment {
+pub enum Segment {
+    /// Operations that are run once.
     Once(Range<usize>),
-    Newton { operations: Range<usize>, tears: Vec<Tear> },
+    /// Operations that are run until the tears stay where they are.
+    Newton {
+        /// The loop's operations.
+        operations: Range<usize>,
+        /// What it solves for.
+        tears: Vec<Tear>,
+    },
 }
 
 impl Segment {
@@ -76,17 +107,29 @@ impl Segment {
             Segment::Newton { operations, tears } => Segment::Newton { operations: moved(operations), tears },
         }
     }
+
+    /// The same with other registers.
+    fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
+        if let Segment::Newton { tears, .. } = &mut self {
+            for tear in tears {
+                (tear.x, tear.delta) = (own(tear.x), own(tear.delta));
+            }
+        }
+        self
+    }
 }
 
 /// A coordinate that Newton solves for.
 #[derive(Clone, Copy, PartialEq, Debug)]
-struct Tear {
-    x: Register,
-    delta: Register,
+pub struct Tear {
+    /// Where its value stands.
+    pub x: Register,
+    /// Where the correction of it stands.
+    pub delta: Register,
     /// What a change is judged against (m, or 1 rad).
-    scale: f64,
+    pub scale: f64,
     /// The width of a cell of its grid.
-    cell: f64,
+    pub cell: f64,
 }
 
 /// Where a result row holds what. Rows are in the order of the table, with what only measures need behind.
@@ -136,7 +179,38 @@ impl Solver {
     /// Lays the solution of a system out; none where that takes too many operations.
     #[must_use]
     pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values)
+        build::build(determined, program, values, false)
+    }
+
+    /// As [`Solver::new`] to be written as code: with notes of the pivots, which tell branches apart, and with a register of its own
+    /// for every value.
+    #[must_use]
+    pub fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
+        build::build(determined, program, values, true)
+    }
+
+    /// What there is to run, in order.
+    #[must_use]
+    pub fn segments(&self) -> &[Segment] {
+        &self.segments
+    }
+
+    /// The scale of a multiplier that is watched.
+    #[must_use]
+    pub fn weight(&self, number: u32) -> f64 {
+        self.weights[number as usize]
+    }
+
+    /// What its operations note of pivots.
+    #[must_use]
+    pub fn pivots(&self) -> &[Pivot] {
+        &self.pivots
+    }
+
+    /// The blocks whose determinants change with the position, by the numbers that pivots have.
+    #[must_use]
+    pub fn turns(&self) -> &[Turn] {
+        &self.turns
     }
 
     /// Where its rows hold what.
@@ -149,6 +223,18 @@ impl Solver {
     #[must_use]
     pub fn tears(&self) -> &[u32] {
         &self.tears
+    }
+
+    /// All operations.
+    #[must_use]
+    pub fn all_operations(&self) -> &[Op] {
+        &self.operations
+    }
+
+    /// How many registers they need.
+    #[must_use]
+    pub fn registers(&self) -> usize {
+        self.registers
     }
 
     /// How many operations it has.

@@ -95,6 +95,11 @@ pub enum Op {
         b: Register,
         weight: u32,
     },
+    /// One over a pivot, by the pivot's number; the sign of all pivots of a block tells its branches apart.
+    Pivot {
+        a: Register,
+        pivot: u32,
+    },
     /// What is left of a row of `Φ`, which must be next to nothing.
     Residual {
         a: Register,
@@ -109,7 +114,8 @@ pub enum Op {
 
 impl Op {
     /// The registers that it reads, and how many they are.
-    pub(super) fn reads(self) -> ([Register; 3], usize) {
+    #[must_use]
+    pub fn reads(self) -> ([Register; 3], usize) {
         let (mut reads, mut count) = ([0; 3], 0);
         let read = |register| {
             reads[count] = register;
@@ -121,7 +127,8 @@ impl Op {
     }
 
     /// The registers that it writes, and how many they are.
-    pub(super) fn writes(self) -> ([Register; 2], usize) {
+    #[must_use]
+    pub fn writes(self) -> ([Register; 2], usize) {
         let (mut writes, mut count) = ([0; 2], 0);
         let write = |register| {
             writes[count] = register;
@@ -166,7 +173,7 @@ impl Op {
                 *a = read(*a);
                 (*sin, *cos) = (write(*sin), write(*cos));
             }
-            Op::Residual { a, .. } | Op::Store { a, .. } => *a = read(*a),
+            Op::Residual { a, .. } | Op::Pivot { a, .. } | Op::Store { a, .. } => *a = read(*a),
             Op::Other(op) => *op = op.renumbered(read, write),
         }
         self
