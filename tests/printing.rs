@@ -2,30 +2,14 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use mechc::expr::{Binary, Comparison, ExprId, Graph, Printer, Symbol, Unary};
-use mechc::source::Sources;
-use mechc::syntax::{self, ast};
+mod support;
+
+use mechc::expr::{Comparison, ExprId, Graph, Printer, Symbol, TableId};
+use mechc::syntax::ast;
 use proptest::prelude::*;
 use std::collections::HashMap;
+use support::reading::{self, BINARIES, Names, UNARIES, parse};
 
-const UNARIES: [Unary; 15] = [
-    Unary::Sin,
-    Unary::Cos,
-    Unary::Tan,
-    Unary::Asin,
-    Unary::Acos,
-    Unary::Atan,
-    Unary::Sinh,
-    Unary::Cosh,
-    Unary::Tanh,
-    Unary::Exp,
-    Unary::Ln,
-    Unary::Log10,
-    Unary::Sqrt,
-    Unary::Abs,
-    Unary::Sign,
-];
-const BINARIES: [Binary; 4] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max];
 const COMPARISONS: [Comparison; 3] = [Comparison::Less, Comparison::LessEqual, Comparison::Equal];
 
 fn name(symbol: Symbol) -> String {
@@ -36,78 +20,26 @@ fn name(symbol: Symbol) -> String {
     }
 }
 
-/// Reads a tree back with the graph's own constructors.
-fn read(graph: &mut Graph, e: &ast::Expr, known: &HashMap<String, ExprId>) -> ExprId {
-    use ast::ExprKind as Kind;
-    let mut go = |e: &ast::Expr| read(graph, e, known);
-    match &e.kind {
-        Kind::Literal { value, .. } => graph.constant(*value),
-        Kind::Paren(inner) => go(inner),
-        Kind::Name(word) => match word.text.as_str() {
+/// Parameters `p0`, `p1` …, and named parts.
+struct Known<'k>(&'k HashMap<String, ExprId>);
+
+impl Names for Known<'_> {
+    fn symbol(&self, graph: &mut Graph, word: &str) -> ExprId {
+        match word {
             "t" => graph.symbol(Symbol::Time),
-            text => known.get(text).copied().unwrap_or_else(|| graph.symbol(Symbol::Param(text[1..].parse().unwrap()))),
-        },
-        Kind::Negate(inner) => {
-            let inner = go(inner);
-            graph.neg(inner)
-        }
-        Kind::Not(inner) => {
-            let inner = go(inner);
-            graph.not(inner)
-        }
-        Kind::Sum(first, rest) => rest.iter().fold(go(first), |sum, (sign, term)| {
-            let term = read(graph, term, known);
-            if *sign == ast::Sign::Plus { graph.add(sum, term) } else { graph.sub(sum, term) }
-        }),
-        Kind::Product(first, rest) => rest.iter().fold(go(first), |product, (factor, term)| {
-            let term = read(graph, term, known);
-            if *factor == ast::Factor::Times { graph.mul(product, term) } else { graph.div(product, term) }
-        }),
-        Kind::Power(a, b) => {
-            let (a, b) = (go(a), go(b));
-            graph.pow(a, b)
-        }
-        Kind::Compare(a, comparison, b) => {
-            let (a, b) = (go(a), go(b));
-            let comparison = match comparison {
-                ast::Comparison::Less => Comparison::Less,
-                ast::Comparison::LessEqual => Comparison::LessEqual,
-                _ => Comparison::Equal,
-            };
-            graph.compare(comparison, a, b)
-        }
-        Kind::And(list) | Kind::Or(list) => {
-            let ids: Vec<ExprId> = list.iter().map(&mut go).collect();
-            let is_and = matches!(e.kind, Kind::And(_));
-            ids[1..].iter().fold(ids[0], |all, &id| if is_and { graph.and(all, id) } else { graph.or(all, id) })
-        }
-        Kind::If { arms, otherwise } => {
-            let last = go(otherwise);
-            arms.iter().rev().fold(last, |rest, (condition, value)| {
-                let (condition, value) = (read(graph, condition, known), read(graph, value, known));
-                graph.select(condition, value, rest)
-            })
-        }
-        Kind::Call { name, arguments } => {
-            let ids: Vec<ExprId> = arguments.iter().map(&mut go).collect();
-            let word = name.text.as_str();
-            if let Some(&unary) = UNARIES.iter().find(|unary| unary.word() == word) {
-                graph.unary(unary, ids[0])
-            } else if let Some(&binary) = BINARIES.iter().find(|binary| binary.word() == word) {
-                graph.binary(binary, ids[0], ids[1])
-            } else {
-                assert_eq!(word, "mod");
-                graph.modulo(ids[0], ids[1])
+            text => {
+                self.0.get(text).copied().unwrap_or_else(|| graph.symbol(Symbol::Param(text[1..].parse().unwrap())))
             }
         }
-        Kind::Member { .. } | Kind::Tuple(_) => panic!("no such thing is printed"),
+    }
+
+    fn table(&self, _: &str) -> Option<(TableId, u8)> {
+        None
     }
 }
 
-fn parse(text: &str) -> ast::Expr {
-    let mut sources = Sources::default();
-    let file = sources.add("printed", text);
-    syntax::parse_expression(&sources, file).unwrap_or_else(|_| panic!("{text} does not follow the grammar"))
+fn read(graph: &mut Graph, e: &ast::Expr, known: &HashMap<String, ExprId>) -> ExprId {
+    reading::read(graph, e, &Known(known))
 }
 
 /// A program of constructors for a stack of numbers and a stack of conditions.

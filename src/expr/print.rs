@@ -94,7 +94,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
         for &id in &reachable {
             for child in self.graph.node(id).children().as_slice() {
-                *uses.entry(*child).or_default() += 1;
+                *uses.entry(*child).or_default() += self.times_written(id);
             }
         }
         let mut sizes: FxHashMap<ExprId, u32> = FxHashMap::default();
@@ -102,6 +102,7 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         for id in reachable {
             let children = self.graph.node(id).children();
             let size = children.as_slice().iter().map(|child| sizes[child]).fold(1, u32::saturating_add);
+            let size = size.saturating_mul(self.times_written(id));
             if size >= SMALL && uses[&id] > 1 {
                 let name = name(shared.len());
                 shared.push((name.clone(), id));
@@ -113,6 +114,11 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
             }
         }
         shared
+    }
+
+    /// How often the text of an operation holds its operands: there is no `floor` to write.
+    fn times_written(&self, id: ExprId) -> u32 {
+        if matches!(self.graph.node(id), Node::Unary(Unary::Floor, _)) { 2 } else { 1 }
     }
 
     /// A formula as text.

@@ -2,7 +2,9 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+pub mod reading;
 pub mod shape;
+pub mod tex;
 
 use mechc::analysis::{self, Times};
 use mechc::check::Surroundings;

@@ -1,0 +1,113 @@
+//! Printed formulas read back, with the graph's own constructors.
+
+use mechc::expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
+use mechc::source::Sources;
+use mechc::syntax::{self, ast};
+
+/// The functions of one argument that the language has.
+pub const UNARIES: [Unary; 15] = [
+    Unary::Sin,
+    Unary::Cos,
+    Unary::Tan,
+    Unary::Asin,
+    Unary::Acos,
+    Unary::Atan,
+    Unary::Sinh,
+    Unary::Cosh,
+    Unary::Tanh,
+    Unary::Exp,
+    Unary::Ln,
+    Unary::Log10,
+    Unary::Sqrt,
+    Unary::Abs,
+    Unary::Sign,
+];
+
+/// Those of two, but for `mod`.
+pub const BINARIES: [Binary; 4] = [Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max];
+
+/// What the words of a formula stand for.
+pub trait Names {
+    /// What a word is.
+    fn symbol(&self, graph: &mut Graph, word: &str) -> ExprId;
+
+    /// The table that a call speaks of, and the order of its derivative.
+    fn table(&self, word: &str) -> Option<(TableId, u8)>;
+}
+
+/// A formula as a tree.
+pub fn parse(text: &str) -> ast::Expr {
+    let mut sources = Sources::default();
+    let file = sources.add("printed", text);
+    syntax::parse_expression(&sources, file).unwrap_or_else(|_| panic!("{text} does not follow the grammar"))
+}
+
+/// The formula of a tree.
+pub fn read(graph: &mut Graph, e: &ast::Expr, names: &dyn Names) -> ExprId {
+    use ast::ExprKind as Kind;
+    let mut go = |e: &ast::Expr| read(graph, e, names);
+    match &e.kind {
+        Kind::Literal { value, .. } => graph.constant(*value),
+        Kind::Paren(inner) => go(inner),
+        Kind::Name(word) => names.symbol(graph, &word.text),
+        Kind::Negate(inner) => {
+            let inner = go(inner);
+            graph.neg(inner)
+        }
+        Kind::Not(inner) => {
+            let inner = go(inner);
+            graph.not(inner)
+        }
+        Kind::Sum(first, rest) => rest.iter().fold(go(first), |sum, (sign, term)| {
+            let term = read(graph, term, names);
+            if *sign == ast::Sign::Plus { graph.add(sum, term) } else { graph.sub(sum, term) }
+        }),
+        Kind::Product(first, rest) => rest.iter().fold(go(first), |product, (factor, term)| {
+            let term = read(graph, term, names);
+            if *factor == ast::Factor::Times { graph.mul(product, term) } else { graph.div(product, term) }
+        }),
+        Kind::Power(a, b) => {
+            let (a, b) = (go(a), go(b));
+            graph.pow(a, b)
+        }
+        Kind::Compare(a, comparison, b) => {
+            let (a, b) = (go(a), go(b));
+            let comparison = match comparison {
+                ast::Comparison::Less => Comparison::Less,
+                ast::Comparison::LessEqual => Comparison::LessEqual,
+                _ => Comparison::Equal,
+            };
+            graph.compare(comparison, a, b)
+        }
+        Kind::And(list) | Kind::Or(list) => {
+            let ids: Vec<ExprId> = list.iter().map(&mut go).collect();
+            let is_and = matches!(e.kind, Kind::And(_));
+            ids[1..].iter().fold(ids[0], |all, &id| if is_and { graph.and(all, id) } else { graph.or(all, id) })
+        }
+        Kind::If { arms, otherwise } => {
+            let last = go(otherwise);
+            arms.iter().rev().fold(last, |rest, (condition, value)| {
+                let (condition, value) = (read(graph, condition, names), read(graph, value, names));
+                graph.select(condition, value, rest)
+            })
+        }
+        Kind::Call { name, arguments } => {
+            let ids: Vec<ExprId> = arguments.iter().map(&mut go).collect();
+            call(graph, &name.text, &ids, names)
+        }
+        Kind::Member { .. } | Kind::Tuple(_) => panic!("no such thing is printed"),
+    }
+}
+
+fn call(graph: &mut Graph, word: &str, ids: &[ExprId], names: &dyn Names) -> ExprId {
+    if let Some((table, order)) = names.table(word) {
+        graph.table(table, order, ids[0])
+    } else if let Some(&unary) = UNARIES.iter().find(|unary| unary.word() == word) {
+        graph.unary(unary, ids[0])
+    } else if let Some(&binary) = BINARIES.iter().find(|binary| binary.word() == word) {
+        graph.binary(binary, ids[0], ids[1])
+    } else {
+        assert_eq!(word, "mod");
+        graph.modulo(ids[0], ids[1])
+    }
+}
