@@ -46,8 +46,12 @@ pub mod import;
 
 pub mod cli;
 
+use analysis::Times;
 use check::Surroundings;
-use diag::Diagnostics;
+use diag::{Diagnostic, Diagnostics};
+use emit::Motion;
+use program::Program;
+use solver::BlockTables;
 use source::Sources;
 use structure::Determined;
 use syntax::ast;
@@ -89,4 +93,26 @@ pub fn compile(
         }
     });
     (determined, diagnostics)
+}
+
+/// Assembles a mechanism at the first time of its analysis, or at 0 s, and gives what it takes to follow its motion in emitted code,
+/// with what is to be said of the assembly; nothing where that would take too many operations.
+///
+/// # Errors
+/// It cannot be assembled.
+pub fn motion(determined: &Determined, program: &Program) -> Result<(Option<Motion>, Diagnostics), Box<Diagnostic>> {
+    let analysis = determined.system().analysis;
+    let times = analysis.and_then(|[from, to, every]| Times::grid(from, to, every));
+    let from = analysis.map_or(0.0, |[from, ..]| from);
+    let mut started = analysis::start(determined, program, from, analysis::TOLERANCE)?;
+    let motion = started.solver_for_code().map(|solver| Motion {
+        solver,
+        blocks: BlockTables::new(determined),
+        q: started.q().to_vec(),
+        bounds: started.bounds(),
+        from,
+        to: times.map(|times| times.at(times.len().saturating_sub(1))),
+        tolerance: analysis::TOLERANCE,
+    });
+    Ok((motion, started.remarks()))
 }

@@ -4,7 +4,8 @@
 
 mod support;
 
-use mechc::emit;
+use mechc::analysis::{self, Times};
+use mechc::emit::{self, Unit};
 use mechc::program::{Program, Stage};
 use mechc::source::Sources;
 use mechc::structure::Determined;
@@ -12,30 +13,72 @@ use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{compile, files, stem};
+use support::{compile_at, files, mechanisms, stem};
 
 /// Points at which each module is compared.
-const POINTS: u64 = 5;
+const POINTS: u64 = 3;
 
-/// Everything that is emitted here: examples, reference cases and the stages.
-fn systems() -> Vec<(String, Determined)> {
-    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
-    let systems: Vec<(String, Determined)> = paths
-        .iter()
-        .filter_map(|path| {
-            let mut sources = Sources::default();
-            let text = fs::read_to_string(path).expect("a text");
-            let (determined, _) = compile(&mut sources, &stem(path), &text);
-            let folder = stem(path.parent().expect("a folder"));
-            determined.map(|determined| (format!("{folder}_{}", stem(path)), determined))
-        })
-        .collect();
-    assert!(systems.len() >= 35, "{} systems", systems.len());
-    systems
+/// What is emitted, with the texts that it comes from.
+struct Emitted {
+    name: String,
+    determined: Determined,
+    sources: Sources,
 }
 
-fn module(name: &str, determined: &Determined) -> String {
-    emit::rust(determined.system(), &Program::new(determined.system()), &format!("{name}.mech"))
+impl Emitted {
+    fn new(name: String, path: &Path, number: usize) -> Option<Emitted> {
+        let mut sources = Sources::default();
+        let text = fs::read_to_string(path).expect("a text");
+        let (determined, _) = compile_at(&mut sources, &stem(path), &text, path, number);
+        determined.map(|determined| Emitted { name, determined, sources })
+    }
+
+    /// The module.
+    fn text(&self) -> String {
+        let system = self.determined.system();
+        let program = Program::new(system);
+        let (motion, _) = mechc::motion(&self.determined, &program).expect("it assembles");
+        let file = format!("{}.mech", self.name);
+        emit::rust(&Unit { system, program: &program, sources: &self.sources, file: &file, motion })
+    }
+
+    /// The rows of the interpreter, and whether it came to the end.
+    fn rows(&self) -> (Vec<Vec<f64>>, bool) {
+        let Some([from, to, every]) = self.determined.system().analysis else {
+            return (Vec::new(), true);
+        };
+        let program = Program::new(self.determined.system());
+        let mut started = analysis::start(&self.determined, &program, from, analysis::TOLERANCE).expect("it assembles");
+        let mut motion = started.motion(&Times::grid(from, to, every).expect("a grid"));
+        let mut rows = Vec::new();
+        while let Some(row) = motion.next_row() {
+            match row {
+                Ok(row) => rows.push(row.to_vec()),
+                Err(_) => return (rows, false),
+            }
+        }
+        (rows, true)
+    }
+}
+
+/// Everything that is emitted here: examples, reference cases and the stages.
+fn all() -> Vec<Emitted> {
+    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let all: Vec<Emitted> = paths
+        .iter()
+        .flat_map(|path| {
+            let names = mechanisms(&fs::read_to_string(path).expect("a text"));
+            let folder = stem(path.parent().expect("a folder"));
+            let name = format!("{folder}_{}", stem(path));
+            let several = names.len() > 1;
+            (0..names.len()).filter_map(move |number| {
+                let name = if several { format!("{name}_{number}") } else { name.clone() };
+                Emitted::new(name, path, number)
+            })
+        })
+        .collect();
+    assert!(all.len() >= 70, "{} systems", all.len());
+    all
 }
 
 /// Where cargo has put the libraries of this test.
@@ -112,34 +155,57 @@ fn bits_of(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
 }
 
-#[test]
-fn every_module_compiles_alone_and_gives_the_same_bits() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let systems = systems();
-    let mut main = "#![forbid(unsafe_code)]\n#![deny(warnings)]\n#![allow(dead_code)]\n".to_owned();
+/// The emitted modules in a folder, each formatted, and with nothing that the compiler or clippy has to say.
+fn write_modules(all: &[Emitted], folder: &Path) {
+    let half = all.len().div_ceil(2);
+    std::thread::scope(|scope| {
+        for part in all.chunks(half) {
+            scope.spawn(move || part.iter().for_each(|emitted| write_module(emitted, folder)));
+        }
+    });
+}
+
+fn write_module(emitted: &Emitted, folder: &Path) {
+    let (name, text) = (&emitted.name, emitted.text());
+    let path = folder.join(format!("{name}.rs"));
+    fs::write(&path, &text).expect("written");
+    let formatted =
+        Command::new("rustfmt").args(["--check", "--edition", "2024"]).arg(&path).output().expect("rustfmt");
+    assert!(formatted.status.success(), "{name}: {}", String::from_utf8_lossy(&formatted.stdout));
+    let alone = folder.join(format!("{name}_alone.rs"));
+    fs::write(&alone, format!("#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n{text}")).expect("written");
+    let out = folder.join(format!("{name}.rmeta"));
+    // rustc with clippy's lints: neither has anything to say
+    compiler("clippy-driver", &["--crate-type", "lib", "--emit", "metadata", "-o", &out.to_string_lossy()], &alone);
+}
+
+/// A program that prints what all modules make of random points and of the motion.
+fn write_main(all: &[(Emitted, Vec<Vec<f64>>, bool)], folder: &Path) -> PathBuf {
+    let mut main = "#![forbid(unsafe_code)]\n#![allow(dead_code)]\n".to_owned();
     let mut calls = String::new();
-    for (name, determined) in &systems {
-        let path = folder.path().join(format!("{name}.rs"));
-        fs::write(&path, module(name, determined)).expect("written");
-        let formatted =
-            Command::new("rustfmt").args(["--check", "--edition", "2024"]).arg(&path).output().expect("rustfmt");
-        assert!(formatted.status.success(), "{name}: {}", String::from_utf8_lossy(&formatted.stdout));
-        writeln!(main, "mod {name};").expect("a string takes everything");
+    for (Emitted { name, .. }, rows, ends_well) in all {
+        // where the motion ends, a time beyond it must be refused
+        let beyond = rows.last().map_or(0.0, |row| row[0]) + 1.0;
+        let times: Vec<f64> = rows.iter().map(|row| row[0]).chain((!ends_well).then_some(beyond)).collect();
+        writeln!(main, "#[path = \"{name}.rs\"]\nmod {name};").expect("a string takes everything");
         writeln!(
             calls,
-            "    for line in points({name}::N) {{
-        let (q, qd, t) = line;
-        let (q, qd): ([f64; {name}::N], [f64; {name}::N]) = (q.try_into().unwrap(), qd.try_into().unwrap());
+            "    for (q, qd, t) in points({name}::N) {{
+        let (q, qd): ({name}::Q, {name}::Qd) = (q.try_into().unwrap(), qd.try_into().unwrap());
         let p = {name}::Params::default();
         let parts: [&[f64]; 5] = [&{name}::phi(&q, t, &p), &{name}::phi_q(&q, t, &p), &{name}::phi_t(&q, t, &p), &{name}::nu(&q, t, &p), &{name}::gamma(&q, &qd, t, &p)];
         print(\"{name}\", &parts.concat());
-    }}"
+    }}
+    let mut state = {name}::assemble(&{name}::Params::default()).unwrap();
+    for t in {times:?} as [f64; {}] {{
+        match {name}::step(t, &mut state) {{
+            Ok(()) => print(\"{name}\", &state.row()),
+            Err(error) => println!(\"{name} {{error:?}}\"),
+        }}
+    }}",
+            times.len()
         )
         .expect("a string takes everything");
-        let flags = ["--crate-type", "lib", "--emit", "metadata", "-F", "unsafe_code", "-D", "warnings"];
-        let out = folder.path().join("alone.rmeta");
-        // rustc with clippy's lints: neither has anything to say
-        compiler("clippy-driver", &[&flags[..], &["-o", &out.to_string_lossy()]].concat(), &path);
     }
     write!(
         main,
@@ -165,25 +231,93 @@ fn main() {{
 "
     )
     .expect("a string takes everything");
-    let source = folder.path().join("main.rs");
+    let source = folder.join("main.rs");
     fs::write(&source, main).expect("written");
+    source
+}
+
+#[test]
+fn every_module_stands_alone_and_gives_the_bits_of_the_interpreter() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let all = all();
+    write_modules(&all, folder.path());
+    let all: Vec<(Emitted, Vec<Vec<f64>>, bool)> = all
+        .into_iter()
+        .map(|emitted| {
+            let (rows, ends_well) = emitted.rows();
+            (emitted, rows, ends_well)
+        })
+        .collect();
+    let source = write_main(&all, folder.path());
     let binary = folder.path().join("all");
     rustc(&["-C", "opt-level=1", "-o", &binary.to_string_lossy()], &source);
     let output = Command::new(&binary).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
     let mut lines = text.lines();
-    for (name, determined) in &systems {
+    for (Emitted { name, determined, .. }, rows, ends_well) in &all {
+        let mut next =
+            || lines.next().and_then(|line| line.strip_prefix(name.as_str())).expect("a line a point or time");
         for seed in 1..=POINTS {
-            let line = lines.next().expect("a line a point");
-            let got: Vec<u64> = line.split(' ').skip(1).map(|bits| bits.parse().expect("bits")).collect();
-            let want = interpreted(determined, seed);
-            assert!(line.starts_with(name.as_str()));
-            for (k, (a, b)) in got.iter().zip(&want).enumerate() {
-                assert_eq!(a, b, "{name}, value {k}: {} and {}", f64::from_bits(*a), f64::from_bits(*b));
-            }
-            assert_eq!(got.len(), want.len(), "{name}");
+            compare(name, next(), &interpreted(determined, seed));
+        }
+        for row in rows {
+            compare(name, next(), &row.iter().copied().map(bits_of).collect::<Vec<u64>>());
+        }
+        if !ends_well {
+            let error = next();
+            assert!([" LockUp", " Bifurcation", " Divergence", " NotANumber"].contains(&error), "{name}: {error}");
         }
     }
+    assert_eq!(lines.next(), None);
+}
+
+/// Compares numbers that a module has printed with what they should be, bit for bit.
+fn compare(name: &str, line: &str, want: &[u64]) {
+    let got: Vec<u64> = line.trim().split(' ').map(|bits| bits.parse().expect("bits")).collect();
+    assert_eq!(got.len(), want.len(), "{name}");
+    for (k, (a, b)) in got.iter().zip(want).enumerate() {
+        assert_eq!(a, b, "{name}, value {k}: {} and {}", f64::from_bits(*a), f64::from_bits(*b));
+    }
+}
+
+/// What firmware is built with.
+const FIRMWARE: [&str; 8] = ["--crate-type", "lib", "--emit", "obj", "-C", "panic=abort", "-C", "opt-level=3"];
+
+#[test]
+fn nothing_in_a_module_can_panic() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let names = ["slider_crank", "everything", "contacts", "gears", "tables"];
+    for name in names {
+        let emitted = Emitted::new(name.to_owned(), &stage_path(name), 0).expect("determined");
+        let path = folder.path().join(format!("{name}.rs"));
+        fs::write(&path, format!("#![no_std]\n{}", emitted.text())).expect("written");
+        let object = folder.path().join(format!("{name}.o"));
+        rustc(&[&FIRMWARE[..], &["-o", &object.to_string_lossy()]].concat(), &path);
+        let bytes = fs::read(&object).expect("an object");
+        assert!(has_symbol(&bytes, b"assemble") && has_symbol(&bytes, b"step"), "{name} has no functions");
+        assert!(!has_symbol(&bytes, b"panic"), "{name} refers to the panicking machinery");
+    }
+    // what is looked for is what there would be
+    let path = folder.path().join("panics.rs");
+    fs::write(&path, "#![no_std]\npub fn at(values: &[f64], k: usize) -> f64 { values[k] }\n").expect("written");
+    let object = folder.path().join("panics.o");
+    rustc(&[&FIRMWARE[..], &["-o", &object.to_string_lossy()]].concat(), &path);
+    assert!(has_symbol(&fs::read(&object).expect("an object"), b"panic"));
+}
+
+/// Whether an object's names hold a word.
+fn has_symbol(object: &[u8], word: &[u8]) -> bool {
+    object.windows(word.len()).any(|bytes| bytes == word)
+}
+
+fn stage_path(name: &str) -> PathBuf {
+    PathBuf::from(format!("tests/stages/{name}/input.mech"))
+}
+
+/// The mechanism of a folder of stages.
+fn stage(name: &str) -> Emitted {
+    Emitted::new(name.to_owned(), &stage_path(name), 0).expect("determined")
 }
 
 #[allow(clippy::pedantic, dead_code)] // code of another hand
@@ -199,18 +333,11 @@ mod odd_names;
 #[rustfmt::skip]
 mod slider_crank;
 
-/// The mechanism of a folder of stages.
-fn stage(name: &str) -> Determined {
-    let mut sources = Sources::default();
-    let text = fs::read_to_string(format!("tests/stages/{name}/input.mech")).expect("a text");
-    compile(&mut sources, name, &text).0.expect("determined")
-}
-
 #[test]
 fn goldens_are_what_is_emitted() {
     for name in ["everything", "odd_names", "slider_crank"] {
         let path = format!("tests/emitted/{name}.rs");
-        let emitted = module(name, &stage(name));
+        let emitted = stage(name).text();
         if std::env::var_os("UPDATE_GOLDENS").is_some() {
             fs::write(&path, &emitted).expect("written");
         }
@@ -222,7 +349,7 @@ fn goldens_are_what_is_emitted() {
 /// Compares a golden, as cargo has compiled it, with the interpreter at a random point.
 macro_rules! agrees {
     ($module:ident) => {
-        let determined = stage(stringify!($module));
+        let determined = stage(stringify!($module)).determined;
         for seed in 1..=POINTS {
             let (q, qd, t) = point($module::N, seed);
             let (q, qd) = (q.try_into().unwrap(), qd.try_into().unwrap());

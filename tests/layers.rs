@@ -22,7 +22,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("program", &["ir", "expr", "math"]),
     ("solver", &["program", "structure", "ir", "expr", "math"]),
     ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math"]),
-    ("emit", &["program", "structure", "ir", "expr"]),
+    ("emit", &["source", "solver", "program", "structure", "ir", "expr"]),
     ("output", &[]),
     ("import", &["source", "diag", "syntax"]),
 ];

@@ -44,10 +44,15 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
-    /// Rust that evaluates Φ, Φ_q, ν and γ
-    #[command(long_about = "Rust that evaluates Φ, Φ_q, Φ_t, ν and γ.\n\n\
-        Writes one module without dependencies (but the crate `libm` where a formula asks for it), whose functions give \
-        the same bits as the analysis.")]
+    /// Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON
+    #[command(
+        long_about = "Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON.\n\n\
+        As Rust, writes one module without dependencies (but the crate `libm` where a formula asks for it), whose functions \
+        give the same bits as the analysis. As LaTeX, a document with every element's equations, to be typeset with pdflatex. As \
+        JSON, the whole constraint system for other programs, as `docs/emit-json.md` says.",
+        after_help = "Examples:\n  mechc emit linkage.mech -o linkage.rs\n  mechc emit linkage.mech -o linkage.tex\n  \
+        mechc emit linkage.mech --format json"
+    )]
     Emit(EmitArguments),
     /// What the compiler sees, readable: the tree, the model or the equations
     #[command(long_about = "What the compiler sees, readable.\n\n\
@@ -156,6 +161,32 @@ pub(super) struct EmitArguments {
     /// Where the code goes; `-` is standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: String,
+
+    /// What to write; by the ending of OUT (.tex, .json) if not given, else rust
+    #[arg(long, value_enum, value_name = "FORMAT")]
+    pub format: Option<EmitFormat>,
+
+    /// What Rust code can do
+    #[arg(long, value_enum, value_name = "WHAT", default_value = "solver")]
+    pub with: Content,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum EmitFormat {
+    /// A module without dependencies, for firmware and simulators
+    Rust,
+    /// A document that typesets Φ, Φ_q, ν and γ, element by element
+    Latex,
+    /// The whole constraint system as data, formulas as text
+    Json,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Content {
+    /// Assemble the mechanism and follow its motion, as `mechc run` does
+    Solver,
+    /// Evaluate its equations only
+    Equations,
 }
 
 #[derive(Args, Debug)]

@@ -1,11 +1,56 @@
-//! A constraint system as code for other programs.
+//! A constraint system for others: as Rust, as LaTeX for a report, as JSON for other programs.
 //!
-//! What is emitted is the program that the interpreter runs, operation by operation, so that both give the same bits (the sign of a zero
-//! in `phi_t`, which is `-nu`, aside).
+//! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
+//! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
 
+mod code;
+mod equations;
+mod json;
+mod latex;
 mod names;
+mod operations;
 mod rust;
-mod slice;
+mod solution;
 mod tables;
+mod text;
 
+pub use json::json;
+pub use latex::latex;
 pub use rust::rust;
+
+use crate::ir::ConstraintSystem;
+use crate::program::Program;
+use crate::solver::{BlockTables, Solver};
+use crate::source::Sources;
+
+/// What there is to emit.
+pub struct Unit<'u> {
+    /// The system, which is determined.
+    pub system: &'u ConstraintSystem,
+    /// Its program.
+    pub program: &'u Program,
+    /// The texts that it comes from.
+    pub sources: &'u Sources,
+    /// The name of the file among them.
+    pub file: &'u str,
+    /// What solves it, if that is wanted.
+    pub motion: Option<Motion>,
+}
+
+/// What it takes to follow the motion from the assembled start.
+pub struct Motion {
+    /// The operations that solve the system, laid out for code.
+    pub solver: Solver,
+    /// For elimination with partial pivoting; none where a block is too large.
+    pub blocks: Option<BlockTables>,
+    /// The assembled position [m, rad].
+    pub q: Vec<f64>,
+    /// By row of `Φ`: what may be left of it.
+    pub bounds: Vec<f64>,
+    /// The first time (s).
+    pub from: f64,
+    /// The last time (s), where the earlier side of an edge counts; none if the file has no analysis.
+    pub to: Option<f64>,
+    /// What the parts of rows of `Φ` may be left open by, scaled.
+    pub tolerance: f64,
+}

@@ -1,5 +1,6 @@
 //! Names of the source made safe for the target: valid, of the usual case, and unique.
 
+use crate::ir::ConstraintSystem;
 use rustc_hash::FxHashSet;
 
 /// Words that Rust keeps for itself.
@@ -13,6 +14,59 @@ const KEYWORDS: &[&str] = &[
 /// Longer names are cut; the documentation beside them has the whole.
 const LONGEST: usize = 40;
 
+/// Names in a body that are its own.
+const RESERVED: &[&str] = &[
+    "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "known", "sides", "newton", "sin_cos",
+    "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
+];
+
+/// Longer names of variables would make lines that a formatter breaks.
+const LONGEST_VARIABLE: usize = 20;
+
+/// The names of a system's parameters and coordinates.
+pub(super) struct Names {
+    /// Fields of the parameters.
+    pub params: Vec<String>,
+    /// What they are called in a body.
+    pub param_variables: Vec<String>,
+    /// What coordinates, velocities and accelerations are called in a body.
+    coordinates: [Vec<String>; 3],
+}
+
+impl Names {
+    pub fn new(system: &ConstraintSystem) -> Names {
+        let mut fields = Namer::default();
+        let params: Vec<String> = system.params.iter().map(|param| fields.snake(&param.name)).collect();
+        let mut variables = Namer::default();
+        for word in RESERVED {
+            variables.snake(word);
+        }
+        let mut variable = |wanted: String, short: String| {
+            // what looks like a numbered one could be mistaken for it
+            let is_plain = wanted.len() <= LONGEST_VARIABLE && Names::is_telling(&wanted);
+            variables.snake(if is_plain { &wanted } else { &short })
+        };
+        let param_variables =
+            params.iter().enumerate().map(|(k, name)| variable(name.clone(), format!("p{k}"))).collect();
+        let coordinates = [("q", ""), ("qd", "_d"), ("qdd", "_dd")].map(|(array, end)| {
+            let coordinates = system.coordinates.iter().enumerate();
+            coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
+        });
+        Names { params, param_variables, coordinates }
+    }
+
+    /// What a coordinate or a derivative of it is called in a body.
+    pub fn coordinate(&self, order: usize, k: usize) -> String {
+        self.coordinates.get(order).map_or_else(|| format!("qddd{k}"), |names| names[k].clone())
+    }
+
+    /// Whether a name is no letter with a number.
+    pub fn is_telling(name: &str) -> bool {
+        let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
+        number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
+    }
+}
+
 /// Hands out names, each once.
 #[derive(Default)]
 pub(super) struct Namer {
@@ -25,6 +79,18 @@ impl Namer {
         self.unique(&words(source).to_lowercase(), '_')
     }
 
+    /// A name for a variant: `CrankPin`.
+    pub fn camel(&mut self, source: &str) -> String {
+        let words = words(source);
+        let capital = |word: &str| {
+            let (first, rest) = word.split_at(word.len().min(1));
+            first.to_uppercase() + rest
+        };
+        let name = words.split('_').map(capital).collect::<String>();
+        // a number behind it stands without a line, which a variant does not have
+        self.numbered(&name, "")
+    }
+
     /// A name for a constant: `CRANK_PHI`.
     pub fn constant(&mut self, source: &str) -> String {
         self.unique(&words(source).to_uppercase(), '_')
@@ -32,11 +98,16 @@ impl Namer {
 
     fn unique(&mut self, name: &str, separator: char) -> String {
         let safe = if KEYWORDS.contains(&name) { format!("{name}{separator}") } else { name.to_owned() };
-        let mut candidate = safe.clone();
+        self.numbered(&safe, &separator.to_string())
+    }
+
+    /// The name, with a number if it is taken.
+    fn numbered(&mut self, name: &str, separator: &str) -> String {
+        let mut candidate = name.to_owned();
         let mut count = 1;
         while !self.taken.insert(candidate.clone()) {
             count += 1;
-            candidate = format!("{}{separator}{count}", safe.trim_end_matches(separator));
+            candidate = format!("{}{separator}{count}", name.trim_end_matches('_'));
         }
         candidate
     }

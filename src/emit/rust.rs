@@ -1,146 +1,230 @@
-//! Rust that evaluates `Φ`, `Φ_q`, `Φ_t`, `ν` and `γ`.
+//! A mechanism as one Rust file: its equations, and what solves them.
 
-use super::names::Namer;
-use super::slice::slice;
-use super::tables::{self, COLUMNS};
-use crate::expr::{Binary, Comparison, Unary};
-use crate::ir::ConstraintSystem;
-use crate::program::{Column, Op, Program, Register};
-use rustc_hash::FxHashMap;
+use super::Unit;
+use super::equations::{Equations, Given, Wanted};
+use super::names::{Namer, Names};
+use super::solution::Solution;
+use super::tables::{COLUMNS, Tables, numbers};
+use super::text::{chosen, is_called, lines, literal, one_line};
+use crate::ir::{Measure, Owner};
+use crate::program::{Column, Register};
+use crate::solver::RowLayout;
+use crate::source::Span;
 
-/// The sine-cosine pair, word for word as the interpreter runs it.
+/// The sine-cosine pair and the elimination with partial pivoting, word for word as the interpreter runs them.
 const SIN_COS: &str = include_str!("../math/sin_cos.rs");
+const BLOCKS: &str = include_str!("../math/blocks.rs");
+/// What is the same for all mechanisms but for a few lines.
+const STATE: &str = include_str!("runtime/state.rs");
+const SOLVER: &str = include_str!("runtime/solver.rs");
+const SIDES: &str = include_str!("runtime/sides.rs");
+const MOTION: &str = include_str!("runtime/motion.rs");
+const FUNCTIONS: &str = include_str!("runtime/functions.rs");
 
 /// Systems up to this many coordinates get their Jacobian as a full matrix too.
 const LARGEST_DENSE: usize = 64;
 
-/// Input names longer than this would make lines that a formatter breaks.
-const LONGEST_NAME: usize = 20;
-
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
-///
-/// `file` is the name of the source for the header.
 #[must_use]
-pub fn rust(system: &ConstraintSystem, program: &Program, file: &str) -> String {
-    let writer = Writer::new(system, program);
-    let functions = writer.functions();
-    let mut text = writer.header(file, functions.contains("libm::"));
-    text += &writer.params();
-    text += &writer.indices();
-    text += &writer.tables();
-    text += &functions;
-    text += &helpers(&functions);
-    text.trim_end().to_owned() + "\n"
-}
-
-struct Writer<'s> {
-    system: &'s ConstraintSystem,
-    program: &'s Program,
-    constants: FxHashMap<Register, f64>,
-    params: Vec<String>,
-    tables: tables::Names,
-}
-
-/// What a function is given, and what it gives back.
-struct Function<'f> {
-    name: &'f str,
-    docs: &'f str,
-    velocities: bool,
-    length: &'f str,
-    outputs: &'f [Register],
-    negated: bool,
-}
-
-impl<'s> Writer<'s> {
-    fn new(system: &'s ConstraintSystem, program: &'s Program) -> Writer<'s> {
-        let mut namer = Namer::default();
-        Writer {
-            params: system.params.iter().map(|param| namer.snake(&param.name)).collect(),
-            constants: program.constants().iter().copied().collect(),
-            tables: tables::Names::new(program),
-            system,
-            program,
-        }
+pub fn rust(unit: &Unit<'_>) -> String {
+    let names = Names::new(unit.system);
+    let tables = Tables::new(unit.program);
+    let switches = unit.program.switches().iter().enumerate();
+    let equations = Equations {
+        program: unit.program,
+        names: &names,
+        tables: &tables,
+        constants: unit.program.constants().iter().copied().collect(),
+        sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
+    };
+    let writer = Writer { unit, names: &names, equations: &equations };
+    let motion = unit.motion.as_ref().map(|motion| Solution::new(unit, motion, &equations));
+    let mut body = writer.params() + &writer.indices() + &writer.tables();
+    body += &writer.functions();
+    if let Some(solution) = &motion {
+        body += &writer.motion(solution);
     }
+    body += &helpers(&body);
+    writer.header(body.contains("libm::")) + body.trim_end() + "\n"
+}
 
-    fn header(&self, file: &str, needs_libm: bool) -> String {
-        let (n, entries) = (self.system.coordinates.len(), self.system.phi_q.entries().len());
+struct Writer<'w> {
+    unit: &'w Unit<'w>,
+    names: &'w Names,
+    equations: &'w Equations<'w>,
+}
+
+impl Writer<'_> {
+    fn header(&self, needs_libm: bool) -> String {
+        let system = self.unit.system;
+        let (n, entries) = (system.coordinates.len(), system.phi_q.entries().len());
         let mut text = format!(
-            "//! Constraint system of mechanism `{}`, written by mechc {} from `{}`.\n//!\n",
-            one_line(&self.system.name),
+            "//! Kinematics of mechanism `{}`, written by mechc {} from `{}`.\n//!\n",
+            one_line(&system.name),
             env!("CARGO_PKG_VERSION"),
-            one_line(file),
+            one_line(self.unit.file),
         );
-        text += &format!("//! - coordinates `q`: {n} (m, rad), equations `phi = 0`: {}\n", self.system.rows.len());
+        text += &format!("//! - coordinates `q`: {n} (m, rad), equations `phi = 0`: {}\n", system.rows.len());
         text += &format!("//! - `phi_q`: {entries} entries that do not vanish, see [`PHI_Q_PATTERN`]\n");
-        text +=
-            &format!("//! - parameters: {}; those that follow from others are worked out\n", self.system.params.len());
+        text += &format!("//! - parameters: {}; those that follow from others are worked out\n", system.params.len());
+        if self.unit.motion.is_some() {
+            text += "//! - the motion: [`assemble`], then [`step`] from time to time\n";
+        }
         text += if needs_libm {
             "//! - needs the crate `libm`, for elementary functions with the same bits on every platform\n"
         } else {
             "//! - needs no other crate\n"
         };
+        text += "//! - needs no heap and no standard library; nothing in it panics\n\n";
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
-        text + "\n#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
+        text + "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
+    }
+
+    /// Where something is declared, for a comment.
+    fn line(&self, span: Span) -> String {
+        format!(", line {}", self.unit.sources.get(span.file).position(span.start).0)
     }
 
     fn params(&self) -> String {
-        if self.params.is_empty() {
-            return "/// The mechanism has no parameters.\n#[derive(Clone, Copy, Debug, Default, PartialEq)]\npub struct Params;\n\n"
+        let system = self.unit.system;
+        let has_motion = self.unit.motion.is_some();
+        if system.params.is_empty() {
+            let mut text = "/// The mechanism has no parameters.\n#[derive(Clone, Copy, Debug, Default, PartialEq)]\npub struct Params;\n\n"
                 .to_owned();
+            if has_motion {
+                text += "impl Params {\n    fn towards(&self, _: &Self, _: f64) -> Self {\n        Self\n    }\n\n    fn is_finite(&self) -> bool {\n        true\n    }\n}\n\n";
+            }
+            return text;
         }
         let mut text = "/// The parameters, in SI; those of the file by default.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Params {\n".to_owned();
-        for (name, param) in self.params.iter().zip(&self.system.params) {
+        for (name, param) in self.names.params.iter().zip(&system.params) {
             text += &format!("    /// `{}` ({})\n    pub {name}: f64,\n", one_line(&param.name), param.unit);
         }
         text += "}\n\nimpl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        Self {\n";
-        for (name, param) in self.params.iter().zip(&self.system.params) {
+        for (name, param) in self.names.params.iter().zip(&system.params) {
             text += &format!("            {name}: {},\n", literal(param.value));
         }
-        text + "        }\n    }\n}\n\n"
+        text += "        }\n    }\n}\n\n";
+        if has_motion {
+            text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        Self {\n";
+            for name in &self.names.params {
+                text += &format!("            {name}: self.{name} + part * (other.{name} - self.{name}),\n");
+            }
+            text +=
+                "        }\n    }\n\n    #[rustfmt::skip]\n    fn is_finite(&self) -> bool {\n        let all = [\n";
+            let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
+            text += &lines(&fields, "        ");
+            text += "        ];\n        all.into_iter().all(f64::is_finite)\n    }\n}\n\n";
+        }
+        text
     }
 
     fn indices(&self) -> String {
-        let (n, entries) = (self.system.coordinates.len(), self.system.phi_q.entries().len());
+        let system = self.unit.system;
+        let (n, entries) = (system.coordinates.len(), system.phi_q.entries().len());
         let mut text = format!(
             "/// Number of coordinates, and of equations.\npub const N: usize = {n};\n\n\
              /// Number of entries of `phi_q` that do not vanish.\npub const ENTRIES: usize = {entries};\n\n\
+             /// Coordinates (m, rad).\npub type Q = [f64; N];\n\n/// Velocities (m/s, rad/s).\npub type Qd = [f64; N];\n\n\
+             /// Accelerations (m/s^2, rad/s^2).\npub type Qdd = [f64; N];\n\n\
              /// Where each coordinate stands in `q`.\npub mod coordinate {{\n"
         );
         let mut namer = Namer::default();
-        for (k, coordinate) in self.system.coordinates.iter().enumerate() {
+        for (k, coordinate) in system.coordinates.iter().enumerate() {
             let unit = match coordinate.kind.unit() {
                 "" => "a pure number",
                 unit => unit,
             };
             let name = namer.constant(&coordinate.name);
-            text += &format!("    /// `{}` ({unit})\n    pub const {name}: usize = {k};\n", coordinate.name);
+            let line = self.line(system.owner_span(k));
+            text += &format!("    /// `{}` ({unit}){line}\n    pub const {name}: usize = {k};\n", coordinate.name);
         }
         text += "}\n\n/// Which equation each joint, constraint or driver wrote.\npub mod row {\n";
         let mut namer = Namer::default();
-        for k in 0..self.system.rows.len() {
-            let row = self.system.row_name(k);
+        for k in 0..system.rows.len() {
+            let row = system.row_name(k);
             let name = namer.constant(&row);
-            let kind = self.system.declaration_of(k).kind.noun();
-            text += &format!("    /// {kind} `{row}`\n    pub const {name}: usize = {k};\n");
+            let declaration = system.declaration_of(k);
+            let (kind, line) = (declaration.kind.noun(), self.line(declaration.span));
+            text += &format!("    /// {kind} `{row}`{line}\n    pub const {name}: usize = {k};\n");
         }
         text += "}\n\n/// Row and column of each value that [`phi_q`] gives.\n#[rustfmt::skip]\n";
         text += "pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [\n";
-        for row in 0..self.system.rows.len() {
-            for (column, _) in self.system.phi_q.row(row) {
+        for row in 0..system.rows.len() {
+            for (column, _) in system.phi_q.row(row) {
                 text += &format!("    ({row}, {column}),\n");
             }
         }
-        text + "];\n\n"
+        text + "];\n\n" + &self.bodies() + &self.measure_indices()
+    }
+
+    /// The bodies, and where they are.
+    fn bodies(&self) -> String {
+        let system = self.unit.system;
+        if system.bodies.is_empty() {
+            return String::new();
+        }
+        let mut namer = Namer::default();
+        let (mut variants, mut arms) = (String::new(), String::new());
+        for (k, body) in system.bodies.iter().enumerate() {
+            let name = namer.camel(&body.name);
+            variants += &format!("    /// `{}`{}\n    {name},\n", body.name, self.line(body.span));
+            let first = system.coordinates.iter().position(|c| c.owner == Owner::Body(k)).unwrap_or(0);
+            arms += &format!(
+                "            Body::{name} => Self {{ x: q[{first}], y: q[{}], phi: q[{}] }},\n",
+                first + 1,
+                first + 2
+            );
+        }
+        format!(
+            "/// The bodies.\n#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum Body {{\n{variants}}}\n\n\
+             /// Where a body is, or how its place changes.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Pose {{\n    \
+             /// (m)\n    pub x: f64,\n    /// (m)\n    pub y: f64,\n    /// (rad)\n    pub phi: f64,\n}}\n\n\
+             impl Pose {{\n    /// That of a body, out of the coordinates or their derivatives.\n    #[rustfmt::skip]\n    \
+             #[must_use]\n    pub fn of(q: &[f64; N], body: Body) -> Self {{\n        match body {{\n{arms}        }}\n    }}\n}}\n\n"
+        )
+    }
+
+    fn measure_indices(&self) -> String {
+        let measures = &self.unit.system.measures;
+        if measures.is_empty() {
+            return String::new();
+        }
+        let having = |has: fn(&Measure) -> bool| measures.iter().filter(|m| has(m)).collect::<Vec<&Measure>>();
+        let lists = [having(|_| true), having(|m| m.first.is_some()), having(|m| m.second.is_some())];
+        let mut text = String::new();
+        let kinds = [
+            ("measure", "Where each measure stands among the values.", "MEASURES"),
+            (
+                "measure_rate",
+                "Where the first time derivative of each measure that has one stands among the rates.",
+                "RATES",
+            ),
+            (
+                "measure_acceleration",
+                "Where the second time derivative of each measure that has one stands among the accelerations.",
+                "ACCELERATIONS",
+            ),
+        ];
+        for ((module, docs, count), list) in kinds.into_iter().zip(&lists) {
+            text += &format!("/// {docs}\npub mod {module} {{\n");
+            let mut namer = Namer::default();
+            for (k, measure) in list.iter().enumerate() {
+                let (name, line) = (namer.constant(&measure.name), self.line(measure.span));
+                text += &format!("    /// `{}`{line}\n    pub const {name}: usize = {k};\n", measure.name);
+            }
+            text += &format!("}}\n\n/// How many they are.\npub const {count}: usize = {};\n\n", list.len());
+        }
+        text + MEASURES
     }
 
     /// The tables' columns that hold numbers alone.
     fn tables(&self) -> String {
-        let mut text = String::new();
-        for (number, table) in self.program.tables().iter().enumerate() {
+        let (program, mut text) = (self.unit.program, String::new());
+        for (number, table) in program.tables().iter().enumerate() {
             for column in COLUMNS {
                 let number = number as u32;
-                let Some(values) = tables::numbers(self.program, &self.constants, number, column) else {
+                let Some(values) = numbers(program, &self.equations.constants, number, column) else {
                     continue;
                 };
                 let what = match column {
@@ -151,309 +235,384 @@ impl<'s> Writer<'s> {
                 text += &format!(
                     "/// Table `{}`: {what}.\n#[rustfmt::skip]\nstatic {}: [f64; {}] = [\n{}];\n\n",
                     one_line(&table.name),
-                    self.tables.of(number, column),
+                    self.equations.tables.of(number, column),
                     values.len(),
-                    tables::lines(&values, ""),
+                    lines(&values, ""),
                 );
             }
         }
         text
     }
 
+    fn has_sides(&self) -> bool {
+        !self.equations.sides.is_empty()
+    }
+
+    /// The functions that everybody may call.
     fn functions(&self) -> String {
-        let outputs = &self.program.outputs;
-        let function = |name, docs, velocities, length, outputs, negated| {
-            self.function(&Function { name, docs, velocities, length, outputs, negated })
+        let outputs = &self.unit.program.outputs;
+        let kinds = [
+            ("phi", "The residual of the equations (m, m^2 or rad).", 1, &outputs.phi, "N"),
+            (
+                "phi_q",
+                "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].",
+                1,
+                &outputs.phi_q,
+                "ENTRIES",
+            ),
+            ("phi_t", "The partial derivative of `phi` by time.", 1, &outputs.nu, "N"),
+            ("nu", "Right side of the velocity equation `phi_q qd = nu`.", 1, &outputs.nu, "N"),
+            ("gamma", "Right side of the acceleration equation `phi_q qdd = gamma`.", 2, &outputs.gamma, "N"),
+        ];
+        let jerk = ("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, &outputs.jerk, "N");
+        let kinds = kinds.into_iter().chain((!outputs.jerk.is_empty()).then_some(jerk));
+        let mut text = String::new();
+        for (name, docs, orders, outputs, length) in kinds {
+            let wanted = Wanted {
+                name,
+                docs,
+                is_public: true,
+                orders,
+                has_time: true,
+                outputs,
+                length,
+                negated: name == "phi_t",
+                given: Given::None,
+            };
+            text += &self.equations.function(&wanted);
+        }
+        if self.unit.system.coordinates.len() <= LARGEST_DENSE {
+            text += DENSE;
+        }
+        text + &self.measures()
+    }
+
+    /// The measures with their derivatives.
+    fn measures(&self) -> String {
+        let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
+        if system.measures.is_empty() {
+            return String::new();
+        }
+        let all: Vec<Register> =
+            [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
+        let orders = if system.jerk.is_some() { 4 } else { 3 };
+        let wanted = Wanted {
+            name: "all_measures",
+            docs: "The measures, their rates and their accelerations, one behind the other.",
+            is_public: false,
+            orders,
+            has_time: true,
+            outputs: &all,
+            length: &all.len().to_string(),
+            negated: false,
+            given: Given::None,
         };
-        let mut text =
-            function("phi", "The residual of the equations (m, m^2 or rad).", false, "N", &outputs.phi, false);
-        let docs = "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].";
-        text += &function("phi_q", docs, false, "ENTRIES", &outputs.phi_q, false);
-        text += &function("phi_t", "The partial derivative of `phi` by time.", false, "N", &outputs.nu, true);
-        text += &function("nu", "Right side of the velocity equation `phi_q qd = nu`.", false, "N", &outputs.nu, false);
-        let docs = "Right side of the acceleration equation `phi_q qdd = gamma`.";
-        text += &function("gamma", docs, true, "N", &outputs.gamma, false);
-        if self.system.coordinates.len() <= LARGEST_DENSE {
-            text += "/// The Jacobian as a full matrix, row by row.\n\
-                pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {\n    \
-                let mut full = [[0.0; N]; N];\n    \
-                for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {\n        \
-                full[row][column] = value;\n    }\n    full\n}\n\n";
+        let (more, call) = if orders == 4 { (", qddd: &[f64; N]", ", qddd") } else { ("", "") };
+        let jerk = if orders == 4 { ", and their third derivatives" } else { "" };
+        let head = format!("pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd{more}, t: f64, p: &Params) -> Measures {{\n");
+        format!(
+            "/// The measures with their time derivatives, from the coordinates, their velocities and\n/// accelerations{jerk}.\n{head}    \
+             let mut all = all_measures(q, qd, qdd{call}, t, p).into_iter();\n    \
+             let mut next = || all.next().unwrap_or(f64::NAN) + 0.0;\n    Measures {{\n        \
+             values: core::array::from_fn(|_| next()),\n        rates: core::array::from_fn(|_| next()),\n        \
+             accelerations: core::array::from_fn(|_| next()),\n    }}\n}}\n\n"
+        ) + &self.equations.function(&wanted)
+    }
+
+    /// What follows the motion.
+    fn motion(&self, solution: &Solution<'_>) -> String {
+        let (system, program) = (self.unit.system, self.unit.program);
+        let switches = program.switches();
+        let of_time = switches.iter().any(|switch| switch.on_time);
+        let has_motion = switches.iter().any(|switch| !switch.on_time);
+        let conditions = self.conditions();
+        let solve = solution.function();
+        let wanted = [
+            ("bodies", !system.bodies.is_empty()),
+            ("measures", !system.measures.is_empty()),
+            ("sides", self.has_sides()),
+            ("of_time", of_time),
+            ("motion", has_motion),
+            ("end", of_time && solution.motion.to.is_some()),
+            ("conditions", !conditions.is_empty()),
+            ("watches", !system.watches.is_empty()),
+            ("pivoting", solution.motion.blocks.is_some()),
+            ("newton", solution.has_newton()),
+            ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
+            ("pivots", solve.contains("at.pivot(")),
+            ("jerk", system.jerk.is_some()),
+            ("params", !system.params.is_empty()),
+            ("known", !solution.known.is_empty()),
+        ];
+        let columns = RowLayout::new(system).printed;
+        let mut text = format!("/// Number of results at a time.\npub const COLUMNS: usize = {columns};\n\n");
+        text += &(chosen(STATE, &wanted) + "\n" + &solution.constants(&solve));
+        if !system.measures.is_empty() {
+            text += MEASURES_IN_SOLUTION;
+        }
+        if let Some(to) = solution.motion.to.filter(|_| of_time) {
+            text += &format!("/// The last time of the file's analysis (s).\nconst END: f64 = {};\n\n", literal(to));
+        }
+        text += &self.model(solution);
+        text += &chosen(SOLVER, &wanted);
+        text += "\n";
+        text += &solution.tears();
+        text += &solve;
+        text += &conditions;
+        text += &self.watches();
+        text += &self.sides(of_time, has_motion, &wanted);
+        if solution.motion.blocks.is_some() {
+            text += "#[rustfmt::skip]\nmod blocks {\n\n";
+            text += BLOCKS;
+            text += "\n}\n\n";
+        }
+        let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
+        for name in ["phi_q", "phi", "nu", "gamma", "jerk"] {
+            text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
+        }
+        let sides = if self.has_sides() { ", sides" } else { "" };
+        let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
+        let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
+        text.replace("$sides_argument", argument).replace("$sides", sides).replace("$qddd", qddd)
+            + &self.frozen(solution)
+    }
+
+    /// The parameters with what follows from them.
+    fn model(&self, solution: &Solution<'_>) -> String {
+        let registers = solution.known_registers();
+        if registers.is_empty() {
+            return "/// The mechanism with its parameters.\n#[derive(Clone, Debug)]\nstruct Model {\n    params: Params,\n}\n\n\
+                impl Model {\n    fn new(params: &Params) -> Self {\n        Self { params: *params }\n    }\n}\n\n"
+                .to_owned();
+        }
+        let wanted = Wanted {
+            name: "known",
+            docs: "What follows from the parameters alone.",
+            is_public: false,
+            orders: 0,
+            has_time: false,
+            outputs: &registers,
+            length: "KNOWN",
+            negated: false,
+            given: Given::None,
+        };
+        format!(
+            "/// Number of values that follow from the parameters alone.\nconst KNOWN: usize = {};\n\n\
+             /// The mechanism with its parameters, and what follows from these alone.\n#[derive(Clone, Debug)]\nstruct Model {{\n    \
+             params: Params,\n    known: [f64; KNOWN],\n}}\n\nimpl Model {{\n    fn new(params: &Params) -> Self {{\n        \
+             Self {{\n            params: *params,\n            known: known(params),\n        }}\n    }}\n}}\n\n",
+            registers.len()
+        ) + &self.equations.function(&wanted)
+    }
+
+    /// Whether formulas that must be positive are.
+    fn conditions(&self) -> String {
+        let conditions = &self.unit.program.outputs.conditions;
+        let is_open = |register: &&Register| !self.equations.constants.contains_key(register);
+        let outputs: Vec<Register> = conditions.iter().filter(is_open).copied().collect();
+        if outputs.is_empty() {
+            return String::new();
+        }
+        let (argument, call) = if self.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
+        let wanted = Wanted {
+            name: "conditions",
+            docs: "Distances, and places within intervals and tables: all must be positive.",
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            outputs: &outputs,
+            length: &outputs.len().to_string(),
+            negated: false,
+            given: Given::All,
+        };
+        format!(
+            "/// Whether distances are positive, and places within their intervals and tables.\n\
+             fn conditions_hold(q: &Q, t: f64, p: &Params{argument}) -> bool {{\n    \
+             let mut all = conditions(q, t, p{call}).into_iter();\n    all.all(|value| value > 0.0)\n}}\n\n"
+        ) + &self.equations.function(&wanted)
+    }
+
+    /// What keeps its sign along a branch.
+    fn watches(&self) -> String {
+        let outputs = &self.unit.program.outputs.watches;
+        if outputs.is_empty() {
+            return String::new();
+        }
+        let wanted = Wanted {
+            name: "watched",
+            docs: "What keeps its sign along a branch of the motion.",
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            outputs,
+            length: "WATCHES",
+            negated: false,
+            given: Given::All,
+        };
+        format!("/// Number of quantities that keep their signs.\nconst WATCHES: usize = {};\n\n", outputs.len())
+            + &self.equations.function(&wanted)
+    }
+
+    /// The branches of formulas.
+    fn sides(&self, of_time: bool, has_motion: bool, wanted: &[(&str, bool)]) -> String {
+        if !self.has_sides() {
+            return String::new();
+        }
+        let switches = self.unit.program.switches();
+        let all: Vec<Register> = switches.iter().map(|switch| switch.to).collect();
+        let mut text = format!(
+            "/// Number of places where formulas have branches.\nconst SIDES: usize = {};\n\n\
+             /// Which branch is taken at each: what a comparison gives, the number of a piece.\ntype Sides = [f64; SIDES];\n\n",
+            all.len()
+        );
+        let zero = self.zero();
+        let only = |on_time: bool| -> Vec<Register> {
+            switches.iter().map(|switch| if switch.on_time == on_time { switch.to } else { zero }).collect()
+        };
+        let function = |name: &str, docs: &str, orders: usize, outputs: &[Register], given: Given| {
+            self.equations.function(&Wanted {
+                name,
+                docs,
+                is_public: false,
+                orders,
+                has_time: true,
+                outputs,
+                length: "SIDES",
+                negated: false,
+                given,
+            })
+        };
+        if of_time {
+            text += &chosen(SIDES, wanted);
+            text += "\n";
+            text += &function(
+                "sides_of_time",
+                "The branches that time alone decides, the others as 0.",
+                0,
+                &only(true),
+                Given::None,
+            );
+        } else {
+            text += "/// No branch is decided by time alone.\nfn sides_at(_: f64, _: &Model) -> Sides {\n    [0.0; SIDES]\n}\n\n";
+        }
+        if has_motion {
+            let is_of_time: Vec<String> = switches.iter().map(|switch| switch.on_time.to_string()).collect();
+            text +=
+                &super::text::constant("Which of them time alone decides.", "IS_OF_TIME", "bool", "SIDES", &is_of_time);
+            text += &chosen(MOTION, wanted);
+            text += "\n";
+            text += &function(
+                "sides_of_motion",
+                "The branches at a position, those of time being known.",
+                1,
+                &all,
+                Given::OfTime,
+            );
         }
         text
     }
 
-    fn function(&self, function: &Function<'_>) -> String {
-        let (ops, read) = slice(self.program, function.outputs);
-        let mut body = Body {
-            writer: self,
-            read: &read,
-            names: FxHashMap::default(),
-            arrays: FxHashMap::default(),
-            text: String::new(),
-            count: 0,
-        };
-        let used = body.inputs();
-        for op in &ops {
-            body.operation(*op);
+    /// A register that holds 0, or what no function computes.
+    fn zero(&self) -> Register {
+        let zero =
+            self.equations.constants.iter().filter(|(_, value)| value.to_bits() == 0).map(|(register, _)| *register);
+        zero.min().unwrap_or(Register::MAX)
+    }
+
+    /// The functions of the equations with branches that are given, where there are any.
+    fn frozen(&self, solution: &Solution<'_>) -> String {
+        let outputs = &self.unit.program.outputs;
+        let (sides, has_pivoting) = (self.has_sides(), solution.motion.blocks.is_some());
+        let mut text = String::new();
+        let kinds = [
+            ("phi_with", "phi", 1, &outputs.phi, "N", sides),
+            ("phi_q_with", "phi_q", 1, &outputs.phi_q, "ENTRIES", sides),
+            ("nu_with", "nu", 1, &outputs.nu, "N", sides),
+            ("gamma_with", "gamma", 2, &outputs.gamma, "N", sides),
+            ("jerk_with", "jerk", 3, &outputs.jerk, "N", sides && has_pivoting && !outputs.jerk.is_empty()),
+        ];
+        for (name, of, orders, outputs, length, is_wanted) in kinds {
+            if is_wanted {
+                let docs = format!("As [`{of}`], on branches of formulas that are given.");
+                text += &self.equations.function(&Wanted {
+                    name,
+                    docs: &docs,
+                    is_public: false,
+                    orders,
+                    has_time: true,
+                    outputs,
+                    length,
+                    negated: false,
+                    given: Given::All,
+                });
+            }
         }
-        let mark = |used: bool, name: &str| if used { name.to_owned() } else { format!("_{name}") };
-        let [q, qd, t, p] = used;
-        let mut arguments = vec![format!("{}: &[f64; N]", mark(q, "q"))];
-        if function.velocities {
-            arguments.push(format!("{}: &[f64; N]", mark(qd, "qd")));
-        }
-        arguments.push(format!("{}: f64", mark(t, "t")));
-        arguments.push(format!("{}: &Params", mark(p, "p")));
-        let mut text = format!(
-            "/// {}\n///\n/// {} operations.\npub fn {}({}) -> [f64; {}] {{\n",
-            function.docs,
-            ops.len(),
-            function.name,
-            arguments.join(", "),
-            function.length
-        );
-        text += &body.text;
-        let results: Vec<(usize, String)> = function
-            .outputs
-            .iter()
-            .enumerate()
-            .map(|(k, &register)| (k, body.result(register, function.negated)))
-            .filter(|(_, value)| value != "0.0")
-            .collect();
-        text += if results.is_empty() { "    [0.0; " } else { "    let mut out = [0.0; " };
-        text += function.length;
-        text += if results.is_empty() { "]\n" } else { "];\n" };
-        for (k, value) in &results {
-            text += &format!("    out[{k}] = {value};\n");
-        }
-        if !results.is_empty() {
-            text += "    out\n";
-        }
-        text + "}\n\n"
+        text
     }
 }
 
-/// The body of one function, let by let.
-struct Body<'w, 's> {
-    writer: &'w Writer<'s>,
-    /// Which registers are read at all.
-    read: &'w [bool],
-    names: FxHashMap<Register, String>,
-    /// Columns of parameters that have been built.
-    arrays: FxHashMap<(u32, Column), String>,
-    text: String,
-    count: usize,
+/// What measures are given as.
+const MEASURES: &str = "/// The measures with their time derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// By the indices in [`measure`].
+    pub values: [f64; MEASURES],
+    /// First time derivatives, by the indices in [`measure_rate`].
+    pub rates: [f64; RATES],
+    /// Second time derivatives, by the indices in [`measure_acceleration`].
+    pub accelerations: [f64; ACCELERATIONS],
 }
 
-impl Body<'_, '_> {
-    /// Binds the inputs that are read; says whether any is of `q`, of `q̇`, is `t`, is a parameter.
-    fn inputs(&mut self) -> [bool; 4] {
-        let read = self.read;
-        let (system, inputs) = (self.writer.system, self.writer.program.inputs);
-        let mut namer = Namer::default();
-        for taken in
-            ["q", "qd", "t", "p", "out", "sin_cos", "select", "either", "sign", "lesser", "greater", "piece", "pick"]
-        {
-            namer.snake(taken);
-        }
-        let mut used = [false; 4];
-        let mut bind = |body: &mut Self, register: Register, wanted: &str, short: String, value: String| {
-            if !read[register as usize] {
-                return false;
-            }
-            // what begins like a temporary could be mistaken for one
-            let is_plain = wanted.len() <= LONGEST_NAME && !wanted.starts_with(['v', 's', 'c']);
-            let name = namer.snake(if is_plain { wanted } else { &short });
-            body.text += &format!("    let {name} = {value};\n");
-            body.names.insert(register, name);
-            true
-        };
-        for (k, name) in self.writer.params.iter().enumerate() {
-            used[3] |= bind(self, inputs.params + k as u32, name, format!("p{k}"), format!("p.{name}"));
-        }
-        for (order, array) in [(0, "q"), (1, "qd")] {
-            for (k, coordinate) in system.coordinates.iter().enumerate() {
-                let end = if order == 0 { "" } else { "_d" };
-                let name = Namer::default().snake(&format!("{}{end}", coordinate.name));
-                let register = inputs.coordinates[order] + k as u32;
-                used[order] |= bind(self, register, &name, format!("{array}{k}"), format!("{array}[{k}]"));
-            }
-        }
-        if read[inputs.time as usize] {
-            used[2] = true;
-            self.names.insert(inputs.time, "t".to_owned());
-        }
-        used
+";
+
+/// What a solution needs of them.
+const MEASURES_IN_SOLUTION: &str = "impl Measures {
+    const ZERO: Self = Self {
+        values: [0.0; MEASURES],
+        rates: [0.0; RATES],
+        accelerations: [0.0; ACCELERATIONS],
+    };
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.values, &self.rates, &self.accelerations]
     }
 
-    fn value(&self, register: Register) -> String {
-        match self.writer.constants.get(&register) {
-            Some(&value) => literal(value),
-            None => self.names.get(&register).cloned().unwrap_or_default(),
-        }
-    }
-
-    /// An output, or its opposite.
-    fn result(&self, register: Register, negated: bool) -> String {
-        match (self.writer.constants.get(&register), negated) {
-            (Some(&value), true) => literal(-value + 0.0),
-            (None, true) => format!("-{}", self.value(register)),
-            (_, false) => self.value(register),
-        }
-    }
-
-    /// What a column of a table is called here; one that holds parameters is built at its first use.
-    fn column(&mut self, table: u32, column: Column) -> String {
-        let writer = self.writer;
-        let name = writer.tables.of(table, column);
-        if tables::numbers(writer.program, &writer.constants, table, column).is_some() {
-            return name.to_owned();
-        }
-        if let Some(name) = self.arrays.get(&(table, column)) {
-            return name.clone();
-        }
-        let local = name.to_lowercase();
-        let cells = writer.program.tables()[table as usize].column(column);
-        let values: Vec<String> = cells.map(|register| self.value(register)).collect();
-        self.text += &format!("    #[rustfmt::skip]\n    let {local} = [\n{}    ];\n", tables::lines(&values, "    "));
-        self.arrays.insert((table, column), local.clone());
-        local
-    }
-
-    fn operation(&mut self, op: Op) {
-        match op {
-            // another name for the same value
-            Op::Copy { to, a } => {
-                let value = self.value(a);
-                self.names.insert(to, value);
-                return;
-            }
-            Op::Piece { table, .. } => {
-                self.column(table, Column::Knots);
-            }
-            Op::Pick { table, column, .. } => {
-                self.column(table, column);
-            }
-            _ => {}
-        }
-        let column = |table: u32, column: Column| {
-            self.arrays.get(&(table, column)).map_or(self.writer.tables.of(table, column), String::as_str)
-        };
-        let v = |register: Register| self.value(register);
-        let value = match op {
-            Op::Add { a, b, .. } => format!("{} + {}", v(a), v(b)),
-            Op::Sub { a, b, .. } => format!("{} - {}", v(a), v(b)),
-            Op::Mul { a, b, .. } => format!("{} * {}", v(a), v(b)),
-            Op::Div { a, b, .. } => format!("{} / {}", v(a), v(b)),
-            Op::Neg { a, .. } => format!("-{}", v(a)),
-            Op::Recip { a, .. } => format!("1.0 / {}", v(a)),
-            Op::SinCos { a, .. } => format!("sin_cos({})", v(a)),
-            Op::Unary { function, a, .. } => unary(function, &v(a)),
-            Op::Binary { function, a, b, .. } => binary(function, &v(a), &v(b)),
-            Op::Compare { comparison, a, b, .. } => {
-                let operator = match comparison {
-                    Comparison::Less => "<",
-                    Comparison::LessEqual => "<=",
-                    Comparison::Equal => "==",
-                };
-                format!("f64::from({} {operator} {})", v(a), v(b))
-            }
-            Op::And { a, b, .. } => format!("f64::from({} != 0.0 && {} != 0.0)", v(a), v(b)),
-            Op::Or { a, b, .. } => format!("f64::from({} != 0.0 || {} != 0.0)", v(a), v(b)),
-            Op::Not { a, .. } => format!("f64::from({} == 0.0)", v(a)),
-            Op::Select { condition, a, b, .. } => format!("select({}, {}, {})", v(condition), v(a), v(b)),
-            Op::Either { condition, a, b, .. } => format!("either({}, {}, {})", v(condition), v(a), v(b)),
-            Op::Copy { a, .. } => v(a),
-            Op::Piece { table, a, .. } => format!("piece({}, &{})", v(a), column(table, Column::Knots)),
-            Op::Pick { table, column: of, piece, .. } => format!("pick(&{}, {})", column(table, of), v(piece)),
-        };
-        self.count += 1;
-        let k = self.count;
-        if let Op::SinCos { sin, cos, .. } = op {
-            let name = |letter: char, register: Register| {
-                if self.read[register as usize] { format!("{letter}{k}") } else { "_".to_owned() }
-            };
-            let (sin_name, cos_name) = (name('s', sin), name('c', cos));
-            self.text += &format!("    let ({sin_name}, {cos_name}) = {value};\n");
-            self.names.insert(sin, sin_name);
-            self.names.insert(cos, cos_name);
-        } else {
-            self.text += &format!("    let v{k} = {value};\n");
-            for register in self.writer.program.operands(op).1 {
-                self.names.insert(register, format!("v{k}"));
-            }
-        }
+    fn is_finite(&self) -> bool {
+        let mut all = self.lists().into_iter().flatten();
+        all.all(|value| value.is_finite())
     }
 }
 
-fn unary(function: Unary, a: &str) -> String {
-    match function {
-        Unary::Sin => format!("sin_cos({a}).0"),
-        Unary::Cos => format!("sin_cos({a}).1"),
-        Unary::Sqrt | Unary::Abs | Unary::Floor => format!("f64::{}({a})", function.word()),
-        Unary::Sign => format!("sign({a})"),
-        Unary::Ln => format!("libm::log({a})"),
-        _ => format!("libm::{}({a})", function.word()),
+";
+
+const DENSE: &str = "/// The Jacobian as a full matrix, row by row.
+pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
+    let mut full = [[0.0; N]; N];
+    for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
     }
+    full
 }
 
-fn binary(function: Binary, a: &str, b: &str) -> String {
-    match function {
-        Binary::Min => format!("lesser({a}, {b})"),
-        Binary::Max => format!("greater({a}, {b})"),
-        _ => format!("libm::{}({a}, {b})", function.word()),
-    }
-}
+";
 
 /// The functions of our own that the others call.
-fn helpers(functions: &str) -> String {
-    const HELPERS: [(&str, &str); 7] = [
-        (
-            "select(",
-            "/// The second if the first is not 0, else the third.\nfn select(condition: f64, a: f64, b: f64) -> f64 {\n    if condition == 0.0 { b } else { a }\n}\n\n",
-        ),
-        (
-            "either(",
-            "/// As `select`, but not a number if either is not.\nfn either(condition: f64, a: f64, b: f64) -> f64 {\n    if a.is_nan() || b.is_nan() {\n        f64::NAN\n    } else if condition == 0.0 {\n        b\n    } else {\n        a\n    }\n}\n\n",
-        ),
-        (
-            "piece(",
-            "/// The piece of a table that `x` lies in, counted from 0.\nfn piece(x: f64, knots: &[f64]) -> f64 {\n    if x.is_nan() {\n        return x;\n    }\n    let (mut low, mut high) = (0, knots.len() - 1);\n    while high - low > 1 {\n        let middle = low + (high - low) / 2;\n        if knots.get(middle).is_some_and(|knot| *knot <= x) {\n            low = middle;\n        } else {\n            high = middle;\n        }\n    }\n    low as f64\n}\n\n",
-        ),
-        (
-            "pick(",
-            "/// The entry of a column for a piece.\nfn pick(column: &[f64], piece: f64) -> f64 {\n    if piece.is_nan() {\n        return piece;\n    }\n    column.get(piece as usize).copied().unwrap_or(f64::NAN)\n}\n\n",
-        ),
-        (
-            "sign(",
-            "/// -1, 0 or 1; 0 at 0.\nfn sign(x: f64) -> f64 {\n    if x > 0.0 {\n        1.0\n    } else if x < 0.0 {\n        -1.0\n    } else {\n        x\n    }\n}\n\n",
-        ),
-        (
-            "lesser(",
-            "/// The smaller one; not a number if either is not.\nfn lesser(a: f64, b: f64) -> f64 {\n    if a.is_nan() || a < b { a } else { b }\n}\n\n",
-        ),
-        (
-            "greater(",
-            "/// The larger one; not a number if either is not.\nfn greater(a: f64, b: f64) -> f64 {\n    if a.is_nan() || a > b { a } else { b }\n}\n\n",
-        ),
-    ];
-    let mut text: String =
-        HELPERS.iter().filter(|(call, _)| functions.contains(&format!(" {call}"))).map(|(_, text)| *text).collect();
-    if functions.contains("sin_cos(") {
+fn helpers(body: &str) -> String {
+    let mut text = String::new();
+    for function in FUNCTIONS.split("\n\n") {
+        let name = function.split_once("fn ").and_then(|(_, rest)| rest.split_once('(')).map_or("", |(name, _)| name);
+        if is_called(body, name) {
+            text += function.trim_end();
+            text += "\n\n";
+        }
+    }
+    if is_called(body, "sin_cos") {
         // as the interpreter has it, to the letter
         text += "use sine_and_cosine::sin_cos;\n\n#[rustfmt::skip]\nmod sine_and_cosine {\n\n";
         text += SIN_COS;
         text += "\n}\n";
     }
     text
-}
-
-/// A number that reads back to the same bits.
-fn literal(value: f64) -> String {
-    format!("{value:?}")
-}
-
-fn one_line(text: &str) -> String {
-    text.replace(['\n', '`'], " ")
 }

@@ -4,20 +4,17 @@ use super::names::Namer;
 use crate::program::{Column, Program, Register};
 use rustc_hash::FxHashMap;
 
-/// Numbers on a line of a static.
-const ON_A_LINE: usize = 4;
-
 /// All columns of a table.
 pub(super) const COLUMNS: [Column; 5] =
     [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
 
 /// Names for the columns of a program's tables.
-pub(super) struct Names {
+pub(super) struct Tables {
     names: FxHashMap<(u32, Column), String>,
 }
 
-impl Names {
-    pub fn new(program: &Program) -> Names {
+impl Tables {
+    pub fn new(program: &Program) -> Tables {
         let mut namer = Namer::default();
         let mut names = FxHashMap::default();
         for (number, table) in program.tables().iter().enumerate() {
@@ -29,7 +26,7 @@ impl Names {
                 names.insert((number as u32, column), namer.constant(&format!("{} {what}", table.name)));
             }
         }
-        Names { names }
+        Tables { names }
     }
 
     /// `LIFT_KNOTS`
@@ -50,11 +47,4 @@ pub(super) fn numbers(
         let cells = program.tables()[table as usize].column(column);
         cells.filter_map(|register| constants.get(&register).copied()).collect()
     })
-}
-
-/// A list of values, some on each line.
-pub(super) fn lines(values: &[String], indent: &str) -> String {
-    let lines: Vec<String> =
-        values.chunks(ON_A_LINE).map(|line| format!("{indent}    {},\n", line.join(", "))).collect();
-    lines.concat()
 }

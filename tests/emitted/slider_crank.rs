@@ -1,9 +1,11 @@
-//! Constraint system of mechanism `slider_crank`, written by mechc 0.1.0 from `slider_crank.mech`.
+//! Kinematics of mechanism `slider_crank`, written by mechc 0.1.0 from `slider_crank.mech`.
 //!
 //! - coordinates `q`: 9 (m, rad), equations `phi = 0`: 9
 //! - `phi_q`: 17 entries that do not vanish, see [`PHI_Q_PATTERN`]
 //! - parameters: 3; those that follow from others are worked out
+//! - the motion: [`assemble`], then [`step`] from time to time
 //! - needs no other crate
+//! - needs no heap and no standard library; nothing in it panics
 
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
@@ -30,53 +32,82 @@ impl Default for Params {
     }
 }
 
+impl Params {
+    /// Part of the way from these to others.
+    #[rustfmt::skip]
+    fn towards(&self, other: &Self, part: f64) -> Self {
+        Self {
+            crank_length: self.crank_length + part * (other.crank_length - self.crank_length),
+            rod_length: self.rod_length + part * (other.rod_length - self.rod_length),
+            speed: self.speed + part * (other.speed - self.speed),
+        }
+    }
+
+    #[rustfmt::skip]
+    fn is_finite(&self) -> bool {
+        let all = [
+            self.crank_length, self.rod_length, self.speed,
+        ];
+        all.into_iter().all(f64::is_finite)
+    }
+}
+
 /// Number of coordinates, and of equations.
 pub const N: usize = 9;
 
 /// Number of entries of `phi_q` that do not vanish.
 pub const ENTRIES: usize = 17;
 
+/// Coordinates (m, rad).
+pub type Q = [f64; N];
+
+/// Velocities (m/s, rad/s).
+pub type Qd = [f64; N];
+
+/// Accelerations (m/s^2, rad/s^2).
+pub type Qdd = [f64; N];
+
 /// Where each coordinate stands in `q`.
 pub mod coordinate {
-    /// `crank.x` (m)
+    /// `crank.x` (m), line 16
     pub const CRANK_X: usize = 0;
-    /// `crank.y` (m)
+    /// `crank.y` (m), line 16
     pub const CRANK_Y: usize = 1;
-    /// `crank.phi` (rad)
+    /// `crank.phi` (rad), line 16
     pub const CRANK_PHI: usize = 2;
-    /// `rod.x` (m)
+    /// `rod.x` (m), line 20
     pub const ROD_X: usize = 3;
-    /// `rod.y` (m)
+    /// `rod.y` (m), line 20
     pub const ROD_Y: usize = 4;
-    /// `rod.phi` (rad)
+    /// `rod.phi` (rad), line 20
     pub const ROD_PHI: usize = 5;
-    /// `piston.x` (m)
+    /// `piston.x` (m), line 24
     pub const PISTON_X: usize = 6;
-    /// `piston.y` (m)
+    /// `piston.y` (m), line 24
     pub const PISTON_Y: usize = 7;
-    /// `piston.phi` (rad)
+    /// `piston.phi` (rad), line 24
     pub const PISTON_PHI: usize = 8;
 }
 
 /// Which equation each joint, constraint or driver wrote.
 pub mod row {
-    /// joint `main 1`
+    /// joint `main 1`, line 30
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`
+    /// joint `main 2`, line 30
     pub const MAIN_2: usize = 1;
-    /// joint `big 1`
+    /// joint `big 1`, line 31
     pub const BIG_1: usize = 2;
-    /// joint `big 2`
+    /// joint `big 2`, line 31
     pub const BIG_2: usize = 3;
-    /// joint `small 1`
+    /// joint `small 1`, line 32
     pub const SMALL_1: usize = 4;
-    /// joint `small 2`
+    /// joint `small 2`, line 32
     pub const SMALL_2: usize = 5;
-    /// joint `barrel 1`
+    /// joint `barrel 1`, line 33
     pub const BARREL_1: usize = 6;
-    /// joint `barrel 2`
+    /// joint `barrel 2`, line 33
     pub const BARREL_2: usize = 7;
-    /// driver `motor`
+    /// driver `motor`, line 36
     pub const MOTOR: usize = 8;
 }
 
@@ -102,32 +133,112 @@ pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
     (8, 2),
 ];
 
+/// The bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// `crank`, line 16
+    Crank,
+    /// `rod`, line 20
+    Rod,
+    /// `piston`, line 24
+    Piston,
+}
+
+/// Where a body is, or how its place changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (m)
+    pub x: f64,
+    /// (m)
+    pub y: f64,
+    /// (rad)
+    pub phi: f64,
+}
+
+impl Pose {
+    /// That of a body, out of the coordinates or their derivatives.
+    #[rustfmt::skip]
+    #[must_use]
+    pub fn of(q: &[f64; N], body: Body) -> Self {
+        match body {
+            Body::Crank => Self { x: q[0], y: q[1], phi: q[2] },
+            Body::Rod => Self { x: q[3], y: q[4], phi: q[5] },
+            Body::Piston => Self { x: q[6], y: q[7], phi: q[8] },
+        }
+    }
+}
+
+/// Where each measure stands among the values.
+pub mod measure {
+    /// `travel`, line 39
+    pub const TRAVEL: usize = 0;
+    /// `lean`, line 41
+    pub const LEAN: usize = 1;
+}
+
+/// How many they are.
+pub const MEASURES: usize = 2;
+
+/// Where the first time derivative of each measure that has one stands among the rates.
+pub mod measure_rate {
+    /// `travel`, line 39
+    pub const TRAVEL: usize = 0;
+    /// `lean`, line 41
+    pub const LEAN: usize = 1;
+}
+
+/// How many they are.
+pub const RATES: usize = 2;
+
+/// Where the second time derivative of each measure that has one stands among the accelerations.
+pub mod measure_acceleration {
+    /// `travel`, line 39
+    pub const TRAVEL: usize = 0;
+    /// `lean`, line 41
+    pub const LEAN: usize = 1;
+}
+
+/// How many they are.
+pub const ACCELERATIONS: usize = 2;
+
+/// The measures with their time derivatives.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// By the indices in [`measure`].
+    pub values: [f64; MEASURES],
+    /// First time derivatives, by the indices in [`measure_rate`].
+    pub rates: [f64; RATES],
+    /// Second time derivatives, by the indices in [`measure_acceleration`].
+    pub accelerations: [f64; ACCELERATIONS],
+}
+
 /// The residual of the equations (m, m^2 or rad).
 ///
 /// 20 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
-    let p0 = p.crank_length;
-    let rod_length = p.rod_length;
-    let p2 = p.speed;
-    let q0 = q[0];
-    let q1 = q[1];
-    let q2 = q[2];
+    let mut out = [0.0; N];
+    let speed = p.speed;
+    let piston_phi = q[8];
+    let crank_phi = q[2];
+    let crank_x = q[0];
+    let crank_y = q[1];
+    let crank_length = p.crank_length;
+    let rod_phi = q[5];
     let rod_x = q[3];
     let rod_y = q[4];
-    let rod_phi = q[5];
+    let rod_length = p.rod_length;
     let piston_x = q[6];
     let piston_y = q[7];
-    let piston_phi = q[8];
-    let v1 = t * p2;
+    let v1 = t * speed;
     let v2 = 0.5235987755982988 + v1;
     let (s3, _) = sin_cos(piston_phi);
-    let (s4, c4) = sin_cos(q2);
-    let v5 = -q0;
-    let v6 = -q1;
-    let v7 = c4 * p0;
-    let v8 = s4 * p0;
-    let v9 = q0 + v7;
-    let v10 = q1 + v8;
+    let (s4, c4) = sin_cos(crank_phi);
+    let v5 = -crank_x;
+    let v6 = -crank_y;
+    let v7 = c4 * crank_length;
+    let v8 = s4 * crank_length;
+    let v9 = crank_x + v7;
+    let v10 = crank_y + v8;
     let (s11, c11) = sin_cos(rod_phi);
     let v12 = v9 - rod_x;
     let v13 = v10 - rod_y;
@@ -137,8 +248,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v17 = rod_y + v15;
     let v18 = v16 - piston_x;
     let v19 = v17 - piston_y;
-    let v20 = q2 - v2;
-    let mut out = [0.0; N];
+    let v20 = crank_phi - v2;
     out[0] = v5;
     out[1] = v6;
     out[2] = v12;
@@ -155,21 +265,21 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
 ///
 /// 9 operations.
 pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
-    let p0 = p.crank_length;
-    let rod_length = p.rod_length;
-    let q2 = q[2];
-    let rod_phi = q[5];
+    let mut out = [0.0; ENTRIES];
     let piston_phi = q[8];
+    let crank_phi = q[2];
+    let crank_length = p.crank_length;
+    let rod_phi = q[5];
+    let rod_length = p.rod_length;
     let (_, c1) = sin_cos(piston_phi);
-    let (s2, c2) = sin_cos(q2);
-    let v3 = c2 * p0;
-    let v4 = s2 * p0;
+    let (s2, c2) = sin_cos(crank_phi);
+    let v3 = c2 * crank_length;
+    let v4 = s2 * crank_length;
     let (s5, c5) = sin_cos(rod_phi);
     let v6 = c5 * rod_length;
     let v7 = s5 * rod_length;
     let v8 = -v4;
     let v9 = -v7;
-    let mut out = [0.0; ENTRIES];
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -194,9 +304,9 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
 ///
 /// 0 operations.
 pub fn phi_t(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
-    let p2 = p.speed;
     let mut out = [0.0; N];
-    out[8] = -p2;
+    let speed = p.speed;
+    out[8] = -speed;
     out
 }
 
@@ -204,9 +314,9 @@ pub fn phi_t(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
 ///
 /// 0 operations.
 pub fn nu(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
-    let p2 = p.speed;
     let mut out = [0.0; N];
-    out[8] = p2;
+    let speed = p.speed;
+    out[8] = speed;
     out
 }
 
@@ -214,32 +324,32 @@ pub fn nu(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
 ///
 /// 17 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
-    let p0 = p.crank_length;
-    let rod_length = p.rod_length;
-    let q2 = q[2];
-    let rod_phi = q[5];
+    let mut out = [0.0; N];
     let piston_phi = q[8];
-    let qd2 = qd[2];
+    let crank_phi = q[2];
+    let rod_phi = q[5];
+    let crank_phi_d = qd[2];
     let rod_phi_d = qd[5];
     let piston_phi_d = qd[8];
+    let crank_length = p.crank_length;
+    let rod_length = p.rod_length;
     let (s1, _) = sin_cos(piston_phi);
-    let (s2, c2) = sin_cos(q2);
+    let (s2, c2) = sin_cos(crank_phi);
     let (s3, c3) = sin_cos(rod_phi);
-    let v4 = s2 * qd2;
-    let v5 = c2 * qd2;
+    let v4 = s2 * crank_phi_d;
+    let v5 = c2 * crank_phi_d;
     let v6 = s3 * rod_phi_d;
     let v7 = c3 * rod_phi_d;
     let v8 = s1 * piston_phi_d;
     let v9 = piston_phi_d * v8;
-    let v10 = qd2 * v5;
-    let v11 = qd2 * v4;
-    let v12 = p0 * v10;
-    let v13 = p0 * v11;
+    let v10 = crank_phi_d * v5;
+    let v11 = crank_phi_d * v4;
+    let v12 = crank_length * v10;
+    let v13 = crank_length * v11;
     let v14 = rod_phi_d * v7;
     let v15 = rod_phi_d * v6;
     let v16 = rod_length * v14;
     let v17 = rod_length * v15;
-    let mut out = [0.0; N];
     out[2] = v12;
     out[3] = v13;
     out[4] = v16;
@@ -252,9 +362,1119 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
 pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     let mut full = [[0.0; N]; N];
     for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {
-        full[row][column] = value;
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
     }
     full
+}
+
+/// The measures with their time derivatives, from the coordinates, their velocities and
+/// accelerations.
+pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd, t: f64, p: &Params) -> Measures {
+    let mut all = all_measures(q, qd, qdd, t, p).into_iter();
+    let mut next = || all.next().unwrap_or(f64::NAN) + 0.0;
+    Measures {
+        values: core::array::from_fn(|_| next()),
+        rates: core::array::from_fn(|_| next()),
+        accelerations: core::array::from_fn(|_| next()),
+    }
+}
+
+/// The measures, their rates and their accelerations, one behind the other.
+///
+/// 3 operations.
+fn all_measures(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], _t: f64, _p: &Params) -> [f64; 6] {
+    let mut out = [0.0; 6];
+    let rod_phi = q[5];
+    let rod_phi_d = qd[5];
+    let rod_phi_dd = qdd[5];
+    let piston_x = q[6];
+    let piston_x_d = qd[6];
+    let piston_x_dd = qdd[6];
+    let v1 = rod_phi / 0.017453292519943295;
+    let v2 = rod_phi_d / 0.017453292519943295;
+    let v3 = rod_phi_dd / 0.017453292519943295;
+    out[0] = piston_x;
+    out[1] = v1;
+    out[2] = piston_x_d;
+    out[3] = v2;
+    out[4] = piston_x_dd;
+    out[5] = v3;
+    out
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 34;
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// The mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State {
+    model: Model,
+    /// The solution of now and the one before, or the next one in the making.
+    solutions: [Solution; 2],
+    /// Whether that of now is the second.
+    is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    is_smooth: bool,
+    /// The step that goes well (s).
+    step: f64,
+}
+
+impl State {
+    /// The solution of now.
+    fn at(&self) -> &Solution {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &Params {
+        &self.model.params
+    }
+
+    /// The coordinates (m, rad), by the indices in [`coordinate`].
+    #[must_use]
+    pub fn q(&self) -> &Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &Qd {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &Qdd {
+        &self.at().qdd
+    }
+
+    /// Where a body is (m, m, rad).
+    #[must_use]
+    pub fn pose(&self, body: Body) -> Pose {
+        Pose::of(&self.at().q, body)
+    }
+
+    /// How fast a body moves (m/s, m/s, rad/s).
+    #[must_use]
+    pub fn velocity(&self, body: Body) -> Pose {
+        Pose::of(&self.at().qd, body)
+    }
+
+    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
+    #[must_use]
+    pub fn acceleration(&self, body: Body) -> Pose {
+        Pose::of(&self.at().qdd, body)
+    }
+
+    /// The measures, by the indices in [`measure`], and their first and second time derivatives.
+    #[must_use]
+    pub fn measures(&self) -> &Measures {
+        &self.at().measures
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
+    /// then their first and their second derivatives.
+    #[must_use]
+    pub fn row(&self) -> [f64; COLUMNS] {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.iter().chain(values);
+        let first = at.qd.iter().chain(rates);
+        let second = at.qdd.iter().chain(accelerations);
+        let all = zeroth.chain(first).chain(second);
+        let mut row = [at.t; COLUMNS];
+        for (cell, value) in row.iter_mut().skip(1).zip(all) {
+            *cell = *value;
+        }
+        row
+    }
+}
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 0.04;
+
+/// The longest step (s), and the shortest.
+const LONGEST_STEP: f64 = 0.00125;
+
+const SMALLEST_STEP: f64 = 4e-14;
+
+/// Iterations of Newton at most.
+const ITERATIONS: usize = 6;
+
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+const LARGEST_CORRECTION: f64 = 0.05;
+
+/// A correction of just half a cell of the grid, to rounding, stays in it.
+const HALF_A_CELL: f64 = 0.500001;
+
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 2;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+#[rustfmt::skip]
+const TEAR_SCALES: [f64; TEARS] = [
+    1.0, 1.0,
+];
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+const SCALES: [f64; N] = [
+    0.05, 0.05, 1.0, 0.15,
+    0.15, 1.0, 0.15, 0.15,
+    1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+const START: [f64; N] = [
+    0.0, 0.0, 0.5235987755982988, 0.04330127018922194,
+    0.024999999999999998, -0.16744807921968932, 0.19120326476671234, 0.0,
+    0.0,
+];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 2;
+
+/// Whether they are negative where all pivots are positive.
+#[rustfmt::skip]
+const TURNED: [bool; TURNS] = [
+    false, false,
+];
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+const CELLS: [f64; N] = [
+    2.3283064365386963e-10, 2.3283064365386963e-10, 7.450580596923828e-9, 9.313225746154785e-10,
+    9.313225746154785e-10, 7.450580596923828e-9, 9.313225746154785e-10, 9.313225746154785e-10,
+    7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 9;
+
+/// The blocks whose determinants change.
+#[rustfmt::skip]
+const TURNING: [usize; TURNS] = [
+    6, 8,
+];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = blocks::work_of(1);
+
+/// What may be left of an equation, beside the norm of its row.
+const TOLERANCE: f64 = 1e-12;
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+const EQUATIONS: blocks::Blocks<'_> = blocks::Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 1, 1, 1,
+        1,
+    ],
+    rows: &[
+        0, 1, 8, 2,
+        3, 6, 5, 4,
+        7,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 7, 5, 6,
+        8,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 11, 14, 15,
+        16, 17,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        3, 5, 6, 4,
+        5, 7, 7, 8,
+        2,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 6, 7, 5,
+        8,
+    ],
+    units: &[
+        0.03125, 0.03125, 1.0, 0.125,
+        0.125, 1.0, 0.125, 0.125,
+        1.0,
+    ],
+};
+
+impl Measures {
+    const ZERO: Self = Self {
+        values: [0.0; MEASURES],
+        rates: [0.0; RATES],
+        accelerations: [0.0; ACCELERATIONS],
+    };
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.values, &self.rates, &self.accelerations]
+    }
+
+    fn is_finite(&self) -> bool {
+        let mut all = self.lists().into_iter().flatten();
+        all.all(|value| value.is_finite())
+    }
+}
+
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+struct Model {
+    params: Params,
+}
+
+impl Model {
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
+}
+
+/// Steps from one time to another at most: what takes more is not meant.
+const MOST_STEPS: usize = 1_000_000;
+
+/// Trials on the way from the file's parameters to others at most, and the smallest part of it.
+const MOST_PARTS: usize = 10_000;
+const SMALLEST_PART: f64 = 1e-6;
+
+/// The largest motion of a step, beside the size of a body or 1 rad.
+const LARGEST_MOTION: f64 = 0.5;
+
+/// The step before tells of one that is so many times as long at most.
+const FARTHEST_BEND: f64 = 4.0;
+
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+const LARGEST_GAP: f64 = 1e-3;
+
+/// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the
+/// second it is too near to a singular one.
+const STEEP: f64 = 1e3;
+const STEEPEST: f64 = 1e6;
+
+/// Rounding may make so much of velocities and accelerations that are given out.
+const ACCURACY: f64 = 1e-9;
+
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+const SINGULAR: f64 = 1e2;
+
+/// A dead point is no further off than this part of the span.
+const NEAR_FOLD: f64 = 1e-5;
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = Params::default();
+    let mut at = Solution::ZERO;
+    start(&START, &Model::new(&file), &mut at).map_err(|_| Error::Divergence)?;
+    let mut found = at.clone();
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 {
+            file.towards(params, next)
+        } else {
+            *params
+        };
+        let model = Model::new(&params);
+        let is_found = start(&at.q, &model, &mut found).is_ok();
+        if is_found && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                return Ok(State {
+                    model,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: LONGEST_STEP,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(Error::Divergence)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
+    let mut near = Solution::ZERO;
+    (near.t, near.q) = (START_TIME, *q);
+    reach(&tears(q), &near, START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION {
+        Ok(())
+    } else {
+        Err(Fault::TooFar)
+    }
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    for _ in 0..MOST_STEPS {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        if !left.is_finite() {
+            return Err(Error::NotANumber);
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() {
+            t
+        } else {
+            now + state.step.copysign(left)
+        };
+        let next = wanted;
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm {
+                    state.step.max(2.0 * size)
+                } else {
+                    state.step.min(size)
+                };
+                state.step = longest.min(LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < SMALLEST_STEP || now + state.step == now {
+                    state.step = SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    Err(Error::Divergence)
+}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second {
+        (second, first)
+    } else {
+        (first, second)
+    };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
+    // Taylor
+    let mut way: [f64; TEARS] = core::array::from_fn(|k| h * (v[k] + 0.5 * h * a[k]));
+    if state.is_smooth {
+        let bend = bend(from, at, h);
+        way = core::array::from_fn(|k| way[k] + bend[k]);
+    }
+    if largest(&way, &TEAR_SCALES) > LARGEST_MOTION {
+        return Err(Fault::TooFar);
+    }
+    let guess = core::array::from_fn(|k| x[k] + way[k]);
+    reach(&guess, from, t, &state.model, at)?;
+    const TWELFTH: f64 = 1.0 / 12.0;
+    // what both ends' velocities and accelerations make of the way between (Hermite)
+    let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+    let gap: [f64; TEARS] = core::array::from_fn(|k| {
+        y[k] - x[k] - 0.5 * h * (v[k] + w[k]) - h * h * TWELFTH * (a[k] - b[k])
+    });
+    let gap = largest(&gap, &TEAR_SCALES);
+    if at.first > LARGEST_CORRECTION || gap > LARGEST_GAP {
+        return Err(Fault::TooFar);
+    }
+    if at.is_negative != from.is_negative || at.steepest > STEEPEST {
+        return Err(Fault::Singular);
+    }
+    if is_wanted && at.steepest > STEEP && rounding(at, &state.model) > ACCURACY {
+        return Err(Fault::Singular);
+    }
+    state.is_smooth = true;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value,
+/// velocity and acceleration at two times make a polynomial of degree 5 (Hermite).
+fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return [0.0; TEARS];
+    }
+    let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
+    let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
+    core::array::from_fn(|k| {
+        let value = y[k] - x[k] + back * (v[k] - 0.5 * back * a[k]);
+        let slope = back * (v[k] - back * a[k] - w[k]);
+        let curvature = 0.5 * back * back * (b[k] - a[k]);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        u * u * u * (cubic + u * (quartic + u * quintic))
+    })
+}
+
+/// The largest value beside its scale; what is not a number wins.
+fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
+    let pairs = values.iter().zip(scales);
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; what is not a number wins.
+fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+fn reach(
+    guess: &[f64; TEARS],
+    from: &Solution,
+    t: f64,
+    m: &Model,
+    at: &mut Solution,
+) -> Result<(), Fault> {
+    find(guess, from, t, m, at)
+}
+
+/// Solves with branches of formulas that are known.
+fn find(
+    guess: &[f64; TEARS],
+    from: &Solution,
+    t: f64,
+    m: &Model,
+    at: &mut Solution,
+) -> Result<(), Fault> {
+    solve(guess, t, m, at);
+    if !at.is_settled || !at.holds {
+        // once more from a position that is known, and if that does not help either, that
+        let h = t - from.t;
+        let q = core::array::from_fn(|k| from.q[k] + h * (from.qd[k] + 0.5 * h * from.qdd[k]));
+        let pivoted = solve_with_pivoting(&q, t, m)?;
+        solve(&tears(&pivoted.q), t, m, at);
+        let first = pivoted.first;
+        if !at.is_settled || !at.holds {
+            *at = pivoted;
+        }
+        at.first = first;
+    }
+    if at.is_finite() {
+        Ok(())
+    } else {
+        Err(Fault::NotANumber)
+    }
+}
+
+/// What rounding makes of the velocities and accelerations: they are amplified by as much as the
+/// position is near to a singular one.
+fn rounding(at: &Solution, m: &Model) -> f64 {
+    let p = &m.params;
+    let slopes = phi_q(&at.q, at.t, p);
+    let mut norms = [f64::MIN_POSITIVE; N];
+    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+        if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = nu(&at.q, at.t, p);
+    let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
+    let gamma = gamma(&at.q, &at.qd, at.t, p);
+    let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * at.steepest * amplified
+}
+
+/// Why even the shortest step from a state towards a time is refused.
+fn explain(state: &State, fault: Fault, t: f64) -> Error {
+    let (at, p) = (state.at(), &state.model.params);
+    let values = phi(&at.q, t, p);
+    if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
+        return Error::NotANumber;
+    }
+    if at.steepest < SINGULAR {
+        return Error::Divergence;
+    }
+    // a motion that comes to a dead point after a time u is as the root of u, whose slope over
+    // twice its curvature is u
+    let rates = at.qd.iter().zip(&at.qdd).zip(&SCALES);
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed {
+            (v.abs() / scale, 0.5 * v / a)
+        } else {
+            (speed, left)
+        }
+    };
+    let (_, left) = rates.fold((0.0, 0.0), sooner);
+    let left = if t < at.t { -left } else { left };
+    if left > 0.0 && left < NEAR_FOLD * SPAN {
+        Error::LockUp
+    } else {
+        Error::Bifurcation
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+struct Solution {
+    t: f64,
+    q: Q,
+    qd: Qd,
+    qdd: Qdd,
+    measures: Measures,
+    /// By block of equations: whether its determinant is negative.
+    is_negative: [bool; TURNS],
+    /// Whether Newton has arrived.
+    is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    holds: bool,
+    /// Newton's largest first correction, scaled.
+    first: f64,
+    /// One over the smallest pivot, scaled.
+    steepest: f64,
+}
+
+impl Solution {
+    const ZERO: Self = Self {
+        t: 0.0,
+        q: [0.0; N],
+        qd: [0.0; N],
+        qdd: [0.0; N],
+        measures: Measures::ZERO,
+        is_negative: TURNED,
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Makes ready for being solved for.
+    fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = TURNED;
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Takes over how an iteration went.
+    fn note(&mut self, newton: &Newton) {
+        self.is_settled &= newton.has_settled;
+        self.first = larger(self.first, newton.first);
+    }
+
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+        if let Some(is_negative) = self.is_negative.get_mut(turn) {
+            *is_negative ^= inverse < 0.0;
+        }
+        self.steepest = larger(self.steepest, inverse.abs() * weight);
+    }
+
+    /// Why it cannot be used.
+    fn fault(&self) -> Fault {
+        if self.is_finite() {
+            Fault::TooFar
+        } else {
+            Fault::NotANumber
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
+        all.all(|value| value.is_finite()) && self.measures.is_finite()
+    }
+}
+
+/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
+/// in where it ends.
+struct Newton {
+    is_first: bool,
+    is_open: bool,
+    is_lost: bool,
+    has_settled: bool,
+    first: f64,
+}
+
+impl Newton {
+    fn new() -> Self {
+        Self {
+            is_first: true,
+            is_open: false,
+            is_lost: false,
+            has_settled: false,
+            first: 0.0,
+        }
+    }
+
+    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
+    fn correct(&mut self, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+        let size = delta.abs();
+        if self.is_first {
+            self.first = larger(self.first, size / scale);
+        }
+        self.is_open |= size > HALF_A_CELL * cell;
+        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+        *x += delta;
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    fn is_done(&mut self) -> bool {
+        self.has_settled = !self.is_open && !self.is_lost;
+        let is_done = self.has_settled || self.is_lost;
+        (self.is_first, self.is_open) = (false, false);
+        is_done
+    }
+}
+
+/// The grid point next to a value.
+fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+
+/// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
+/// digits. All coordinates lie on a grid while Newton goes on.
+fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
+    let p = &m.params;
+    let mut at = Solution::ZERO;
+    (at.t, at.q) = (t, *q);
+    let mut elimination = Elimination::new();
+    let mut is_settled = false;
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.iter_mut().zip(&CELLS) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = phi_q(&at.q, t, p);
+        let right = phi(&at.q, t, p).map(|value| -value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, &SCALES);
+        }
+        is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
+        at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
+        if is_settled {
+            break;
+        }
+    }
+    if !is_settled {
+        return Err(at.fault());
+    }
+    let slopes = phi_q(&at.q, t, p);
+    let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
+    let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
+    (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
+    at.measures = measures(&at.q, &qd, &qdd, t, p);
+    let values = phi(&at.q, t, p);
+    at.holds = is_next_to_nothing(&values, &slopes, &at.q);
+    at.q = at.q.map(|x| x + 0.0);
+    at.steepest = 1.0 / pivot;
+    for (turned, block) in at.is_negative.iter_mut().zip(TURNING) {
+        *turned = elimination.is_negative.get(block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// The work of solving linear equations in blocks.
+struct Elimination {
+    work: [f64; WORK],
+    is_negative: [bool; BLOCKS],
+}
+
+impl Elimination {
+    fn new() -> Self {
+        Self {
+            work: [0.0; WORK],
+            is_negative: [false; BLOCKS],
+        }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
+        let mut x = [0.0; N];
+        let (work, is_negative) = (&mut self.work, &mut self.is_negative);
+        let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
+        (x, pivot)
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of
+/// the coordinates.
+fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
+    let mut bounds = [0.0; N];
+    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+        let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.iter().zip(&bounds);
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+
+/// Of all coordinates those that Newton solves for.
+#[rustfmt::skip]
+fn tears(q: &[f64; N]) -> [f64; TEARS] {
+    [
+        q[5], q[8],
+    ]
+}
+
+/// Position, velocity and acceleration at a time. Newton begins with a guess of `rod.phi`,
+/// `piston.phi`; all else follows.
+///
+/// 60 operations.
+fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
+    at.begin(t);
+    let crank_phi = t * m.params.speed + 0.5235987755982988;
+    at.q[2] = crank_phi + 0.0;
+    at.qd[2] = m.params.speed + 0.0;
+    let (s2, c2) = sin_cos(crank_phi);
+    let rod_x = c2 * m.params.crank_length;
+    at.q[3] = rod_x + 0.0;
+    let rod_y = s2 * m.params.crank_length;
+    let v5 = rod_y * m.params.speed;
+    let rod_x_d = -v5;
+    at.qd[3] = rod_x_d + 0.0;
+    let v7 = c2 * m.params.speed;
+    let v8 = m.params.speed * v7;
+    let v9 = m.params.crank_length * v8;
+    let rod_x_dd = -v9;
+    at.qdd[3] = rod_x_dd + 0.0;
+    at.q[4] = rod_y + 0.0;
+    let rod_y_d = rod_x * m.params.speed;
+    at.qd[4] = rod_y_d + 0.0;
+    let v12 = s2 * m.params.speed;
+    let v13 = m.params.speed * v12;
+    let v14 = m.params.crank_length * v13;
+    let rod_y_dd = -v14;
+    at.qdd[4] = rod_y_dd + 0.0;
+    let mut x1 = guess[0];
+    let mut s16 = 0.0;
+    let mut c16 = 0.0;
+    let mut v21 = 0.0;
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        x1 = on_grid(x1, 7.450580596923828e-9);
+        (s16, c16) = sin_cos(x1);
+        let v17 = c16 * m.params.rod_length;
+        let v18 = 1.0 / v17;
+        let v19 = s16 * m.params.rod_length + rod_y;
+        let v20 = v19 * v18;
+        v21 = -v20;
+        newton.correct(&mut x1, v21, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+    }
+    at.note(&newton);
+    let v22 = 0.5 * v21;
+    let v23 = c16 - v22 * s16;
+    let v24 = v21 * v23 + s16;
+    let v25 = v22 * c16 + s16;
+    let v26 = c16 - v21 * v25;
+    let v27 = v24 * m.params.rod_length;
+    let v28 = rod_y + v27;
+    at.holds &= v28.abs() <= 2.586464197407e-13;
+    let v29 = v26 * m.params.rod_length;
+    let v30 = 1.0 / v29;
+    at.q[5] = x1 + 0.0;
+    at.pivot(0, v30, 0.258602010819715);
+    let v31 = rod_y_d * v30;
+    let rod_phi_d = -v31;
+    at.qd[5] = rod_phi_d + 0.0;
+    let v33 = v24 * v31;
+    let v34 = v31 * v33;
+    let v35 = m.params.rod_length * v34 + v14;
+    let rod_phi_dd = v35 * v30;
+    at.qdd[5] = rod_phi_dd + 0.0;
+    let piston_x = rod_x + v29;
+    at.q[6] = piston_x + 0.0;
+    let v38 = v5 - v27 * v31;
+    let piston_x_d = -v38;
+    at.qd[6] = piston_x_d + 0.0;
+    let v40 = v26 * v31;
+    let v41 = v31 * v40;
+    let v42 = m.params.rod_length * v41 + v9;
+    let v43 = v27 * rod_phi_dd + v42;
+    let piston_x_dd = -v43;
+    at.qdd[6] = piston_x_dd + 0.0;
+    at.measures.values[0] = piston_x + 0.0;
+    let v45 = -v38;
+    at.measures.rates[0] = v45 + 0.0;
+    let v46 = -v43;
+    at.measures.accelerations[0] = v46 + 0.0;
+    let v47 = x1 / 0.017453292519943295;
+    at.measures.values[1] = v47 + 0.0;
+    let v48 = v31 / 0.017453292519943295;
+    let v49 = -v48;
+    at.measures.rates[1] = v49 + 0.0;
+    let v50 = rod_phi_dd / 0.017453292519943295;
+    at.measures.accelerations[1] = v50 + 0.0;
+    let mut x2 = guess[1];
+    let mut s51 = 0.0;
+    let mut c51 = 0.0;
+    let mut v54 = 0.0;
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        x2 = on_grid(x2, 7.450580596923828e-9);
+        (s51, c51) = sin_cos(x2);
+        let v52 = 1.0 / c51;
+        let v53 = s51 * v52;
+        v54 = -v53;
+        newton.correct(&mut x2, v54, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+    }
+    at.note(&newton);
+    let v55 = 0.5 * v54;
+    let v56 = c51 - v55 * s51;
+    let v57 = v54 * v56 + s51;
+    let v58 = v55 * c51 + s51;
+    let v59 = c51 - v54 * v58;
+    at.holds &= v57.abs() <= 1e-12;
+    let v60 = 1.0 / v59;
+    at.q[8] = x2 + 0.0;
+    at.pivot(1, v60, 1.0);
+}
+
+#[rustfmt::skip]
+mod blocks {
+
+// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
+//
+// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
+// round nothing.
+
+/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
+/// before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks<'b> {
+    /// How many equations each block has.
+    pub sizes: &'b [usize],
+    /// The equations, block by block.
+    pub rows: &'b [usize],
+    /// The unknowns, block by block.
+    pub columns: &'b [usize],
+    /// Where the entries of each equation begin, and where those of the last one end.
+    pub starts: &'b [usize],
+    /// The unknown of each entry.
+    pub entries: &'b [usize],
+    /// By unknown: its place in `columns`.
+    pub places: &'b [usize],
+    /// By unknown: the power of two that it is measured by.
+    pub units: &'b [f64],
+}
+
+/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+///
+/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
+/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
+/// number wins.
+pub fn solve(
+    blocks: &Blocks<'_>,
+    values: &[f64],
+    right: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+    is_negative: &mut [bool],
+) -> f64 {
+    let (mut smallest, mut at) = (f64::INFINITY, 0);
+    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
+        let places = at..at + size;
+        at += size;
+        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
+            break;
+        };
+        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
+            break;
+        };
+        for (line, &row) in lines(matrix, size + 1).zip(rows) {
+            fill(blocks, row, places.start, values, right, x, line);
+        }
+        let Some(solution) = solution.get_mut(..size) else {
+            break;
+        };
+        let pivot;
+        (pivot, *is_negative) = eliminate(matrix, solution);
+        smallest = if pivot >= smallest { smallest } else { pivot };
+        for (&column, &value) in columns.iter().zip(&*solution) {
+            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
+                *x = value * unit;
+            }
+        }
+    }
+    smallest
+}
+
+/// How many numbers the work for a block of a size takes.
+#[must_use]
+pub const fn work_of(size: usize) -> usize {
+    size * (size + 2)
+}
+
+/// A matrix row by row.
+fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
+    let mut left = matrix;
+    core::iter::from_fn(move || {
+        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
+        left = rest;
+        Some(line)
+    })
+}
+
+/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
+    line.fill(0.0);
+    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
+    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
+    let (Some(&from), Some(&to)) = ends else {
+        return;
+    };
+    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
+    let size = line.len() - 1;
+    for (&column, &value) in entries {
+        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
+        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
+        match line.get_mut(place).filter(|_| place < size) {
+            Some(entry) => {
+                *entry = value * unit;
+                largest = if entry.abs() > largest { entry.abs() } else { largest };
+            }
+            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
+        }
+    }
+    if let Some(last) = line.last_mut() {
+        *last = sum;
+    }
+    if largest > 0.0 && largest.is_finite() {
+        // two over the power of two that is not above it
+        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        for entry in line {
+            *entry *= factor;
+        }
+    }
+}
+
+/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
+/// determinant is negative.
+fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
+    let width = x.len() + 1;
+    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
+    let mut left = &mut *matrix;
+    for k in 0..x.len() {
+        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
+            break;
+        };
+        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
+        for line in lines(below, width) {
+            if entry(line).abs() > entry(first).abs() {
+                is_negative = !is_negative;
+                for (a, b) in first.iter_mut().zip(line) {
+                    core::mem::swap(a, b);
+                }
+            }
+        }
+        let pivot = entry(first);
+        is_negative ^= pivot < 0.0;
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
+        for line in lines(below, width) {
+            let factor = entry(line) / pivot;
+            if factor != 0.0 {
+                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        left = below;
+    }
+    let mut rest = &*matrix;
+    for k in (0..x.len()).rev() {
+        let Some((before, line)) = rest.split_at_checked(k * width) else {
+            break;
+        };
+        rest = before;
+        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
+        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
+        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
+            *x = sum / pivot;
+        }
+    }
+    (smallest, is_negative)
+}
+
 }
 
 use sine_and_cosine::sin_cos;
@@ -289,10 +1509,11 @@ pub fn sin_cos(angle: f64) -> (f64, f64) {
 #[inline]
 pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
-    let cube = z * r;
-    let higher = 8.333_333_333_322_49e-3
-        + z * (-1.984_126_982_985_795e-4
-            + z * (2.755_731_370_707_006_8e-6 + z * (-2.505_076_025_340_686_3e-8 + z * 1.589_690_995_211_55e-10)));
+    let (cube, square) = (z * r, z * z);
+    // in halves that do not wait for each other (G. Estrin, 1960)
+    let lower = 8.333_333_333_322_49e-3 - z * 1.984_126_982_985_795e-4;
+    let upper = (2.755_731_370_707_006_8e-6 - z * 2.505_076_025_340_686_3e-8) + square * 1.589_690_995_211_55e-10;
+    let higher = lower + square * upper;
     r - ((z * (0.5 * tail - cube * higher) - tail) + cube * 1.666_666_666_666_663_2e-1)
 }
 
@@ -300,12 +1521,11 @@ pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
 #[inline]
 pub(super) fn cos_near_zero(r: f64, tail: f64) -> f64 {
     let z = r * r;
-    let higher = z
-        * (4.166_666_666_666_66e-2
-            + z * (-1.388_888_888_887_411e-3
-                + z * (2.480_158_728_947_673e-5
-                    + z * (-2.755_731_435_139_066_3e-7
-                        + z * (2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11)))));
+    let square = z * z;
+    let lower = 4.166_666_666_666_66e-2 - z * 1.388_888_888_887_411e-3;
+    let middle = 2.480_158_728_947_673e-5 - z * 2.755_731_435_139_066_3e-7;
+    let upper = 2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11;
+    let higher = z * (lower + square * (middle + square * upper));
     let half = 0.5 * z;
     let most = 1.0 - half;
     most + (((1.0 - most) - half) + (z * higher - r * tail))

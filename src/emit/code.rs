@@ -1,0 +1,625 @@
+//! Operations as Rust, `let` by `let`, in functions of a bearable length.
+//!
+//! Every register is written by one operation. What one function computes and a later one needs is handed on in an array of
+//! terms, `w`.
+
+use super::operations::{binary, unary};
+use super::text::{contains_word, documented, lines, literal, signature};
+use crate::expr::Comparison;
+use crate::program::{self, Column, Register};
+use crate::solver::{Op, Segment, Tear};
+use rustc_hash::FxHashSet;
+use std::ops::Range;
+
+/// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
+const LONGEST_FUNCTION: usize = 2000;
+
+/// What operations are printed among.
+pub(super) trait Scene {
+    /// The name and the value of a register that no operation writes.
+    fn input(&self, register: Register) -> Input;
+    /// What stands in a register of the program.
+    fn load(&self, register: Register) -> String;
+    /// A column of a result.
+    fn place(&self, column: u32) -> String;
+    /// The name of a value that is left in a column, `rod_phi`; none where it is no name of its own.
+    fn name(&self, column: u32) -> Option<String>;
+    /// What a column of a table is called.
+    fn table(&self, table: u32, column: Column) -> String;
+    /// The registers that a function has to build a column from; none where it is known by its name.
+    fn cells(&self, table: u32, column: Column) -> Vec<Register>;
+    /// The line that leaves a value in a column; none where that holds it already.
+    fn store(&self, column: u32, value: &str) -> Option<String>;
+    /// The line that is written for an operation without a result.
+    fn act(&self, op: Op, value: &str) -> String;
+    /// The line that watches a multiplier.
+    fn watch(&self, weight: u32, value: &str) -> String;
+}
+
+/// A value that a function is given.
+pub(super) enum Input {
+    /// A number, or what is as short as a name.
+    Text(String),
+    /// What is bound to a name first.
+    Bound { name: String, value: String },
+}
+
+/// A function, or several that follow one another.
+pub(super) struct Function<'f> {
+    pub name: &'f str,
+    /// Lines of documentation.
+    pub docs: String,
+    pub is_public: bool,
+    /// Names and types.
+    pub arguments: Vec<(&'f str, String)>,
+    /// What is written and returned.
+    pub out: Out<'f>,
+}
+
+/// Where a function leaves its results.
+pub(super) enum Out<'f> {
+    /// In a list, by its type and its first value, that it returns as `out`.
+    List { of: &'f str, first: &'f str },
+    /// In what it is given; the line that makes that ready.
+    Given { begin: &'f str },
+}
+
+/// What is to be printed.
+pub(super) struct Code<'c> {
+    pub operations: &'c [Op],
+    pub segments: &'c [Segment],
+    pub registers: usize,
+}
+
+/// A run of operations in a function of its own.
+enum Part<'c> {
+    Straight(Vec<Piece<'c>>),
+    /// A loop whose body is so long that it is made of several functions.
+    Loop {
+        bodies: Vec<Range<usize>>,
+        tears: &'c [Tear],
+    },
+}
+
+struct Piece<'c> {
+    range: Range<usize>,
+    /// Of a loop.
+    tears: Option<&'c [Tear]>,
+}
+
+impl<'c> Code<'c> {
+    /// The functions as text.
+    pub fn print(&self, scene: &impl Scene, function: &Function<'_>) -> String {
+        let parts = self.parts();
+        let mut printer = Printer::new(self, scene, &parts);
+        match parts.as_slice() {
+            [Part::Straight(pieces)] => printer.alone(function, pieces),
+            _ => printer.several(function, &parts),
+        }
+    }
+
+    /// How many operations compute something.
+    pub fn count(&self) -> usize {
+        self.operations.iter().filter(|op| is_work(**op)).count()
+    }
+
+    /// Cuts the segments into parts that are short enough.
+    fn parts(&self) -> Vec<Part<'c>> {
+        let mut cut = Cut { parts: Vec::new(), pieces: Vec::new(), length: 0 };
+        for segment in self.segments {
+            match segment {
+                Segment::Once(range) => cut.straight(range.clone()),
+                Segment::Newton { operations, tears } => cut.newton(operations.clone(), tears),
+            }
+        }
+        cut.close();
+        if cut.parts.is_empty() {
+            cut.parts.push(Part::Straight(Vec::new()));
+        }
+        cut.parts
+    }
+}
+
+/// Parts in the making.
+struct Cut<'c> {
+    parts: Vec<Part<'c>>,
+    pieces: Vec<Piece<'c>>,
+    length: usize,
+}
+
+impl<'c> Cut<'c> {
+    fn straight(&mut self, range: Range<usize>) {
+        let mut from = range.start;
+        while from < range.end {
+            let to = range.end.min(from + LONGEST_FUNCTION - self.length);
+            self.push(from..to, None);
+            from = to;
+        }
+    }
+
+    fn newton(&mut self, range: Range<usize>, tears: &'c [Tear]) {
+        if self.length + range.len() > LONGEST_FUNCTION {
+            self.close();
+        }
+        if range.len() > LONGEST_FUNCTION {
+            let starts = range.clone().step_by(LONGEST_FUNCTION);
+            let bodies = starts.map(|from| from..range.end.min(from + LONGEST_FUNCTION)).collect();
+            self.parts.push(Part::Loop { bodies, tears });
+        } else {
+            self.push(range, Some(tears));
+        }
+    }
+
+    fn push(&mut self, range: Range<usize>, tears: Option<&'c [Tear]>) {
+        self.length += range.len();
+        self.pieces.push(Piece { range, tears });
+        if self.length >= LONGEST_FUNCTION {
+            self.close();
+        }
+    }
+
+    fn close(&mut self) {
+        if !self.pieces.is_empty() {
+            self.parts.push(Part::Straight(std::mem::take(&mut self.pieces)));
+        }
+        self.length = 0;
+    }
+}
+
+/// Whether an operation computes something.
+fn is_work(op: Op) -> bool {
+    let is_name =
+        matches!(op, Op::Number { .. } | Op::Load { .. } | Op::Time { .. } | Op::Column { .. } | Op::Curve { .. });
+    let is_note = matches!(op, Op::Store { .. } | Op::Pivot { .. } | Op::Residual { .. });
+    !is_name && !is_note && !matches!(op, Op::Other(program::Op::Copy { .. }))
+}
+
+/// The column of a table that an operation looks into.
+pub(super) fn column_of(op: Op) -> Option<(u32, Column)> {
+    match op {
+        Op::Other(program::Op::Piece { table, .. }) => Some((table, Column::Knots)),
+        Op::Other(program::Op::Pick { table, column, .. }) => Some((table, column)),
+        _ => None,
+    }
+}
+
+/// Where a value lives.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Home {
+    /// Written by no operation.
+    Given,
+    /// In its function, and there in its loop if it is in one.
+    Local { function: u32, of_loop: u32 },
+    /// In its function, beyond its loop.
+    BeyondLoop { function: u32 },
+    /// Among the terms that functions hand on.
+    Term(u32),
+}
+
+/// No loop.
+const STRAIGHT: u32 = 0;
+
+struct Printer<'p, S> {
+    scene: &'p S,
+    operations: &'p [Op],
+    homes: Vec<Home>,
+    is_read: Vec<bool>,
+    terms: u32,
+    names: Vec<Option<String>>,
+    /// Names that values shall have.
+    wanted: Vec<Option<String>>,
+    taken: FxHashSet<String>,
+    /// Inputs that the function being written has bound.
+    bound: FxHashSet<Register>,
+    bindings: String,
+    /// Columns of tables that it has built.
+    built: FxHashSet<(u32, Column)>,
+    count: usize,
+    guesses: usize,
+}
+
+impl<'p, S: Scene> Printer<'p, S> {
+    fn new(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Printer<'p, S> {
+        let mut printer = Printer {
+            scene,
+            operations: code.operations,
+            homes: vec![Home::Given; code.registers],
+            is_read: vec![false; code.registers],
+            terms: 0,
+            names: vec![None; code.registers],
+            wanted: vec![None; code.registers],
+            taken: FxHashSet::default(),
+            bound: FxHashSet::default(),
+            bindings: String::new(),
+            built: FxHashSet::default(),
+            count: 0,
+            guesses: 0,
+        };
+        printer.find_homes(parts);
+        printer
+    }
+
+    /// Finds out which values go beyond their loop or function.
+    fn find_homes(&mut self, parts: &[Part<'_>]) {
+        let (mut function, mut loops) = (0, STRAIGHT);
+        for part in parts {
+            match part {
+                Part::Straight(pieces) => {
+                    for piece in pieces {
+                        loops += u32::from(piece.tears.is_some());
+                        let of_loop = if piece.tears.is_some() { loops } else { STRAIGHT };
+                        self.settle_in(piece.range.clone(), function, of_loop);
+                        for tear in piece.tears.unwrap_or(&[]) {
+                            self.read(tear.x, function, STRAIGHT);
+                            self.read(tear.delta, function, of_loop);
+                        }
+                    }
+                }
+                Part::Loop { bodies, tears } => {
+                    for body in bodies {
+                        self.settle_in(body.clone(), function, STRAIGHT);
+                        function += 1;
+                    }
+                    for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
+                        self.read(register, function, STRAIGHT);
+                    }
+                }
+            }
+            function += 1;
+        }
+    }
+
+    fn settle_in(&mut self, range: Range<usize>, function: u32, of_loop: u32) {
+        for at in range {
+            let op = self.operations[at];
+            let (reads, count) = op.reads();
+            for &register in &reads[..count] {
+                self.read(register, function, of_loop);
+            }
+            if let Some((table, column)) = column_of(op) {
+                self.scene.cells(table, column).into_iter().for_each(|cell| self.read(cell, function, of_loop));
+            }
+            let (writes, count) = op.writes();
+            for &register in &writes[..count] {
+                self.homes[register as usize] = Home::Local { function, of_loop };
+            }
+            if let Op::Store { column, a } = op
+                && self.wanted[a as usize].is_none()
+            {
+                self.wanted[a as usize] = self.scene.name(column);
+            }
+        }
+    }
+
+    fn read(&mut self, register: Register, reader: u32, reading_loop: u32) {
+        self.is_read[register as usize] = true;
+        let home = &mut self.homes[register as usize];
+        match *home {
+            Home::Local { function, .. } | Home::BeyondLoop { function } if function != reader => {
+                *home = Home::Term(self.terms);
+                self.terms += 1;
+            }
+            Home::Local { function, of_loop } if of_loop != STRAIGHT && of_loop != reading_loop => {
+                *home = Home::BeyondLoop { function };
+            }
+            _ => {}
+        }
+    }
+
+    /// The text of a register's value.
+    fn value(&mut self, register: Register) -> String {
+        if let Some(name) = &self.names[register as usize] {
+            return name.clone();
+        }
+        match self.scene.input(register) {
+            Input::Text(text) => text,
+            Input::Bound { name, value } => {
+                if self.bound.insert(register) {
+                    self.bindings += &format!("    let {name} = {value};\n");
+                }
+                name
+            }
+        }
+    }
+
+    /// What an assignment to a register begins with, `let v3` or `w[5]`, the register being named so from now on.
+    fn target(&mut self, register: Register, prefix: char) -> String {
+        let (name, is_declared) = match self.homes[register as usize] {
+            Home::Term(place) => (format!("w[{place}]"), true),
+            Home::BeyondLoop { .. } => (self.fresh(register, prefix), true),
+            Home::Given | Home::Local { .. } => (self.fresh(register, prefix), false),
+        };
+        self.names[register as usize] = Some(name.clone());
+        if is_declared { name } else { format!("let {name}") }
+    }
+
+    fn fresh(&mut self, register: Register, prefix: char) -> String {
+        match self.wanted[register as usize].take() {
+            Some(name) if self.taken.insert(name.clone()) => name,
+            _ => format!("{prefix}{}", self.count),
+        }
+    }
+
+    /// A function that is not cut.
+    fn alone(&mut self, function: &Function<'_>, pieces: &[Piece<'_>]) -> String {
+        let body = self.body(pieces);
+        let (body, result) = match function.out {
+            Out::Given { begin } => (format!("    {begin}\n{body}"), ""),
+            Out::List { of, first } if contains_word(&body, "out") => {
+                (format!("    let mut out = {first};\n{body}    out\n"), of)
+            }
+            Out::List { of, first } => (format!("    {first}\n"), of),
+        };
+        head(function, result, &body) + &body + "}\n\n"
+    }
+
+    /// A function that calls others in turn, and these.
+    fn several(&mut self, function: &Function<'_>, parts: &[Part<'_>]) -> String {
+        let mut arguments = function.arguments.clone();
+        let mut given = names(&function.arguments) + ", ";
+        if let Out::List { of, .. } = function.out {
+            arguments.push(("out", format!("&mut {of}")));
+            given += "&mut out, ";
+        }
+        arguments.push(("w", format!("&mut [f64; {}]", self.terms)));
+        let mut written = Parts { name: function.name, arguments: &arguments, text: String::new(), count: 0 };
+        let mut calls = String::new();
+        for part in parts {
+            let body = match part {
+                Part::Straight(pieces) => self.body(pieces),
+                Part::Loop { bodies, tears } => {
+                    let mut inner = String::new();
+                    for range in bodies {
+                        let body = self.body(&[Piece { range: range.clone(), tears: None }]);
+                        inner += &format!("        {}({}, w);\n", written.add(&body), names(&function.arguments));
+                    }
+                    self.around(tears, &inner)
+                }
+            };
+            calls += &format!("    {}({given}&mut w);\n", written.add(&body));
+        }
+        let terms = format!("    let mut w = [0.0; {}];\n", self.terms);
+        let (body, result) = match function.out {
+            Out::Given { begin } => (format!("    {begin}\n{terms}{calls}"), ""),
+            Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
+        };
+        head(function, result, &body) + &body + "}\n\n" + &written.text
+    }
+
+    /// The body of a function: what it is given, and then its lines.
+    fn body(&mut self, pieces: &[Piece<'_>]) -> String {
+        self.bound.clear();
+        self.bindings.clear();
+        self.built.clear();
+        let mut text = String::new();
+        for piece in pieces {
+            match piece.tears {
+                Some(tears) => self.newton(piece.range.clone(), tears, &mut text),
+                None => {
+                    for at in piece.range.clone() {
+                        self.operation(self.operations[at], "    ", &mut text);
+                    }
+                }
+            }
+        }
+        std::mem::take(&mut self.bindings) + &text
+    }
+
+    fn newton(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
+        let mut body = String::new();
+        for at in range.clone() {
+            self.operation(self.operations[at], "        ", &mut body);
+        }
+        for at in range {
+            let (writes, count) = self.operations[at].writes();
+            for &register in &writes[..count] {
+                if let (Home::BeyondLoop { .. }, Some(name)) =
+                    (self.homes[register as usize], &self.names[register as usize])
+                {
+                    *text += &format!("    let mut {name} = 0.0;\n");
+                }
+            }
+        }
+        *text += &self.around(tears, &body);
+    }
+
+    /// A loop around a body.
+    fn around(&mut self, tears: &[Tear], body: &str) -> String {
+        let (mut before, mut after) = (String::new(), String::new());
+        for tear in tears {
+            let (x, delta) = (self.value(tear.x), self.value(tear.delta));
+            let (cell, scale) = (literal(tear.cell), literal(tear.scale));
+            before += &format!("        {x} = on_grid({x}, {cell});\n");
+            after += &format!("        newton.correct(&mut {x}, {delta}, {cell}, {scale});\n");
+        }
+        format!(
+            "    let mut newton = Newton::new();\n    for _ in 0..ITERATIONS {{\n{before}{body}{after}        \
+             if newton.is_done() {{\n            break;\n        }}\n    }}\n    at.note(&newton);\n"
+        )
+    }
+
+    /// What a column of a table is called, after it has been built where that is needed.
+    fn column(&mut self, table: u32, column: Column, indent: &str, text: &mut String) -> String {
+        let (name, cells) = (self.scene.table(table, column), self.scene.cells(table, column));
+        if cells.is_empty() {
+            return format!("&{name}");
+        }
+        if self.built.insert((table, column)) {
+            let values: Vec<String> = cells.into_iter().map(|cell| self.value(cell)).collect();
+            *text +=
+                &format!("{indent}#[rustfmt::skip]\n{indent}let {name} = [\n{}{indent}];\n", lines(&values, indent));
+        }
+        format!("&{name}")
+    }
+
+    fn operation(&mut self, op: Op, indent: &str, text: &mut String) {
+        let column = column_of(op).map(|(table, column)| self.column(table, column, indent, text)).unwrap_or_default();
+        let mut v = |register: Register| self.value(register);
+        let expression = match op {
+            Op::Add { a, b, .. } => format!("{} + {}", v(a), v(b)),
+            Op::Sub { a, b, .. } => format!("{} - {}", v(a), v(b)),
+            Op::Mul { a, b, .. } | Op::Multiplier { a, b, .. } => format!("{} * {}", v(a), v(b)),
+            Op::Div { a, b, .. } => format!("{} / {}", v(a), v(b)),
+            Op::MulAdd { a, b, c, .. } => format!("{} * {} + {}", v(a), v(b), v(c)),
+            Op::MulLess { a, b, c, .. } => format!("{} * {} - {}", v(a), v(b), v(c)),
+            Op::LessMul { a, b, c, .. } => format!("{} - {} * {}", v(c), v(a), v(b)),
+            Op::Neg { a, .. } => format!("-{}", v(a)),
+            Op::Recip { a, .. } => format!("1.0 / {}", v(a)),
+            Op::Other(op) => {
+                let (reads, count) = op.reads();
+                let operands: Vec<String> = reads[..count].iter().map(|&register| v(register)).collect();
+                other(op, &operands, &column)
+            }
+            Op::SinCos { sin, cos, a } => return self.pair(sin, cos, a, indent, text),
+            Op::Number { to, bits: [low, high] } => {
+                let value = f64::from_bits(u64::from(low) | (u64::from(high) << 32));
+                self.names[to as usize] = Some(literal(value));
+                return;
+            }
+            Op::Load { to, from } => {
+                self.names[to as usize] = Some(self.scene.load(from));
+                return;
+            }
+            Op::Time { to } => {
+                self.names[to as usize] = Some("t".to_owned());
+                return;
+            }
+            Op::Column { to, column } => {
+                self.names[to as usize] = Some(self.scene.place(column));
+                return;
+            }
+            Op::Curve { to, tear } => return self.guess(to, tear, indent, text),
+            Op::Residual { a, .. } | Op::Pivot { a, .. } => {
+                let value = self.value(a);
+                *text += &format!("{indent}{}\n", self.scene.act(op, &value));
+                return;
+            }
+            Op::Store { column, a } => {
+                let value = self.value(a);
+                if let Some(line) = self.scene.store(column, &value) {
+                    *text += &format!("{indent}{line}\n");
+                }
+                return;
+            }
+        };
+        let (writes, _) = op.writes();
+        if let Op::Other(program::Op::Copy { .. }) = op {
+            return self.copy(writes[0], expression, indent, text);
+        }
+        self.count += 1;
+        let target = self.target(writes[0], 'v');
+        *text += &format!("{indent}{target} = {expression};\n");
+        if let Op::Multiplier { weight, .. } = op {
+            let value = self.value(writes[0]);
+            *text += &format!("{indent}{}\n", self.scene.watch(weight, &value));
+        }
+    }
+
+    /// Another name for the same value; where a later function needs it, a place among the terms.
+    fn copy(&mut self, to: Register, value: String, indent: &str, text: &mut String) {
+        if let Home::Term(_) = self.homes[to as usize] {
+            let target = self.target(to, 'v');
+            *text += &format!("{indent}{target} = {value};\n");
+        } else {
+            self.names[to as usize] = Some(value);
+        }
+    }
+
+    /// Where Newton begins with a coordinate.
+    fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
+        self.guesses += 1;
+        if let Home::Term(place) = self.homes[to as usize] {
+            self.names[to as usize] = Some(format!("w[{place}]"));
+            *text += &format!("{indent}w[{place}] = guess[{tear}];\n");
+        } else {
+            let name = format!("x{}", self.guesses);
+            *text += &format!("{indent}let mut {name} = guess[{tear}];\n");
+            self.names[to as usize] = Some(name);
+        }
+    }
+
+    fn pair(&mut self, sin: Register, cos: Register, a: Register, indent: &str, text: &mut String) {
+        let a = self.value(a);
+        self.count += 1;
+        let target = |printer: &mut Self, register: Register, prefix: char| {
+            if printer.is_read[register as usize] { printer.target(register, prefix) } else { "let _".to_owned() }
+        };
+        let targets = [target(self, sin, 's'), target(self, cos, 'c')];
+        *text += &match targets.each_ref().map(|target| target.strip_prefix("let ")) {
+            [Some(sin), Some(cos)] => format!("{indent}let ({sin}, {cos}) = sin_cos({a});\n"),
+            [None, None] => format!("{indent}({}, {}) = sin_cos({a});\n", targets[0], targets[1]),
+            _ => {
+                let name = format!("pair{}", self.count);
+                format!(
+                    "{indent}let {name} = sin_cos({a});\n{indent}{} = {name}.0;\n{indent}{} = {name}.1;\n",
+                    targets[0], targets[1]
+                )
+            }
+        };
+    }
+}
+
+/// The names of arguments, as they are handed on.
+fn names(arguments: &[(&str, String)]) -> String {
+    arguments.iter().map(|(name, _)| *name).collect::<Vec<&str>>().join(", ")
+}
+
+/// Documentation and head of a function with this body.
+fn head(function: &Function<'_>, result: &str, body: &str) -> String {
+    let arguments: Vec<(&str, &str)> = function.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
+    let visibility = if function.is_public { "pub " } else { "" };
+    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, body)
+}
+
+/// The functions that a long one is cut into.
+struct Parts<'p> {
+    name: &'p str,
+    arguments: &'p [(&'p str, String)],
+    text: String,
+    count: usize,
+}
+
+impl Parts<'_> {
+    /// Adds one, and gives its name.
+    fn add(&mut self, body: &str) -> String {
+        self.count += 1;
+        let name = format!("{}_{}", self.name, self.count);
+        let types: Vec<(&str, &str)> = self.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
+        self.text += &format!("/// Part {} of [`{}`].\n", self.count, self.name);
+        self.text += &(signature("", &name, &types, "", body) + body + "}\n\n");
+        name
+    }
+}
+
+/// An operation that has no counterpart among those of the solver.
+fn other(op: program::Op, operands: &[String], column: &str) -> String {
+    use program::Op as P;
+    let [a, b, c] = std::array::from_fn(|k| operands.get(k).map_or("", String::as_str));
+    match op {
+        P::Unary { function, .. } => unary(function, a),
+        P::Binary { function, .. } => binary(function, a, b),
+        P::Compare { comparison, .. } => {
+            let operator = match comparison {
+                Comparison::Less => "<",
+                Comparison::LessEqual => "<=",
+                Comparison::Equal => "==",
+            };
+            format!("f64::from({a} {operator} {b})")
+        }
+        P::And { .. } => format!("f64::from({a} != 0.0 && {b} != 0.0)"),
+        P::Or { .. } => format!("f64::from({a} != 0.0 || {b} != 0.0)"),
+        P::Not { .. } => format!("f64::from({a} == 0.0)"),
+        P::Select { .. } => format!("select({a}, {b}, {c})"),
+        P::Either { .. } => format!("either({a}, {b}, {c})"),
+        P::Piece { .. } => format!("piece({a}, {column})"),
+        P::Pick { .. } => format!("pick({column}, {a})"),
+        P::Copy { .. } => a.to_owned(),
+        P::Add { .. } => format!("{a} + {b}"),
+        P::Sub { .. } => format!("{a} - {b}"),
+        P::Mul { .. } => format!("{a} * {b}"),
+        P::Div { .. } => format!("{a} / {b}"),
+        P::Neg { .. } => format!("-{a}"),
+        P::Recip { .. } => format!("1.0 / {a}"),
+        P::SinCos { .. } => format!("sin_cos({a})"),
+    }
+}

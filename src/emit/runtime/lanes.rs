@@ -1,0 +1,379 @@
+/// The same for several variants of the mechanism, or several times, at once: in loops over the
+/// lanes that a compiler turns into vector instructions. Each lane has the bits that it would have
+/// alone.
+pub mod lanes {
+    use super::*;
+
+    /// Lanes that are worked on together.
+    pub const LANES: usize = $lanes;
+
+    /// A number in each lane.
+    pub type Each = [f64; LANES];
+
+    /// As many mechanisms, each with its own parameters, at a time of its own.
+    #[derive(Clone, Debug)]
+    pub struct States {
+        models: [Model; LANES],
+        now: Solutions,
+        /// The solutions before, or the next ones in the making.
+        other: Solutions,
+        is_smooth: [bool; LANES],
+        step: Each,
+//# if sides
+        sides: [Sides; LANES],
+//# end
+//# if watches
+        watched: [[bool; WATCHES]; LANES],
+//# end
+    }
+
+    impl States {
+        /// The times (s).
+        #[must_use]
+        pub fn t(&self) -> &Each {
+            &self.now.t
+        }
+
+        /// The coordinates (m, rad), by the indices in [`coordinate`].
+        #[must_use]
+        pub fn q(&self) -> &[Each; N] {
+            &self.now.q
+        }
+
+        /// Their velocities (m/s, rad/s).
+        #[must_use]
+        pub fn qd(&self) -> &[Each; N] {
+            &self.now.qd
+        }
+
+        /// Their accelerations (m/s^2, rad/s^2).
+        #[must_use]
+        pub fn qdd(&self) -> &[Each; N] {
+            &self.now.qdd
+        }
+
+        /// A lane on its own; none where there is no such lane.
+        #[must_use]
+        pub fn get(&self, lane: usize) -> Option<State> {
+            (lane < LANES).then(|| self.lane(lane))
+        }
+
+        /// A lane, which is below [`LANES`], on its own.
+        fn lane(&self, k: usize) -> State {
+            let mut at = self.now.lane(k);
+            let mut before = self.other.lane(k);
+//# if sides
+            (at.sides, before.sides) = (self.sides[k], self.sides[k]);
+//# end
+//# if watches
+            (at.watched, before.watched) = (self.watched[k], self.watched[k]);
+//# end
+            State {
+                model: self.models[k].clone(),
+                solutions: [at, before],
+                is_second: false,
+                is_smooth: self.is_smooth[k],
+                step: self.step[k],
+            }
+        }
+
+        /// Moves a lane on its own, and leaves it among the other solutions.
+        fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
+            let mut state = self.lane(k);
+            let result = step(t, &mut state);
+            self.other.set_lane(k, state.at());
+            self.is_smooth[k] = false;
+            self.step[k] = state.step;
+//# if sides
+            self.sides[k] = state.at().sides;
+//# end
+//# if watches
+            self.watched[k] = state.at().watched;
+//# end
+            result
+        }
+    }
+
+    /// Brings the mechanisms to the first time, each with its own parameters.
+    ///
+    /// # Errors
+    /// The first lane that cannot be assembled, and why.
+    pub fn assemble(params: &[Params; LANES]) -> Result<States, (usize, Error)> {
+        let one = super::assemble(&Params::default()).map_err(|error| (0, error))?;
+        let mut states = States {
+            models: core::array::from_fn(|_| one.model.clone()),
+            now: Solutions::ZERO,
+            other: Solutions::ZERO,
+            is_smooth: [false; LANES],
+            step: [LONGEST_STEP; LANES],
+//# if sides
+            sides: [one.at().sides; LANES],
+//# end
+//# if watches
+            watched: [one.at().watched; LANES],
+//# end
+        };
+        for (k, params) in params.iter().enumerate() {
+            let state = super::assemble(params).map_err(|error| (k, error))?;
+            states.now.set_lane(k, state.at());
+            if let Some(model) = states.models.get_mut(k) {
+                *model = state.model.clone();
+            }
+//# if sides
+            if let Some(sides) = states.sides.get_mut(k) {
+                *sides = state.at().sides;
+            }
+//# end
+//# if watches
+            if let Some(watched) = states.watched.get_mut(k) {
+                *watched = state.at().watched;
+            }
+//# end
+        }
+        Ok(states)
+    }
+
+    /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
+    /// way alone.
+    ///
+    /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
+    /// last time that it could reach.
+    pub fn step_each(t: &Each, states: &mut States) -> [Result<(), Error>; LANES] {
+        let is_done = advance(t, states);
+        let mut results = [Ok(()); LANES];
+        for k in 0..LANES {
+            if !is_done[k] {
+                results[k] = states.alone(k, t[k]);
+            }
+        }
+        core::mem::swap(&mut states.now, &mut states.other);
+        results
+    }
+
+    /// Tries one step of every lane; says which ones have got there.
+    fn advance(t: &Each, states: &mut States) -> [bool; LANES] {
+        let (from, at) = (&states.now, &mut states.other);
+        let mut h = [0.0; LANES];
+        let mut back = [0.0; LANES];
+        let mut u = [0.0; LANES];
+        for k in 0..LANES {
+            h[k] = t[k] - from.t[k];
+            back[k] = from.t[k] - at.t[k];
+            let ratio = h[k] / back[k];
+            let is_known = states.is_smooth[k] && ratio.abs() <= FARTHEST_BEND;
+            u[k] = if is_known { ratio } else { 0.0 };
+        }
+        let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
+        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+        let mut guess = [[0.0; LANES]; TEARS];
+        let mut motion = [0.0; LANES];
+        for i in 0..TEARS {
+            for k in 0..LANES {
+                // as `bend` has it
+                let (h, back, u) = (h[k], back[k], u[k]);
+                let (x, v, a) = (x[i][k], v[i][k], a[i][k]);
+                let value = y[i][k] - x + back * (v - 0.5 * back * a);
+                let slope = back * (v - back * a - w[i][k]);
+                let curvature = 0.5 * back * back * (b[i][k] - a);
+                let cubic = 4.0 * slope - 10.0 * value - curvature;
+                let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+                let quintic = 3.0 * slope - 6.0 * value - curvature;
+                let bend = u * u * u * (cubic + u * (quartic + u * quintic));
+                let way = h * (v + 0.5 * h * a) + bend;
+                guess[i][k] = x + way;
+                motion[k] = larger(motion[k], way.abs() / TEAR_SCALES[i]);
+            }
+        }
+        at.begin(t);
+        solve(&guess, t, &states.models$lane_sides, at);
+        let mut gap = [0.0; LANES];
+        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+        for i in 0..TEARS {
+            for k in 0..LANES {
+                let rates = 0.5 * h[k] * (v[i][k] + w[i][k]);
+                let bends = h[k] * h[k] * (1.0 / 12.0) * (a[i][k] - b[i][k]);
+                let gap_here = y[i][k] - x[i][k] - rates - bends;
+                gap[k] = larger(gap[k], gap_here.abs() / TEAR_SCALES[i]);
+            }
+        }
+        let is_finite = at.are_finite();
+        let mut is_done = [false; LANES];
+        for k in 0..LANES {
+            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
+            let is_solved = at.open[k] <= HALF_A_CELL && at.strain[k] <= 1.0 && is_finite[k];
+            let is_same = gap[k] <= LARGEST_GAP && at.steepest[k] <= STEEP;
+            let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
+            is_done[k] = is_near && is_solved && is_same && is_short;
+        }
+        for i in 0..TURNS {
+            for k in 0..LANES {
+                is_done[k] &= (at.signs[i][k] ^ from.signs[i][k]) >> 63 == 0;
+            }
+        }
+        for k in 0..LANES {
+//# if checks
+            is_done[k] = is_done[k] && keeps_branch(k, states);
+//# end
+            if is_done[k] {
+                let first = states.other.first[k];
+                let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
+                let size = h[k].abs();
+                let longest = if is_calm { 2.0 * size } else { 0.0 };
+                let shortest = if is_calm { states.step[k] } else { size };
+                states.step[k] = f64::max(longest, shortest).min(LONGEST_STEP);
+                states.is_smooth[k] = true;
+            }
+        }
+        is_done
+    }
+//# if checks
+
+    /// Whether a lane's next solution lies on the branches of formulas that it comes from.
+    fn keeps_branch(k: usize, states: &States) -> bool {
+        let (model, at) = (&states.models[k], states.other.lane(k));
+        let t = at.t;
+//# if sides
+        let sides = &states.sides[k];
+//# end
+//# if motion
+        let mut ahead = at.clone();
+        ahead.sides = with_time(sides, &sides_at(t, model));
+        if sides_ahead(&ahead, model) != *sides {
+            return false;
+        }
+//# end
+//# if !motion
+//# if sides
+        if sides_at(t, model) != *sides {
+            return false;
+        }
+//# end
+//# end
+//# if conditions
+        if !conditions_hold(&at.q, t, &model.params$sides) {
+            return false;
+        }
+//# end
+//# if watches
+        let watched = watched(&at.q, t, &model.params$sides).map(|value| value > 0.0);
+        if watched != states.watched[k] {
+            return false;
+        }
+//# end
+        true
+    }
+//# end
+
+    /// What solves the equations in every lane.
+    #[derive(Clone, Debug)]
+    struct Solutions {
+        t: Each,
+        q: [Each; N],
+        qd: [Each; N],
+        qdd: [Each; N],
+//# if measures
+        values: [Each; MEASURES],
+        rates: [Each; RATES],
+        accelerations: [Each; ACCELERATIONS],
+//# end
+        /// By block: what has the sign of its determinant.
+        signs: [[u64; LANES]; TURNS],
+        /// Multipliers, residuals and angles beside what is bearable: 1 at most.
+        strain: Each,
+        /// Newton's largest first correction, scaled.
+        first: Each,
+        /// Its largest last correction, in cells of the grid.
+        open: Each,
+        /// One over the smallest pivot, scaled.
+        steepest: Each,
+    }
+
+    impl Solutions {
+        const ZERO: Self = Self {
+            t: [0.0; LANES],
+            q: [[0.0; LANES]; N],
+            qd: [[0.0; LANES]; N],
+            qdd: [[0.0; LANES]; N],
+//# if measures
+            values: [[0.0; LANES]; MEASURES],
+            rates: [[0.0; LANES]; RATES],
+            accelerations: [[0.0; LANES]; ACCELERATIONS],
+//# end
+            signs: [[0; LANES]; TURNS],
+            strain: [0.0; LANES],
+            first: [0.0; LANES],
+            open: [0.0; LANES],
+            steepest: [0.0; LANES],
+        };
+
+        /// Makes ready for being solved for.
+        fn begin(&mut self, t: &Each) {
+            self.t = *t;
+            let zero = [0.0; LANES];
+            (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
+            for (signs, is_negative) in self.signs.iter_mut().zip(TURNED) {
+                *signs = [u64::from(is_negative) << 63; LANES];
+            }
+        }
+
+        fn are_finite(&self) -> [bool; LANES] {
+            let mut sum = [0.0; LANES];
+            for each in self.q.iter().chain(&self.qd).chain(&self.qdd) {
+                for k in 0..LANES {
+                    sum[k] += 0.0 * each[k];
+                }
+            }
+//# if measures
+            for each in self.values.iter().chain(&self.rates).chain(&self.accelerations) {
+                for k in 0..LANES {
+                    sum[k] += 0.0 * each[k];
+                }
+            }
+//# end
+            sum.map(|sum| sum == 0.0)
+        }
+
+        /// A lane, which is below [`LANES`], on its own.
+        fn lane(&self, k: usize) -> Solution {
+            let mut at = Solution::ZERO;
+            at.t = self.t[k];
+            for i in 0..N {
+                (at.q[i], at.qd[i], at.qdd[i]) = (self.q[i][k], self.qd[i][k], self.qdd[i][k]);
+            }
+//# if measures
+            at.measures.values = self.values.map(|each| each[k]);
+            at.measures.rates = self.rates.map(|each| each[k]);
+            at.measures.accelerations = self.accelerations.map(|each| each[k]);
+//# end
+            at.is_negative = self.signs.map(|signs| signs[k] >> 63 == 1);
+            at.steepest = self.steepest[k];
+            at
+        }
+
+        fn set_lane(&mut self, k: usize, at: &Solution) {
+            if k >= LANES {
+                return;
+            }
+            self.t[k] = at.t;
+            for i in 0..N {
+                (self.q[i][k], self.qd[i][k], self.qdd[i][k]) = (at.q[i], at.qd[i], at.qdd[i]);
+            }
+//# if measures
+            let of = &at.measures;
+            for (each, value) in self.values.iter_mut().zip(of.values) {
+                each[k] = value;
+            }
+            for (each, rate) in self.rates.iter_mut().zip(of.rates) {
+                each[k] = rate;
+            }
+            for (each, acceleration) in self.accelerations.iter_mut().zip(of.accelerations) {
+                each[k] = acceleration;
+            }
+//# end
+            for (signs, is_negative) in self.signs.iter_mut().zip(at.is_negative) {
+                signs[k] = u64::from(is_negative) << 63;
+            }
+            self.steepest[k] = at.steepest;
+        }
+    }
+

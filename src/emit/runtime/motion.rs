@@ -1,0 +1,17 @@
+/// How far the motion is looked ahead to tell on which side of an edge it goes on (s, scaled).
+const AHEAD: f64 = 1e-9;
+const FARTHEST_AHEAD: f64 = 1e-7;
+
+/// The branches with those of time exchanged.
+fn with_time(sides: &Sides, of_time: &Sides) -> Sides {
+    core::array::from_fn(|k| if IS_OF_TIME[k] { of_time[k] } else { sides[k] })
+}
+
+/// The branches of formulas of the motion that lie ahead of a position.
+fn sides_ahead(at: &Solution, m: &Model) -> Sides {
+    let (speed, acceleration) = (largest(&at.qd, &SCALES), largest(&at.qdd, &SCALES));
+    let mut ahead = f64::min(f64::min(AHEAD * SPAN, AHEAD), FARTHEST_AHEAD / speed);
+    ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+    let q = core::array::from_fn(|k| at.q[k] + ahead * (at.qd[k] + 0.5 * ahead * at.qdd[k]));
+    sides_of_motion(&q, at.t + ahead, &m.params, &at.sides)
+}

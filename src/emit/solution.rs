@@ -1,0 +1,335 @@
+//! The solver's operations as a function that solves for position, velocity and acceleration at a time.
+
+use super::code::{Code, Function, Input, Out, Scene, column_of};
+use super::equations::Equations;
+use super::names::Names;
+use super::text::{constant, documented, lines, literal};
+use super::{Motion, Unit};
+use crate::program::{Column, Register};
+use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout};
+use rustc_hash::FxHashMap;
+
+/// Steps over the whole span at least, as those of the interpreter.
+const FEWEST_STEPS: f64 = 32.0;
+/// The smallest step, as a part of the whole span.
+const SMALLEST_STEP: f64 = 1e-12;
+
+/// What the solver's function is written from.
+pub(super) struct Solution<'s> {
+    pub unit: &'s Unit<'s>,
+    pub motion: &'s Motion,
+    pub equations: &'s Equations<'s>,
+    /// Registers of the program that follow from parameters alone, by their places in `known`.
+    pub known: FxHashMap<Register, usize>,
+}
+
+impl<'s> Solution<'s> {
+    pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
+        let mut solution = Solution { unit, motion, equations, known: FxHashMap::default() };
+        for op in motion.solver.all_operations() {
+            if let Some((table, column)) = column_of(*op)
+                && !equations.is_constant(table, column)
+            {
+                // one behind the other
+                unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
+            }
+        }
+        for op in motion.solver.all_operations() {
+            if let Op::Load { from, .. } = *op
+                && from >= unit.program.inputs.time
+                && !equations.sides.contains_key(&from)
+            {
+                solution.know(from);
+            }
+        }
+        solution
+    }
+
+    /// Gives a register a place in `known`.
+    fn know(&mut self, register: Register) {
+        let next = self.known.len();
+        self.known.entry(register).or_insert(next);
+    }
+
+    /// What a column of a table is called.
+    fn column(&self, table: u32, column: Column) -> String {
+        if self.equations.is_constant(table, column) {
+            return self.equations.table(table, column);
+        }
+        let cells = self.unit.program.tables()[table as usize].column(column);
+        let first = self.known.get(&cells.start).copied().unwrap_or(0);
+        format!("m.known[{first}..{}]", first + cells.len())
+    }
+
+    /// Whether anything is left to iterate for.
+    pub fn has_newton(&self) -> bool {
+        !self.motion.solver.tears().is_empty()
+    }
+
+    /// The registers that follow from parameters alone, in the order of their places.
+    pub fn known_registers(&self) -> Vec<Register> {
+        let mut registers: Vec<(usize, Register)> =
+            self.known.iter().map(|(&register, &place)| (place, register)).collect();
+        registers.sort_unstable();
+        registers.into_iter().map(|(_, register)| register).collect()
+    }
+
+    /// The function.
+    pub fn function(&self) -> String {
+        let solver = &self.motion.solver;
+        let code =
+            Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
+        let names: Vec<String> = solver
+            .tears()
+            .iter()
+            .take(20)
+            .map(|&tear| format!("`{}`", self.unit.system.coordinates[tear as usize].name))
+            .collect();
+        let more = if solver.tears().len() > names.len() { " and others" } else { "" };
+        let how = if names.is_empty() {
+            "Every coordinate follows from those before it.".to_owned()
+        } else {
+            format!("Newton begins with a guess of {}{more}; all else follows.", names.join(", "))
+        };
+        let mut arguments =
+            vec![("guess", "&[f64; TEARS]".to_owned()), ("t", "f64".to_owned()), ("m", "&Model".to_owned())];
+        if !self.equations.sides.is_empty() {
+            arguments.push(("sides", "&Sides".to_owned()));
+        }
+        arguments.push(("at", "&mut Solution".to_owned()));
+        let function = Function {
+            name: "solve",
+            docs: wrapped(&format!(
+                "Position, velocity and acceleration at a time. {how}\n\n{} operations.",
+                code.count()
+            )),
+            is_public: false,
+            arguments,
+            out: Out::Given { begin: "at.begin(t);" },
+        };
+        let layout = *solver.layout();
+        code.print(&SolverScene { solution: self, layout }, &function)
+    }
+
+    /// The constants that the functions of the motion use.
+    pub fn constants(&self, solve: &str) -> String {
+        let Motion { solver, q, from, to, .. } = self.motion;
+        let (n, tears) = (q.len(), solver.tears());
+        let coordinates = &self.unit.system.coordinates;
+        let span = to.map_or(1.0, |to| if to > *from { to - from } else { 1.0 });
+        let number = |docs: &str, name: &str, value: f64| {
+            format!("{}const {name}: f64 = {};\n\n", documented(docs, ""), literal(value))
+        };
+        let numbers = |values: &mut dyn Iterator<Item = f64>| values.map(literal).collect::<Vec<String>>();
+        let mut text = format!(
+            "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
+             pub const START_TIME: f64 = {};\n\n",
+            literal(*from)
+        );
+        text += &number("How long the file's analysis takes (s).", "SPAN", span);
+        text += &number("The longest step (s), and the shortest.", "LONGEST_STEP", span / FEWEST_STEPS);
+        text += &number("", "SMALLEST_STEP", SMALLEST_STEP * span).replace("///\n", "");
+        let iterates = self.has_newton() || self.motion.blocks.is_some();
+        if iterates {
+            text += &format!("/// Iterations of Newton at most.\nconst ITERATIONS: usize = {ITERATIONS};\n\n");
+        }
+        text += &number(
+            "Newton's first correction at most, beside the size of a body or 1 rad.",
+            "LARGEST_CORRECTION",
+            LARGEST_CORRECTION,
+        );
+        if iterates {
+            text += &number(
+                "A correction of just half a cell of the grid, to rounding, stays in it.",
+                "HALF_A_CELL",
+                HALF_A_CELL,
+            );
+        }
+        if solve.contains("LARGEST_MULTIPLIER") {
+            text += &number("A multiplier beyond this loses digits.", "LARGEST_MULTIPLIER", LARGEST_MULTIPLIER);
+        }
+        text += "/// Number of coordinates that Newton solves for; the others follow.\n";
+        text += &format!("const TEARS: usize = {};\n\n", tears.len());
+        text += &constant(
+            "What a change of each of them is judged against (m, or 1 rad).",
+            "TEAR_SCALES",
+            "f64",
+            "TEARS",
+            &numbers(&mut tears.iter().map(|&tear| coordinates[tear as usize].scale)),
+        );
+        text += &constant(
+            "What a change of each coordinate is judged against.",
+            "SCALES",
+            "f64",
+            "N",
+            &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
+        );
+        text += &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
+        text += "/// Number of blocks of equations whose determinants change with the position.\n";
+        text += &format!("const TURNS: usize = {};\n\n", solver.turns().len());
+        let turned: Vec<String> = solver.turns().iter().map(|turn| turn.is_negative.to_string()).collect();
+        text +=
+            &constant("Whether they are negative where all pivots are positive.", "TURNED", "bool", "TURNS", &turned);
+        debug_assert_eq!(n, coordinates.len());
+        text + &self.tables()
+    }
+
+    /// The tables for elimination with partial pivoting.
+    fn tables(&self) -> String {
+        let Some(tables) = &self.motion.blocks else {
+            return String::new();
+        };
+        let cells: Vec<String> = tables.cells.iter().copied().map(literal).collect();
+        let turning: Vec<String> = self.motion.solver.turns().iter().map(|turn| turn.block.to_string()).collect();
+        let mut text = constant("The width of a cell of each coordinate's grid.", "CELLS", "f64", "N", &cells);
+        text += "/// Number of blocks of equations that can be solved one after the other.\n";
+        text += &format!("const BLOCKS: usize = {};\n\n", tables.sizes.len());
+        text += &constant("The blocks whose determinants change.", "TURNING", "usize", "TURNS", &turning);
+        text += "/// Numbers that the elimination of the largest block works on.\n";
+        text += &format!("const WORK: usize = blocks::work_of({});\n\n", tables.largest());
+        text += "/// What may be left of an equation, beside the norm of its row.\n";
+        text += &format!("const TOLERANCE: f64 = {};\n\n", literal(self.motion.tolerance));
+        text += "/// How the equations fall apart into blocks.\n#[rustfmt::skip]\nconst EQUATIONS: blocks::Blocks<'_> = blocks::Blocks {\n";
+        let mut list = |name: &str, values: Vec<String>| {
+            text += &format!("    {name}: &[\n{}    ],\n", lines(&values, "    "));
+        };
+        let whole = |values: &[usize]| values.iter().map(usize::to_string).collect::<Vec<String>>();
+        list("sizes", whole(&tables.sizes));
+        list("rows", whole(&tables.rows));
+        list("columns", whole(&tables.columns));
+        list("starts", whole(&tables.starts));
+        list("entries", whole(&tables.entries));
+        list("places", whole(&tables.places));
+        list("units", tables.units.iter().copied().map(literal).collect());
+        text + "};\n\n"
+    }
+
+    /// The coordinates that Newton solves for, out of all.
+    pub fn tears(&self) -> String {
+        let tears: Vec<String> = self.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
+        let body =
+            if tears.is_empty() { "    []\n".to_owned() } else { format!("    [\n{}    ]\n", lines(&tears, "    ")) };
+        let q = if tears.is_empty() { "_q" } else { "q" };
+        format!(
+            "/// Of all coordinates those that Newton solves for.\n#[rustfmt::skip]\nfn tears({q}: &[f64; N]) -> [f64; TEARS] {{\n{body}}}\n\n"
+        )
+    }
+}
+
+/// Breaks documentation into lines.
+pub(super) fn wrapped(text: &str) -> String {
+    let mut lines = Vec::new();
+    for paragraph in text.split('\n') {
+        let mut line = String::new();
+        for word in paragraph.split(' ') {
+            if line.len() + word.len() > 92 && !line.is_empty() {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            line += word;
+        }
+        lines.push(line);
+    }
+    lines.join("\n")
+}
+
+struct SolverScene<'s> {
+    solution: &'s Solution<'s>,
+    layout: RowLayout,
+}
+
+impl SolverScene<'_> {
+    /// The kind of a column, its order and its number there.
+    fn kind(&self, column: u32) -> (bool, usize, usize) {
+        let n = self.solution.unit.program.inputs.n;
+        for order in (0..4).rev() {
+            let first = self.layout.coordinates[order];
+            if column >= first && column < first + n {
+                return (true, order, (column - first) as usize);
+            }
+            if order < 3 && column >= self.layout.measures[order] {
+                return (false, order, (column - self.layout.measures[order]) as usize);
+            }
+        }
+        (true, 0, 0)
+    }
+}
+
+impl Scene for SolverScene<'_> {
+    fn input(&self, register: Register) -> Input {
+        debug_assert!(false, "register {register} has no operation");
+        Input::Text("f64::NAN".to_owned())
+    }
+
+    fn load(&self, register: Register) -> String {
+        if let Some(place) = self.solution.known.get(&register) {
+            return format!("m.known[{place}]");
+        }
+        match self.solution.equations.input(register) {
+            Input::Bound { value, .. } => format!("m.{}", value.replacen("p.", "params.", 1)),
+            Input::Text(text) => text,
+        }
+    }
+
+    fn place(&self, column: u32) -> String {
+        match self.kind(column) {
+            (true, order, k) => format!("at.{}[{k}]", super::equations::ARRAYS[order]),
+            (false, order, k) => format!("at.measures.{}[{k}]", ["values", "rates", "accelerations"][order]),
+        }
+    }
+
+    fn name(&self, column: u32) -> Option<String> {
+        let names: &Names = self.solution.equations.names;
+        match self.kind(column) {
+            (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
+            _ => None,
+        }
+    }
+
+    fn table(&self, table: u32, column: Column) -> String {
+        self.solution.column(table, column)
+    }
+
+    fn cells(&self, _: u32, _: Column) -> Vec<Register> {
+        Vec::new()
+    }
+
+    fn store(&self, column: u32, value: &str) -> Option<String> {
+        match self.kind(column) {
+            (true, 3, _) => None,
+            _ => match value.parse::<f64>() {
+                // +0 where it is −0
+                Ok(number) => Some(number + 0.0)
+                    .filter(|number| number.to_bits() != 0)
+                    .map(|number| format!("{} = {};", self.place(column), literal(number))),
+                Err(_) => Some(format!("{} = {value} + 0.0;", self.place(column))),
+            },
+        }
+    }
+
+    fn act(&self, op: Op, value: &str) -> String {
+        match op {
+            Op::Pivot { pivot, .. } => {
+                let pivot = self.solution.motion.solver.pivots()[pivot as usize];
+                format!("at.pivot({}, {value}, {});", pivot.turn, literal(pivot.weight))
+            }
+            Op::Residual { row, .. } => {
+                let bound = literal(self.solution.motion.bounds[row as usize]);
+                format!("at.holds &= {}.abs() <= {bound};", parenthesized(value))
+            }
+            _ => String::new(),
+        }
+    }
+
+    fn watch(&self, weight: u32, value: &str) -> String {
+        let weight = literal(self.solution.motion.solver.weight(weight));
+        format!("at.holds &= {value}.abs() * {weight} <= LARGEST_MULTIPLIER;")
+    }
+}
+
+/// A value that a method can be called on.
+fn parenthesized(value: &str) -> String {
+    if value.starts_with('-') { format!("({value})") } else { value.to_owned() }
+}

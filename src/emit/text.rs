@@ -1,0 +1,124 @@
+//! Pieces of Rust text, as a formatter leaves them.
+
+/// Columns of a line at most.
+pub(super) const LONGEST_LINE: usize = 100;
+
+/// Numbers on a line of an array.
+const ON_A_LINE: usize = 4;
+
+/// A number that reads back to the same bits.
+pub(super) fn literal(value: f64) -> String {
+    if value.is_finite() {
+        format!("{value:?}")
+    } else if value.is_nan() {
+        "f64::NAN".to_owned()
+    } else if value > 0.0 {
+        "f64::INFINITY".to_owned()
+    } else {
+        "f64::NEG_INFINITY".to_owned()
+    }
+}
+
+/// A name or text from elsewhere, fit for a comment.
+pub(super) fn one_line(text: &str) -> String {
+    text.replace(['\n', '`'], " ")
+}
+
+/// Lines of documentation.
+pub(super) fn documented(docs: &str, indent: &str) -> String {
+    docs.lines().map(|line| format!("{indent}/// {line}").trim_end().to_owned() + "\n").collect()
+}
+
+/// Whether a text holds a name, and not only as a part of another.
+pub(super) fn contains_word(text: &str, word: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.match_indices(word).any(|(at, _)| {
+        !text[..at].ends_with(|c| is_part(c) || c == '.') && !text[at + word.len()..].starts_with(is_part)
+    })
+}
+
+/// Whether a text calls a function.
+pub(super) fn is_called(text: &str, function: &str) -> bool {
+    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == ':';
+    text.match_indices(&format!("{function}(")).any(|(at, _)| !text[..at].ends_with(is_part))
+}
+
+/// The head of a function; an argument that the body does not use is marked.
+pub(super) fn signature(visibility: &str, name: &str, arguments: &[(&str, &str)], result: &str, body: &str) -> String {
+    let mark = |name: &str| if contains_word(body, name) { name.to_owned() } else { format!("_{name}") };
+    let arguments: Vec<String> = arguments.iter().map(|(name, of)| format!("{}: {of}", mark(name))).collect();
+    let result = if result.is_empty() { String::new() } else { format!(" -> {result}") };
+    let line = format!("{visibility}fn {name}({}){result} {{\n", arguments.join(", "));
+    if line.len() <= LONGEST_LINE + 1 {
+        return line;
+    }
+    format!("{visibility}fn {name}(\n    {},\n){result} {{\n", arguments.join(",\n    "))
+}
+
+/// The values of an array, some on each line.
+pub(super) fn lines(values: &[String], indent: &str) -> String {
+    let lines: Vec<String> =
+        values.chunks(ON_A_LINE).map(|line| format!("{indent}    {},\n", line.join(", "))).collect();
+    lines.concat()
+}
+
+/// A constant array of numbers.
+pub(super) fn constant(docs: &str, name: &str, of: &str, length: &str, values: &[String]) -> String {
+    let docs = documented(docs, "");
+    if values.is_empty() {
+        return format!("{docs}const {name}: [{of}; {length}] = [];\n\n");
+    }
+    format!("{docs}#[rustfmt::skip]\nconst {name}: [{of}; {length}] = [\n{}];\n\n", lines(values, ""))
+}
+
+/// A text of Rust in which the lines between `//# if NAME` and `//# end` stay if that is wanted, `//# if !NAME` if not.
+pub(super) fn chosen(template: &str, wanted: &[(&str, bool)]) -> String {
+    let mut text = String::new();
+    let mut stays = Vec::new();
+    for line in template.lines() {
+        let trimmed = line.trim_start();
+        if let Some(name) = trimmed.strip_prefix("//# if ") {
+            let (name, sign) = name.strip_prefix('!').map_or((name, true), |name| (name, false));
+            stays.push(wanted.iter().any(|(known, is_wanted)| *known == name && *is_wanted == sign));
+        } else if trimmed == "//# end" {
+            stays.pop();
+        } else if stays.iter().all(|stays| *stays) {
+            text += line;
+            text.push('\n');
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{chosen, contains_word, signature};
+
+    #[test]
+    fn words_are_whole() {
+        assert!(contains_word("out[0] = q[1];", "q"));
+        assert!(!contains_word("out[0] = qd[1] + at.q[2];", "q"));
+        assert!(!contains_word("freq", "q"));
+    }
+
+    #[test]
+    fn what_is_not_used_is_marked_and_what_is_long_is_broken() {
+        assert_eq!(
+            signature("pub ", "f", &[("q", "f64"), ("t", "f64")], "f64", "t"),
+            "pub fn f(_q: f64, t: f64) -> f64 {\n"
+        );
+        let long = [
+            ("first", "&mut [f64; 12345678901234]"),
+            ("second", "&mut [f64; 123456789]"),
+            ("third", "&mut [f64; 12345678901234]"),
+        ];
+        assert!(signature("", "long", &long, "", "first second third").starts_with("fn long(\n    first: "));
+    }
+
+    #[test]
+    fn templates_keep_what_is_wanted() {
+        let template = "a\n//# if b\nb\n//# if !c\nbc\n//# end\n//# end\nd\n";
+        assert_eq!(chosen(template, &[("b", true), ("c", false)]), "a\nb\nbc\nd\n");
+        assert_eq!(chosen(template, &[("b", false), ("c", false)]), "a\nd\n");
+    }
+}
