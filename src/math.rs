@@ -8,6 +8,10 @@
 pub mod blocks;
 mod sin_cos;
 mod sin_cos_of_each;
+mod without_branches {
+    use super::sin_cos::{cos_near_zero, reduce_small, sin_near_zero};
+    include!("math/without_branches.rs");
+}
 
 pub use sin_cos::sin_cos;
 pub use sin_cos_of_each::sin_cos_of_each;

@@ -39,7 +39,7 @@ impl Emitted {
         let program = Program::new(system);
         let (motion, _) = mechc::motion(&self.determined, &program).expect("it assembles");
         let file = format!("{}.mech", self.name);
-        emit::rust(&Unit { system, program: &program, sources: &self.sources, file: &file, motion })
+        emit::rust(&Unit { system, program: &program, sources: &self.sources, file: &file, motion, lanes: None })
     }
 
     /// The rows of the interpreter, and whether it came to the end.

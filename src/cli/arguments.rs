@@ -169,7 +169,14 @@ pub(super) struct EmitArguments {
     /// What Rust code can do
     #[arg(long, value_enum, value_name = "WHAT", default_value = "solver")]
     pub with: Content,
+
+    /// Solve for N variants or times at once too, in vector instructions where the target has them
+    #[arg(long, value_name = "N", value_parser = lanes)]
+    pub lanes: Option<usize>,
 }
+
+/// More lanes than this do not stay near the processor.
+const MOST_LANES: usize = 256;
 
 #[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum EmitFormat {
@@ -309,6 +316,13 @@ pub(super) enum Format {
     Json,
     /// Apache Parquet: columns of 64-bit numbers
     Parquet,
+}
+
+fn lanes(text: &str) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(lanes) if (1..=MOST_LANES).contains(&lanes) => Ok(lanes),
+        _ => Err(format!("a whole number from 1 to {MOST_LANES} is wanted")),
+    }
 }
 
 fn positive(text: &str) -> Result<f64, String> {

@@ -40,7 +40,14 @@ fn rust(
         }
     };
     let sources = &reporter.sources;
-    Ok(emit::rust(&Unit { system: determined.system(), program: &program, sources, file, motion }))
+    Ok(emit::rust(&Unit {
+        system: determined.system(),
+        program: &program,
+        sources,
+        file,
+        motion,
+        lanes: arguments.lanes,
+    }))
 }
 
 fn too_large() -> Diagnostic {

@@ -4,15 +4,22 @@
 //! terms, `w`.
 
 use super::operations::{binary, unary};
-use super::text::{contains_word, documented, lines, literal, signature};
+use super::text::{LONGEST_LINE, contains_word, documented, lines, literal, signature};
 use crate::expr::Comparison;
 use crate::program::{self, Column, Register};
 use crate::solver::{Op, Segment, Tear};
-use rustc_hash::FxHashSet;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
 /// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
 const LONGEST_FUNCTION: usize = 2000;
+/// Of a loop over lanes, which is to become vector instructions.
+const LONGEST_LOOP: usize = 400;
+
+/// A parameter that is no longer than this needs no name of its own.
+const LONGEST_OPERAND: usize = 20;
+/// What functions of a module within the file are indented by.
+pub(super) const MODULE: &str = "    ";
 
 /// What operations are printed among.
 pub(super) trait Scene {
@@ -34,6 +41,10 @@ pub(super) trait Scene {
     fn act(&self, op: Op, value: &str) -> String;
     /// The line that watches a multiplier.
     fn watch(&self, weight: u32, value: &str) -> String;
+    /// Whether every number stands for several lanes, which loops go over.
+    fn has_lanes(&self) -> bool {
+        false
+    }
 }
 
 /// A value that a function is given.
@@ -54,6 +65,8 @@ pub(super) struct Function<'f> {
     pub arguments: Vec<(&'f str, String)>,
     /// What is written and returned.
     pub out: Out<'f>,
+    /// Columns that it will be indented by.
+    pub margin: usize,
 }
 
 /// Where a function leaves its results.
@@ -90,7 +103,7 @@ struct Piece<'c> {
 impl<'c> Code<'c> {
     /// The functions as text.
     pub fn print(&self, scene: &impl Scene, function: &Function<'_>) -> String {
-        let parts = self.parts();
+        let parts = self.parts(scene.has_lanes());
         let mut printer = Printer::new(self, scene, &parts);
         match parts.as_slice() {
             [Part::Straight(pieces)] => printer.alone(function, pieces),
@@ -103,13 +116,18 @@ impl<'c> Code<'c> {
         self.operations.iter().filter(|op| is_work(**op)).count()
     }
 
-    /// Cuts the segments into parts that are short enough.
-    fn parts(&self) -> Vec<Part<'c>> {
-        let mut cut = Cut { parts: Vec::new(), pieces: Vec::new(), length: 0 };
+    /// Cuts the segments into parts that are short enough; with lanes each loop is a part of its own.
+    fn parts(&self, has_lanes: bool) -> Vec<Part<'c>> {
+        let longest = if has_lanes { LONGEST_LOOP } else { LONGEST_FUNCTION };
+        let mut cut = Cut { parts: Vec::new(), pieces: Vec::new(), length: 0, longest };
         for segment in self.segments {
             match segment {
                 Segment::Once(range) => cut.straight(range.clone()),
+                Segment::Newton { operations, tears } if has_lanes => cut.push(operations.clone(), Some(tears)),
                 Segment::Newton { operations, tears } => cut.newton(operations.clone(), tears),
+            }
+            if has_lanes {
+                cut.close();
             }
         }
         cut.close();
@@ -125,20 +143,21 @@ struct Cut<'c> {
     parts: Vec<Part<'c>>,
     pieces: Vec<Piece<'c>>,
     length: usize,
+    longest: usize,
 }
 
 impl<'c> Cut<'c> {
     fn straight(&mut self, range: Range<usize>) {
         let mut from = range.start;
         while from < range.end {
-            let to = range.end.min(from + LONGEST_FUNCTION - self.length);
+            let to = range.end.min(from + self.longest - self.length);
             self.push(from..to, None);
             from = to;
         }
     }
 
     fn newton(&mut self, range: Range<usize>, tears: &'c [Tear]) {
-        if self.length + range.len() > LONGEST_FUNCTION {
+        if self.length + range.len() > self.longest {
             self.close();
         }
         if range.len() > LONGEST_FUNCTION {
@@ -153,7 +172,7 @@ impl<'c> Cut<'c> {
     fn push(&mut self, range: Range<usize>, tears: Option<&'c [Tear]>) {
         self.length += range.len();
         self.pieces.push(Piece { range, tears });
-        if self.length >= LONGEST_FUNCTION {
+        if self.length >= self.longest {
             self.close();
         }
     }
@@ -215,7 +234,8 @@ struct Printer<'p, S> {
     /// Columns of tables that it has built.
     built: FxHashSet<(u32, Column)>,
     count: usize,
-    guesses: usize,
+    /// By register: the number of the coordinate that Newton solves for there.
+    guessed: FxHashMap<Register, u32>,
 }
 
 impl<'p, S: Scene> Printer<'p, S> {
@@ -233,7 +253,7 @@ impl<'p, S: Scene> Printer<'p, S> {
             bindings: String::new(),
             built: FxHashSet::default(),
             count: 0,
-            guesses: 0,
+            guessed: FxHashMap::default(),
         };
         printer.find_homes(parts);
         printer
@@ -325,12 +345,17 @@ impl<'p, S: Scene> Printer<'p, S> {
     /// What an assignment to a register begins with, `let v3` or `w[5]`, the register being named so from now on.
     fn target(&mut self, register: Register, prefix: char) -> String {
         let (name, is_declared) = match self.homes[register as usize] {
-            Home::Term(place) => (format!("w[{place}]"), true),
+            Home::Term(place) => (self.term(place), true),
             Home::BeyondLoop { .. } => (self.fresh(register, prefix), true),
             Home::Given | Home::Local { .. } => (self.fresh(register, prefix), false),
         };
         self.names[register as usize] = Some(name.clone());
         if is_declared { name } else { format!("let {name}") }
+    }
+
+    /// A place among the terms.
+    fn term(&self, place: u32) -> String {
+        if self.scene.has_lanes() { format!("w[{place}][k]") } else { format!("w[{place}]") }
     }
 
     fn fresh(&mut self, register: Register, prefix: char) -> String {
@@ -361,8 +386,15 @@ impl<'p, S: Scene> Printer<'p, S> {
             arguments.push(("out", format!("&mut {of}")));
             given += "&mut out, ";
         }
-        arguments.push(("w", format!("&mut [f64; {}]", self.terms)));
-        let mut written = Parts { name: function.name, arguments: &arguments, text: String::new(), count: 0 };
+        let (of, zero) = if self.scene.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
+        arguments.push(("w", format!("&mut [{of}; {}]", self.terms)));
+        let mut written = Parts {
+            name: function.name,
+            arguments: &arguments,
+            margin: function.margin,
+            text: String::new(),
+            count: 0,
+        };
         let mut calls = String::new();
         for part in parts {
             let body = match part {
@@ -376,9 +408,11 @@ impl<'p, S: Scene> Printer<'p, S> {
                     self.around(tears, &inner)
                 }
             };
-            calls += &format!("    {}({given}&mut w);\n", written.add(&body));
+            if !body.is_empty() {
+                calls += &format!("    {}({given}&mut w);\n", written.add(&body));
+            }
         }
-        let terms = format!("    let mut w = [0.0; {}];\n", self.terms);
+        let terms = format!("    let mut w = [{zero}; {}];\n", self.terms);
         let (body, result) = match function.out {
             Out::Given { begin } => (format!("    {begin}\n{terms}{calls}"), ""),
             Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
@@ -394,7 +428,17 @@ impl<'p, S: Scene> Printer<'p, S> {
         let mut text = String::new();
         for piece in pieces {
             match piece.tears {
+                Some(tears) if self.scene.has_lanes() => self.newton_of_lanes(piece.range.clone(), tears, &mut text),
                 Some(tears) => self.newton(piece.range.clone(), tears, &mut text),
+                None if self.scene.has_lanes() => {
+                    let mut body = String::new();
+                    for at in piece.range.clone() {
+                        self.operation(self.operations[at], "        ", &mut body);
+                    }
+                    if !body.is_empty() {
+                        text += &format!("    for k in 0..LANES {{\n{body}    }}\n");
+                    }
+                }
                 None => {
                     for at in piece.range.clone() {
                         self.operation(self.operations[at], "    ", &mut text);
@@ -421,6 +465,36 @@ impl<'p, S: Scene> Printer<'p, S> {
             }
         }
         *text += &self.around(tears, &body);
+    }
+
+    /// Newton in all lanes.
+    fn newton_of_lanes(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
+        let (mut before, mut after) = (String::new(), String::new());
+        let mut places = Vec::new();
+        for (number, tear) in tears.iter().enumerate() {
+            let (place, cell) = (self.value(tear.x), literal(tear.cell));
+            let name = format!("x{}", number + 1);
+            before += &format!("            let mut {name} = on_grid({place}, {cell});\n");
+            places.push(place);
+            self.names[tear.x as usize] = Some(name);
+        }
+        let mut body = String::new();
+        for at in range {
+            self.operation(self.operations[at], "            ", &mut body);
+        }
+        for (tear, place) in tears.iter().zip(places) {
+            let (x, delta) = (self.value(tear.x), self.value(tear.delta));
+            let number = self.guessed.get(&tear.x).copied().unwrap_or(0);
+            let sizes = format!("TEAR_CELLS[{number}], TEAR_SCALES[{number}]");
+            after += &format!("            newton.correct(k, &mut {x}, {delta}, {sizes});\n");
+            after += &format!("            {place} = {x};\n");
+            self.names[tear.x as usize] = Some(place);
+        }
+        *text += &format!(
+            "    let mut newton = Settling::new();\n    for _ in 0..ITERATIONS {{\n        newton.begin();\n        \
+             for k in 0..LANES {{\n{before}{body}{after}        }}\n        \
+             if newton.is_done() {{\n            break;\n        }}\n    }}\n    newton.note(at);\n"
+        );
     }
 
     /// A loop around a body.
@@ -477,11 +551,18 @@ impl<'p, S: Scene> Printer<'p, S> {
                 return;
             }
             Op::Load { to, from } => {
-                self.names[to as usize] = Some(self.scene.load(from));
+                let value = self.scene.load(from);
+                if value.len() > LONGEST_OPERAND {
+                    self.count += 1;
+                    let target = self.target(to, 'v');
+                    *text += &format!("{indent}{target} = {value};\n");
+                } else {
+                    self.names[to as usize] = Some(value);
+                }
                 return;
             }
             Op::Time { to } => {
-                self.names[to as usize] = Some("t".to_owned());
+                self.names[to as usize] = Some(if self.scene.has_lanes() { "t[k]" } else { "t" }.to_owned());
                 return;
             }
             Op::Column { to, column } => {
@@ -508,11 +589,21 @@ impl<'p, S: Scene> Printer<'p, S> {
         }
         self.count += 1;
         let target = self.target(writes[0], 'v');
-        *text += &format!("{indent}{target} = {expression};\n");
+        *text += &self.assigned(indent, &target, &expression);
         if let Op::Multiplier { weight, .. } = op {
             let value = self.value(writes[0]);
             *text += &format!("{indent}{}\n", self.scene.watch(weight, &value));
         }
+    }
+
+    /// An assignment, on two lines if it is too long for one.
+    fn assigned(&self, indent: &str, target: &str, expression: &str) -> String {
+        let line = format!("{indent}{target} = {expression};\n");
+        let margin = if self.scene.has_lanes() { MODULE.len() } else { 0 };
+        if line.len() + margin <= LONGEST_LINE + 1 {
+            return line;
+        }
+        format!("{indent}{target} =\n{indent}    {expression};\n")
     }
 
     /// Another name for the same value; where a later function needs it, a place among the terms.
@@ -527,12 +618,14 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     /// Where Newton begins with a coordinate.
     fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
-        self.guesses += 1;
+        self.guessed.insert(to, tear);
+        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
         if let Home::Term(place) = self.homes[to as usize] {
-            self.names[to as usize] = Some(format!("w[{place}]"));
-            *text += &format!("{indent}w[{place}] = guess[{tear}];\n");
+            let term = self.term(place);
+            *text += &format!("{indent}{term} = guess[{tear}]{lane};\n");
+            self.names[to as usize] = Some(term);
         } else {
-            let name = format!("x{}", self.guesses);
+            let name = format!("x{}", self.guessed.len());
             *text += &format!("{indent}let mut {name} = guess[{tear}];\n");
             self.names[to as usize] = Some(name);
         }
@@ -541,22 +634,31 @@ impl<'p, S: Scene> Printer<'p, S> {
     fn pair(&mut self, sin: Register, cos: Register, a: Register, indent: &str, text: &mut String) {
         let a = self.value(a);
         self.count += 1;
+        if self.scene.has_lanes() {
+            *text += &format!("{indent}at.watch(k, {a}, 1e-6);\n");
+        }
+        let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
         let target = |printer: &mut Self, register: Register, prefix: char| {
             if printer.is_read[register as usize] { printer.target(register, prefix) } else { "let _".to_owned() }
         };
         let targets = [target(self, sin, 's'), target(self, cos, 'c')];
         *text += &match targets.each_ref().map(|target| target.strip_prefix("let ")) {
-            [Some(sin), Some(cos)] => format!("{indent}let ({sin}, {cos}) = sin_cos({a});\n"),
-            [None, None] => format!("{indent}({}, {}) = sin_cos({a});\n", targets[0], targets[1]),
+            [Some(sin), Some(cos)] => format!("{indent}let ({sin}, {cos}) = {sin_cos}({a});\n"),
+            [None, None] => format!("{indent}({}, {}) = {sin_cos}({a});\n", targets[0], targets[1]),
             _ => {
                 let name = format!("pair{}", self.count);
                 format!(
-                    "{indent}let {name} = sin_cos({a});\n{indent}{} = {name}.0;\n{indent}{} = {name}.1;\n",
+                    "{indent}let {name} = {sin_cos}({a});\n{indent}{} = {name}.0;\n{indent}{} = {name}.1;\n",
                     targets[0], targets[1]
                 )
             }
         };
     }
+}
+
+/// The size of a value.
+pub(super) fn absolute(value: &str) -> String {
+    if value.starts_with('-') { format!("({value}).abs()") } else { format!("{value}.abs()") }
 }
 
 /// The names of arguments, as they are handed on.
@@ -568,13 +670,14 @@ fn names(arguments: &[(&str, String)]) -> String {
 fn head(function: &Function<'_>, result: &str, body: &str) -> String {
     let arguments: Vec<(&str, &str)> = function.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
     let visibility = if function.is_public { "pub " } else { "" };
-    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, body)
+    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, body, function.margin)
 }
 
 /// The functions that a long one is cut into.
 struct Parts<'p> {
     name: &'p str,
     arguments: &'p [(&'p str, String)],
+    margin: usize,
     text: String,
     count: usize,
 }
@@ -586,7 +689,7 @@ impl Parts<'_> {
         let name = format!("{}_{}", self.name, self.count);
         let types: Vec<(&str, &str)> = self.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
         self.text += &format!("/// Part {} of [`{}`].\n", self.count, self.name);
-        self.text += &(signature("", &name, &types, "", body) + body + "}\n\n");
+        self.text += &(signature("", &name, &types, "", body, self.margin) + body + "}\n\n");
         name
     }
 }

@@ -76,6 +76,7 @@ impl Equations<'_> {
             is_public: wanted.is_public,
             arguments,
             out: Out::List { of: &result, first: &first },
+            margin: 0,
         };
         code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function)
     }

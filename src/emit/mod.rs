@@ -35,6 +35,8 @@ pub struct Unit<'u> {
     pub file: &'u str,
     /// What solves it, if that is wanted.
     pub motion: Option<Motion>,
+    /// How many lanes are solved at once, beside one at a time.
+    pub lanes: Option<usize>,
 }
 
 /// What it takes to follow the motion from the assembled start.

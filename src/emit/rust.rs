@@ -1,11 +1,12 @@
 //! A mechanism as one Rust file: its equations, and what solves them.
 
 use super::Unit;
+use super::code::MODULE;
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Namer, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
-use super::text::{chosen, is_called, lines, literal, one_line};
+use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::ir::{Measure, Owner};
 use crate::program::{Column, Register};
 use crate::solver::RowLayout;
@@ -19,6 +20,8 @@ const STATE: &str = include_str!("runtime/state.rs");
 const SOLVER: &str = include_str!("runtime/solver.rs");
 const SIDES: &str = include_str!("runtime/sides.rs");
 const MOTION: &str = include_str!("runtime/motion.rs");
+const LANES: &str = include_str!("runtime/lanes.rs");
+const WITHOUT_BRANCHES: &str = include_str!("../math/without_branches.rs");
 const FUNCTIONS: &str = include_str!("runtime/functions.rs");
 
 /// Systems up to this many coordinates get their Jacobian as a full matrix too.
@@ -326,7 +329,7 @@ impl Writer<'_> {
         let of_time = switches.iter().any(|switch| switch.on_time);
         let has_motion = switches.iter().any(|switch| !switch.on_time);
         let conditions = self.conditions();
-        let solve = solution.function();
+        let solve = solution.function(false);
         let wanted = [
             ("bodies", !system.bodies.is_empty()),
             ("measures", !system.measures.is_empty()),
@@ -346,7 +349,9 @@ impl Writer<'_> {
         ];
         let columns = RowLayout::new(system).printed;
         let mut text = format!("/// Number of results at a time.\npub const COLUMNS: usize = {columns};\n\n");
-        text += &(chosen(STATE, &wanted) + "\n" + &solution.constants(&solve));
+        text += &(chosen(STATE, &wanted)
+            + "\n"
+            + &solution.constants(&solve, self.unit.lanes.is_some() && solution.has_newton()));
         if !system.measures.is_empty() {
             text += MEASURES_IN_SOLUTION;
         }
@@ -366,6 +371,9 @@ impl Writer<'_> {
             text += BLOCKS;
             text += "\n}\n\n";
         }
+        if let Some(lanes) = self.unit.lanes {
+            text += &self.lanes(solution, lanes, &wanted);
+        }
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
         for name in ["phi_q", "phi", "nu", "gamma", "jerk"] {
             text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
@@ -375,6 +383,21 @@ impl Writer<'_> {
         let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
         text.replace("$sides_argument", argument).replace("$sides", sides).replace("$qddd", qddd)
             + &self.frozen(solution)
+    }
+
+    /// The module for several lanes.
+    fn lanes(&self, solution: &Solution<'_>, lanes: usize, wanted: &[(&str, bool)]) -> String {
+        let solve = solution.function(true);
+        let (system, switches) = (self.unit.system, self.unit.program.switches());
+        let checks = !switches.is_empty() || !system.watches.is_empty() || wanted.contains(&("conditions", true));
+        let more = [("checks", checks), ("watched", solve.contains("at.watch("))];
+        let wanted: Vec<(&str, bool)> = wanted.iter().copied().chain(more).collect();
+        let tears: Vec<String> = solution.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
+        let template = chosen(LANES, &wanted)
+            .replace("$lanes", &lanes.to_string())
+            .replace("$lane_sides", if self.has_sides() { ", &states.sides" } else { "" })
+            .replace("$lane_tears", &format!("[{}]", tears.join(", ")));
+        template + indented(&solve, MODULE).trim_end() + "\n}\n\n"
     }
 
     /// The parameters with what follows from them.
@@ -612,6 +635,12 @@ fn helpers(body: &str) -> String {
         // as the interpreter has it, to the letter
         text += "use sine_and_cosine::sin_cos;\n\n#[rustfmt::skip]\nmod sine_and_cosine {\n\n";
         text += SIN_COS;
+        text += "\n}\n";
+    }
+    if is_called(body, "sin_cos_below_a_million") {
+        text += "\nuse without_branches::sin_cos_below_a_million;\n\n#[rustfmt::skip]\nmod without_branches {\n";
+        text += "use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n\n";
+        text += WITHOUT_BRANCHES;
         text += "\n}\n";
     }
     text

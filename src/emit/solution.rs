@@ -1,12 +1,12 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::code::{Code, Function, Input, Out, Scene, column_of};
+use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute, column_of};
 use super::equations::Equations;
 use super::names::Names;
 use super::text::{constant, documented, lines, literal};
 use super::{Motion, Unit};
 use crate::program::{Column, Register};
-use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout};
+use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment};
 use rustc_hash::FxHashMap;
 
 /// Steps over the whole span at least, as those of the interpreter.
@@ -74,8 +74,8 @@ impl<'s> Solution<'s> {
         registers.into_iter().map(|(_, register)| register).collect()
     }
 
-    /// The function.
-    pub fn function(&self) -> String {
+    /// The function, for one mechanism or for several lanes.
+    pub fn function(&self, has_lanes: bool) -> String {
         let solver = &self.motion.solver;
         let code =
             Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
@@ -91,28 +91,52 @@ impl<'s> Solution<'s> {
         } else {
             format!("Newton begins with a guess of {}{more}; all else follows.", names.join(", "))
         };
-        let mut arguments =
-            vec![("guess", "&[f64; TEARS]".to_owned()), ("t", "f64".to_owned()), ("m", "&Model".to_owned())];
-        if !self.equations.sides.is_empty() {
-            arguments.push(("sides", "&Sides".to_owned()));
-        }
-        arguments.push(("at", "&mut Solution".to_owned()));
+        let types = if has_lanes {
+            ["&[Each; TEARS]", "&Each", "&[Model; LANES]", "&[Sides; LANES]", "&mut Solutions"]
+        } else {
+            ["&[f64; TEARS]", "f64", "&Model", "&Sides", "&mut Solution"]
+        };
+        let has_sides = !self.equations.sides.is_empty();
+        let names = ["guess", "t", "m", "sides", "at"].into_iter().zip(types);
+        let arguments =
+            names.filter(|(name, _)| has_sides || *name != "sides").map(|(name, of)| (name, of.to_owned())).collect();
         let function = Function {
             name: "solve",
             docs: wrapped(&format!(
-                "Position, velocity and acceleration at a time. {how}\n\n{} operations.",
-                code.count()
+                "Position, velocity and acceleration {}. {how}\n\n{} operations{}.",
+                if has_lanes { "in every lane" } else { "at a time" },
+                code.count(),
+                if has_lanes { " a lane" } else { "" },
             )),
             is_public: false,
             arguments,
             out: Out::Given { begin: "at.begin(t);" },
+            margin: if has_lanes { MODULE.len() } else { 0 },
         };
         let layout = *solver.layout();
-        code.print(&SolverScene { solution: self, layout }, &function)
+        code.print(&SolverScene { solution: self, layout, has_lanes }, &function)
+    }
+
+    /// By coordinate that Newton solves for: the width of a cell of its grid.
+    fn cells(&self) -> Vec<f64> {
+        let solver = &self.motion.solver;
+        let mut cell_of: FxHashMap<Register, f64> = FxHashMap::default();
+        for segment in solver.segments() {
+            if let Segment::Newton { tears, .. } = segment {
+                cell_of.extend(tears.iter().map(|tear| (tear.x, tear.cell)));
+            }
+        }
+        let mut cells = vec![0.0; solver.tears().len()];
+        for op in solver.all_operations() {
+            if let Op::Curve { to, tear } = op {
+                cells[*tear as usize] = cell_of.get(to).copied().unwrap_or(0.0);
+            }
+        }
+        cells
     }
 
     /// The constants that the functions of the motion use.
-    pub fn constants(&self, solve: &str) -> String {
+    pub fn constants(&self, solve: &str, has_lanes: bool) -> String {
         let Motion { solver, q, from, to, .. } = self.motion;
         let (n, tears) = (q.len(), solver.tears());
         let coordinates = &self.unit.system.coordinates;
@@ -157,6 +181,15 @@ impl<'s> Solution<'s> {
             "TEARS",
             &numbers(&mut tears.iter().map(|&tear| coordinates[tear as usize].scale)),
         );
+        if has_lanes {
+            text += &constant(
+                "The width of a cell of the grid of each of them.",
+                "TEAR_CELLS",
+                "f64",
+                "TEARS",
+                &numbers(&mut self.cells().into_iter()),
+            );
+        }
         text += &constant(
             "What a change of each coordinate is judged against.",
             "SCALES",
@@ -238,9 +271,15 @@ pub(super) fn wrapped(text: &str) -> String {
 struct SolverScene<'s> {
     solution: &'s Solution<'s>,
     layout: RowLayout,
+    has_lanes: bool,
 }
 
 impl SolverScene<'_> {
+    /// What picks a lane.
+    fn lane(&self) -> &'static str {
+        if self.has_lanes { "[k]" } else { "" }
+    }
+
     /// The kind of a column, its order and its number there.
     fn kind(&self, column: u32) -> (bool, usize, usize) {
         let n = self.solution.unit.program.inputs.n;
@@ -265,18 +304,24 @@ impl Scene for SolverScene<'_> {
 
     fn load(&self, register: Register) -> String {
         if let Some(place) = self.solution.known.get(&register) {
-            return format!("m.known[{place}]");
+            return format!("m{}.known[{place}]", self.lane());
         }
         match self.solution.equations.input(register) {
-            Input::Bound { value, .. } => format!("m.{}", value.replacen("p.", "params.", 1)),
+            Input::Bound { value, .. } => format!("m{}.{}", self.lane(), value.replacen("p.", "params.", 1)),
+            Input::Text(text) if text.starts_with("sides") => {
+                text.replacen("sides", &format!("sides{}", self.lane()), 1)
+            }
             Input::Text(text) => text,
         }
     }
 
     fn place(&self, column: u32) -> String {
         match self.kind(column) {
-            (true, order, k) => format!("at.{}[{k}]", super::equations::ARRAYS[order]),
-            (false, order, k) => format!("at.measures.{}[{k}]", ["values", "rates", "accelerations"][order]),
+            (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
+            (false, order, k) => {
+                let of = if self.has_lanes { "" } else { "measures." };
+                format!("at.{of}{}[{k}]{}", ["values", "rates", "accelerations"][order], self.lane())
+            }
         }
     }
 
@@ -289,7 +334,8 @@ impl Scene for SolverScene<'_> {
     }
 
     fn table(&self, table: u32, column: Column) -> String {
-        self.solution.column(table, column)
+        let column = self.solution.column(table, column);
+        column.strip_prefix("m.").map_or(column.clone(), |known| format!("m{}.{known}", self.lane()))
     }
 
     fn cells(&self, _: u32, _: Column) -> Vec<Register> {
@@ -310,26 +356,35 @@ impl Scene for SolverScene<'_> {
     }
 
     fn act(&self, op: Op, value: &str) -> String {
-        match op {
-            Op::Pivot { pivot, .. } => {
-                let pivot = self.solution.motion.solver.pivots()[pivot as usize];
-                format!("at.pivot({}, {value}, {});", pivot.turn, literal(pivot.weight))
+        let Motion { solver, bounds, .. } = self.solution.motion;
+        match (op, self.has_lanes) {
+            (Op::Pivot { pivot, .. }, has_lanes) => {
+                let pivot = solver.pivots()[pivot as usize];
+                let lane = if has_lanes { "k, " } else { "" };
+                format!("at.pivot({lane}{}, {value}, {});", pivot.turn, literal(pivot.weight))
             }
-            Op::Residual { row, .. } => {
-                let bound = literal(self.solution.motion.bounds[row as usize]);
-                format!("at.holds &= {}.abs() <= {bound};", parenthesized(value))
+            (Op::Residual { row, .. }, false) => {
+                format!("at.holds &= {} <= {};", absolute(value), literal(bounds[row as usize]))
             }
+            (Op::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
             _ => String::new(),
         }
     }
 
     fn watch(&self, weight: u32, value: &str) -> String {
-        let weight = literal(self.solution.motion.solver.weight(weight));
-        format!("at.holds &= {value}.abs() * {weight} <= LARGEST_MULTIPLIER;")
+        let weight = self.solution.motion.solver.weight(weight);
+        if self.has_lanes {
+            return strain(value, weight / LARGEST_MULTIPLIER);
+        }
+        format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+    }
+
+    fn has_lanes(&self) -> bool {
+        self.has_lanes
     }
 }
 
-/// A value that a method can be called on.
-fn parenthesized(value: &str) -> String {
-    if value.starts_with('-') { format!("({value})") } else { value.to_owned() }
+/// The line that watches a value of a lane, which must not be above 1 when it is multiplied by a factor.
+fn strain(value: &str, factor: f64) -> String {
+    format!("at.watch(k, {value}, {});", literal(factor))
 }

@@ -43,13 +43,25 @@ pub(super) fn is_called(text: &str, function: &str) -> bool {
     text.match_indices(&format!("{function}(")).any(|(at, _)| !text[..at].ends_with(is_part))
 }
 
-/// The head of a function; an argument that the body does not use is marked.
-pub(super) fn signature(visibility: &str, name: &str, arguments: &[(&str, &str)], result: &str, body: &str) -> String {
+/// Text some columns to the right.
+pub(super) fn indented(text: &str, by: &str) -> String {
+    text.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("{by}{line}\n") }).collect()
+}
+
+/// The head of a function that will stand some columns to the right; an argument that the body does not use is marked.
+pub(super) fn signature(
+    visibility: &str,
+    name: &str,
+    arguments: &[(&str, &str)],
+    result: &str,
+    body: &str,
+    margin: usize,
+) -> String {
     let mark = |name: &str| if contains_word(body, name) { name.to_owned() } else { format!("_{name}") };
     let arguments: Vec<String> = arguments.iter().map(|(name, of)| format!("{}: {of}", mark(name))).collect();
     let result = if result.is_empty() { String::new() } else { format!(" -> {result}") };
     let line = format!("{visibility}fn {name}({}){result} {{\n", arguments.join(", "));
-    if line.len() <= LONGEST_LINE + 1 {
+    if line.len() + margin <= LONGEST_LINE + 1 {
         return line;
     }
     format!("{visibility}fn {name}(\n    {},\n){result} {{\n", arguments.join(",\n    "))
@@ -104,7 +116,7 @@ mod tests {
     #[test]
     fn what_is_not_used_is_marked_and_what_is_long_is_broken() {
         assert_eq!(
-            signature("pub ", "f", &[("q", "f64"), ("t", "f64")], "f64", "t"),
+            signature("pub ", "f", &[("q", "f64"), ("t", "f64")], "f64", "t", 0),
             "pub fn f(_q: f64, t: f64) -> f64 {\n"
         );
         let long = [
@@ -112,7 +124,7 @@ mod tests {
             ("second", "&mut [f64; 123456789]"),
             ("third", "&mut [f64; 12345678901234]"),
         ];
-        assert!(signature("", "long", &long, "", "first second third").starts_with("fn long(\n    first: "));
+        assert!(signature("", "long", &long, "", "first second third", 0).starts_with("fn long(\n    first: "));
     }
 
     #[test]

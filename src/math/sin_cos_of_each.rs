@@ -1,6 +1,7 @@
 //! Sine and cosine of several angles at once.
 
-use super::sin_cos::{cos_near_zero, reduce_small, sin_cos, sin_near_zero};
+use super::sin_cos::sin_cos;
+use super::without_branches::sin_cos_below_a_million;
 
 /// Sine and cosine of several angles (rad): the same bits as of each alone.
 #[must_use]
@@ -16,18 +17,6 @@ pub fn sin_cos_of_each<const W: usize>(angles: &[f64; W]) -> ([f64; W], [f64; W]
         }
     }
     (sines, cosines)
-}
-
-/// As [`sin_cos`] for angles below a million, without a branch, so that a loop over many does several at once.
-#[inline]
-fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
-    let (quarter, r, tail) = reduce_small(angle);
-    let (sin, cos) = (sin_near_zero(r, tail).to_bits(), cos_near_zero(r, tail).to_bits());
-    // an odd quarter exchanges them, the second and third turn the sine's sign, the first and second the cosine's
-    let odd = (quarter & 1).wrapping_neg();
-    let (first, second) = ((sin & !odd) | (cos & odd), (cos & !odd) | (sin & odd));
-    let turned = |quarter: u64| (quarter & 2) << 62;
-    (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
 }
 
 #[cfg(test)]

@@ -2,6 +2,9 @@
 /// lanes that a compiler turns into vector instructions. Each lane has the bits that it would have
 /// alone.
 pub mod lanes {
+    // what is done in every lane reads best, and vectorises best, with the lane's number
+    #![allow(clippy::needless_range_loop)]
+
     use super::*;
 
     /// Lanes that are worked on together.
@@ -14,9 +17,10 @@ pub mod lanes {
     #[derive(Clone, Debug)]
     pub struct States {
         models: [Model; LANES],
-        now: Solutions,
-        /// The solutions before, or the next ones in the making.
-        other: Solutions,
+        /// The solutions of now and the ones before, or the next ones in the making.
+        solutions: [Solutions; 2],
+        /// Whether those of now are the second.
+        is_second: bool,
         is_smooth: [bool; LANES],
         step: Each,
 //# if sides
@@ -28,28 +32,50 @@ pub mod lanes {
     }
 
     impl States {
+        /// The solutions of now.
+        fn now(&self) -> &Solutions {
+            let [first, second] = &self.solutions;
+            if self.is_second { second } else { first }
+        }
+
+        /// The ones before, or the next ones in the making.
+        fn other(&self) -> &Solutions {
+            let [first, second] = &self.solutions;
+            if self.is_second { first } else { second }
+        }
+
+        /// Both, to be changed: those of now, and the others.
+        fn both(&mut self) -> (&mut Solutions, &mut Solutions) {
+            let [first, second] = &mut self.solutions;
+            if self.is_second {
+                (second, first)
+            } else {
+                (first, second)
+            }
+        }
+
         /// The times (s).
         #[must_use]
         pub fn t(&self) -> &Each {
-            &self.now.t
+            &self.now().t
         }
 
         /// The coordinates (m, rad), by the indices in [`coordinate`].
         #[must_use]
         pub fn q(&self) -> &[Each; N] {
-            &self.now.q
+            &self.now().q
         }
 
         /// Their velocities (m/s, rad/s).
         #[must_use]
         pub fn qd(&self) -> &[Each; N] {
-            &self.now.qd
+            &self.now().qd
         }
 
         /// Their accelerations (m/s^2, rad/s^2).
         #[must_use]
         pub fn qdd(&self) -> &[Each; N] {
-            &self.now.qdd
+            &self.now().qdd
         }
 
         /// A lane on its own; none where there is no such lane.
@@ -60,17 +86,19 @@ pub mod lanes {
 
         /// A lane, which is below [`LANES`], on its own.
         fn lane(&self, k: usize) -> State {
-            let mut at = self.now.lane(k);
-            let mut before = self.other.lane(k);
+            let mut solutions = [self.now().lane(k), self.other().lane(k)];
+            for at in &mut solutions {
+                at.is_settled = true;
 //# if sides
-            (at.sides, before.sides) = (self.sides[k], self.sides[k]);
+                at.sides = self.sides[k];
 //# end
 //# if watches
-            (at.watched, before.watched) = (self.watched[k], self.watched[k]);
+                at.watched = self.watched[k];
 //# end
+            }
             State {
                 model: self.models[k].clone(),
-                solutions: [at, before],
+                solutions,
                 is_second: false,
                 is_smooth: self.is_smooth[k],
                 step: self.step[k],
@@ -81,7 +109,7 @@ pub mod lanes {
         fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
             let mut state = self.lane(k);
             let result = step(t, &mut state);
-            self.other.set_lane(k, state.at());
+            self.both().1.set_lane(k, state.at());
             self.is_smooth[k] = false;
             self.step[k] = state.step;
 //# if sides
@@ -99,11 +127,16 @@ pub mod lanes {
     /// # Errors
     /// The first lane that cannot be assembled, and why.
     pub fn assemble(params: &[Params; LANES]) -> Result<States, (usize, Error)> {
+//# if params
         let one = super::assemble(&Params::default()).map_err(|error| (0, error))?;
+//# end
+//# if !params
+        let one = super::assemble(&Params).map_err(|error| (0, error))?;
+//# end
         let mut states = States {
             models: core::array::from_fn(|_| one.model.clone()),
-            now: Solutions::ZERO,
-            other: Solutions::ZERO,
+            solutions: [Solutions::ZERO, Solutions::ZERO],
+            is_second: false,
             is_smooth: [false; LANES],
             step: [LONGEST_STEP; LANES],
 //# if sides
@@ -115,7 +148,7 @@ pub mod lanes {
         };
         for (k, params) in params.iter().enumerate() {
             let state = super::assemble(params).map_err(|error| (k, error))?;
-            states.now.set_lane(k, state.at());
+            states.both().0.set_lane(k, state.at());
             if let Some(model) = states.models.get_mut(k) {
                 *model = state.model.clone();
             }
@@ -146,18 +179,27 @@ pub mod lanes {
                 results[k] = states.alone(k, t[k]);
             }
         }
-        core::mem::swap(&mut states.now, &mut states.other);
+        states.is_second = !states.is_second;
         results
     }
 
     /// Tries one step of every lane; says which ones have got there.
     fn advance(t: &Each, states: &mut States) -> [bool; LANES] {
-        let (from, at) = (&states.now, &mut states.other);
+        let [first, second] = &mut states.solutions;
+        let (from, at) = if states.is_second {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        let from = &*from;
         let mut h = [0.0; LANES];
+        for k in 0..LANES {
+            h[k] = t[k] - from.t[k];
+        }
+//# if newton
         let mut back = [0.0; LANES];
         let mut u = [0.0; LANES];
         for k in 0..LANES {
-            h[k] = t[k] - from.t[k];
             back[k] = from.t[k] - at.t[k];
             let ratio = h[k] / back[k];
             let is_known = states.is_smooth[k] && ratio.abs() <= FARTHEST_BEND;
@@ -184,8 +226,12 @@ pub mod lanes {
                 motion[k] = larger(motion[k], way.abs() / TEAR_SCALES[i]);
             }
         }
-        at.begin(t);
+//# end
+//# if !newton
+        let guess = [];
+//# end
         solve(&guess, t, &states.models$lane_sides, at);
+//# if newton
         let mut gap = [0.0; LANES];
         let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
         for i in 0..TEARS {
@@ -196,27 +242,39 @@ pub mod lanes {
                 gap[k] = larger(gap[k], gap_here.abs() / TEAR_SCALES[i]);
             }
         }
+//# end
         let is_finite = at.are_finite();
         let mut is_done = [false; LANES];
         for k in 0..LANES {
-            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
-            let is_solved = at.open[k] <= HALF_A_CELL && at.strain[k] <= 1.0 && is_finite[k];
-            let is_same = gap[k] <= LARGEST_GAP && at.steepest[k] <= STEEP;
             let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
-            is_done[k] = is_near && is_solved && is_same && is_short;
+            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP && is_finite[k];
+            is_done[k] = is_solved && is_short;
         }
+//# if newton
+        for k in 0..LANES {
+            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
+            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
+        }
+//# end
+//# if pivots
         for i in 0..TURNS {
             for k in 0..LANES {
                 is_done[k] &= (at.signs[i][k] ^ from.signs[i][k]) >> 63 == 0;
             }
         }
+//# end
         for k in 0..LANES {
 //# if checks
             is_done[k] = is_done[k] && keeps_branch(k, states);
 //# end
             if is_done[k] {
-                let first = states.other.first[k];
+//# if newton
+                let first = states.other().first[k];
                 let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
+//# end
+//# if !newton
+                let is_calm = true;
+//# end
                 let size = h[k].abs();
                 let longest = if is_calm { 2.0 * size } else { 0.0 };
                 let shortest = if is_calm { states.step[k] } else { size };
@@ -230,7 +288,7 @@ pub mod lanes {
 
     /// Whether a lane's next solution lies on the branches of formulas that it comes from.
     fn keeps_branch(k: usize, states: &States) -> bool {
-        let (model, at) = (&states.models[k], states.other.lane(k));
+        let (model, at) = (&states.models[k], states.other().lane(k));
         let t = at.t;
 //# if sides
         let sides = &states.sides[k];
@@ -324,7 +382,8 @@ pub mod lanes {
                 }
             }
 //# if measures
-            for each in self.values.iter().chain(&self.rates).chain(&self.accelerations) {
+            let rates = self.rates.iter().chain(&self.accelerations);
+            for each in self.values.iter().chain(rates) {
                 for k in 0..LANES {
                     sum[k] += 0.0 * each[k];
                 }
@@ -333,47 +392,140 @@ pub mod lanes {
             sum.map(|sum| sum == 0.0)
         }
 
-        /// A lane, which is below [`LANES`], on its own.
+        /// A lane on its own.
         fn lane(&self, k: usize) -> Solution {
             let mut at = Solution::ZERO;
-            at.t = self.t[k];
-            for i in 0..N {
-                (at.q[i], at.qd[i], at.qdd[i]) = (self.q[i][k], self.qd[i][k], self.qdd[i][k]);
-            }
+            at.t = of(&self.t, k);
+            at.q = self.q.map(|each| of(&each, k));
+            at.qd = self.qd.map(|each| of(&each, k));
+            at.qdd = self.qdd.map(|each| of(&each, k));
 //# if measures
-            at.measures.values = self.values.map(|each| each[k]);
-            at.measures.rates = self.rates.map(|each| each[k]);
-            at.measures.accelerations = self.accelerations.map(|each| each[k]);
+            at.measures.values = self.values.map(|each| of(&each, k));
+            at.measures.rates = self.rates.map(|each| of(&each, k));
+            at.measures.accelerations = self.accelerations.map(|each| of(&each, k));
 //# end
-            at.is_negative = self.signs.map(|signs| signs[k] >> 63 == 1);
-            at.steepest = self.steepest[k];
+            for (is_negative, signs) in at.is_negative.iter_mut().zip(&self.signs) {
+                *is_negative = signs.get(k).is_some_and(|sign| sign >> 63 == 1);
+            }
+            at.steepest = of(&self.steepest, k);
             at
         }
 
         fn set_lane(&mut self, k: usize, at: &Solution) {
-            if k >= LANES {
-                return;
-            }
-            self.t[k] = at.t;
-            for i in 0..N {
-                (self.q[i][k], self.qd[i][k], self.qdd[i][k]) = (at.q[i], at.qd[i], at.qdd[i]);
+            let put = |each: &mut Each, value: f64| {
+                if let Some(place) = each.get_mut(k) {
+                    *place = value;
+                }
+            };
+            put(&mut self.t, at.t);
+            put(&mut self.steepest, at.steepest);
+            let all = self.q.iter_mut().chain(&mut self.qd).chain(&mut self.qdd);
+            let values = at.q.iter().chain(&at.qd).chain(&at.qdd);
+            for (each, value) in all.zip(values) {
+                put(each, *value);
             }
 //# if measures
-            let of = &at.measures;
-            for (each, value) in self.values.iter_mut().zip(of.values) {
-                each[k] = value;
+            for (each, value) in self.values.iter_mut().zip(at.measures.values) {
+                put(each, value);
             }
-            for (each, rate) in self.rates.iter_mut().zip(of.rates) {
-                each[k] = rate;
+            for (each, rate) in self.rates.iter_mut().zip(at.measures.rates) {
+                put(each, rate);
             }
-            for (each, acceleration) in self.accelerations.iter_mut().zip(of.accelerations) {
-                each[k] = acceleration;
+            for (each, value) in self.accelerations.iter_mut().zip(at.measures.accelerations) {
+                put(each, value);
             }
 //# end
             for (signs, is_negative) in self.signs.iter_mut().zip(at.is_negative) {
-                signs[k] = u64::from(is_negative) << 63;
+                if let Some(sign) = signs.get_mut(k) {
+                    *sign = u64::from(is_negative) << 63;
+                }
             }
-            self.steepest[k] = at.steepest;
+        }
+//# if watched
+
+        /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
+        #[inline]
+        fn watch(&mut self, k: usize, value: f64, factor: f64) {
+            self.strain[k] = larger(self.strain[k], value.abs() * factor);
+        }
+//# end
+//# if pivots
+
+        /// Takes note of one over a pivot, and of what makes that a pure number.
+        #[inline]
+        fn pivot(&mut self, k: usize, turn: usize, inverse: f64, weight: f64) {
+            self.signs[turn][k] ^= inverse.to_bits();
+            self.steepest[k] = larger(self.steepest[k], inverse.abs() * weight);
+        }
+//# end
+    }
+
+    /// The number of a lane.
+    fn of(each: &Each, k: usize) -> f64 {
+        each.get(k).copied().unwrap_or(f64::NAN)
+    }
+//# if newton
+
+    /// An iteration of Newton in every lane, until all have settled or are lost.
+    struct Settling {
+        is_first: bool,
+        first: Each,
+        far: Each,
+        open: Each,
+    }
+
+    impl Settling {
+        fn new() -> Self {
+            let zero = [0.0; LANES];
+            Self {
+                is_first: true,
+                first: zero,
+                far: zero,
+                open: zero,
+            }
+        }
+
+        fn begin(&mut self) {
+            self.open = [0.0; LANES];
+        }
+
+        /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
+        #[inline]
+        fn correct(&mut self, k: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+            let size = delta.abs();
+            self.far[k] = larger(self.far[k], size / scale);
+            self.open[k] = larger(self.open[k], size / cell);
+            *x += delta;
+        }
+
+        /// Whether no further iteration is needed, or none helps.
+        fn is_done(&mut self) -> bool {
+            if self.is_first {
+                self.first = self.far;
+                self.is_first = false;
+            }
+            let mut pairs = self.open.iter().zip(&self.far);
+            let is_lost = |far: f64| far.is_nan() || far > LARGEST_CORRECTION;
+            pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
+        }
+
+        /// Leaves word of how it went.
+        fn note(&self, at: &mut Solutions) {
+            for k in 0..LANES {
+                at.first[k] = larger(at.first[k], self.first[k]);
+                at.open[k] = larger(at.open[k], self.open[k]);
+                let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
+                at.strain[k] = larger(at.strain[k], lost);
+            }
         }
     }
+//# end
+//# if newton
+
+    /// Out of all coordinates those that Newton solves for.
+    #[rustfmt::skip]
+    fn tears(q: &[Each; N]) -> [Each; TEARS] {
+        $lane_tears
+    }
+//# end
 
