@@ -23,6 +23,8 @@ const MOST_THREADS: usize = 8;
 const SHORT: f64 = 1e-4;
 /// So many rows within a step show what its curve is worth.
 const ENOUGH: u64 = 4;
+/// A row that is solved for once more may change by so much, beside its size or 1.
+const REFINED: f64 = 1e-8;
 /// Steps that are tried behind a row that cannot be printed, to tell why.
 const STEPS_AHEAD: usize = 1_000;
 
@@ -232,9 +234,8 @@ impl Motion<'_, '_> {
                 return Ok(Place::Own);
             }
             if !self.may_leap() {
-                self.go_to(t)?;
                 // beside a bifurcation that is passed every digit counts
-                if !self.is_near {
+                if self.go_to(t)? && !self.is_near {
                     self.refine(t);
                 }
                 return Ok(Place::Own);
@@ -252,18 +253,20 @@ impl Motion<'_, '_> {
         Ok(())
     }
 
-    /// Steps to an output time on its own.
-    fn go_to(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    /// Steps to an output time on its own; says whether its row was solved for there, and not taken from the way over a singular
+    /// position.
+    fn go_to(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         while self.state.t < t {
             self.count_step(t)?;
             self.step_towards(t)?;
         }
         if let Some(row) = self.row_on_bridge(t) {
-            row?;
-        } else if !self.is_certain || self.is_near {
-            self.look_ahead(t)?;
+            return row.map(|()| false);
         }
-        Ok(())
+        if !self.is_certain || self.is_near {
+            return self.look_ahead(t);
+        }
+        Ok(true)
     }
 
     /// Whether a step may go over several output times: the state is clear of singular positions.
@@ -543,17 +546,19 @@ impl Motion<'_, '_> {
         let batch = Batch { times: [t], from: t, length: 1.0, curve: &rows.rest, bends: &[], bounds: &rows.bounds };
         let (program, registers) = self.kinematics.program();
         let [holds] = rows.alone.run(rows.solver, program, registers, &batch, &mut rows.alone_row);
-        if holds {
-            let printed = self.row.len();
-            self.row.copy_from_slice(&rows.alone_row[..printed]);
-            return;
-        }
-        if let Some(pivoting) = &mut rows.pivoting {
+        let printed = self.row.len();
+        let mut is_solved = holds;
+        if !holds && let Some(pivoting) = &mut rows.pivoting {
             self.trial.t = t;
             let n = self.trial.q.len();
             self.trial.q.copy_from_slice(&self.row[1..=n]);
-            self.kinematics.pivoted_row(pivoting, &mut self.trial, &mut self.row);
+            is_solved = self.kinematics.pivoted_row(pivoting, &mut self.trial, &mut rows.alone_row[..printed]);
             self.kinematics.restore(self.state);
+        }
+        let refined = &rows.alone_row[..printed];
+        // where both do not agree the position is too near to a singular one for the grid
+        if is_solved && self.row.iter().zip(refined).all(|(a, b)| (a - b).abs() <= REFINED * (1.0 + a.abs())) {
+            self.row.copy_from_slice(refined);
         }
     }
 
@@ -569,8 +574,8 @@ impl Motion<'_, '_> {
     }
 
     /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
-    /// that is passed, and then the row lies on the way over it.
-    fn look_ahead(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    /// that is passed, and then the row lies on the way over it. Says whether it does not.
+    fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         let ahead = t + self.span / FEWEST_STEPS_NEAR;
         let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
         for _ in 0..STEPS_AHEAD {
@@ -580,7 +585,7 @@ impl Motion<'_, '_> {
                 stepped => stepped?,
             }
             if let Some(row) = self.row_on_bridge(t) {
-                return row;
+                return row.map(|()| false);
             }
             // a step that failed leaves the factors of where it failed
             self.kinematics.restore(self.state);
@@ -592,7 +597,7 @@ impl Motion<'_, '_> {
         self.go_back(&here);
         if is_certain {
             self.row = row;
-            return Ok(());
+            return Ok(true);
         }
         let singular = self.kinematics.worst();
         Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
