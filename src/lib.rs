@@ -49,7 +49,7 @@ pub mod cli;
 use analysis::Times;
 use check::Surroundings;
 use diag::{Diagnostic, Diagnostics};
-use emit::Motion;
+use emit::{Motion, Reference};
 use program::Program;
 use solver::BlockTables;
 use source::Sources;
@@ -116,3 +116,49 @@ pub fn motion(determined: &Determined, program: &Program) -> Result<(Option<Moti
     });
     Ok((motion, started.remarks()))
 }
+
+/// The motion over the file's analysis, or over the first second where it has none, as `mechc run` computes it, with what is to be said
+/// of it: if it stops on its way, why.
+///
+/// # Errors
+/// It cannot be assembled, or has no derivatives at its first time.
+pub fn reference(determined: &Determined, program: &Program) -> Result<(Reference, Diagnostics), Box<Diagnostic>> {
+    // without an analysis the last time is left out: only that of an analysis belongs to what was before an edge
+    let analysis = determined.system().analysis;
+    let [from, to, every] = analysis.unwrap_or([0.0, 1.0, 0.1]);
+    let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
+    let count = if analysis.is_some() { times.len() } else { times.len() - 1 };
+    let mut started = analysis::start(determined, program, from, analysis::TOLERANCE)?;
+    let columns = started.columns();
+    let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
+    // spread evenly, the first and the last among them
+    let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
+    let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
+    let (mut stopped, mut why) = (None, None);
+    let mut motion = started.motion(&times);
+    while number < count
+        && let Some(row) = motion.next_row()
+    {
+        match row {
+            Ok(row) if is_wanted(number) => rows.push(row.to_vec()),
+            Ok(row) => row.clone_into(&mut last),
+            Err(diagnostic) if number == 0 => return Err(diagnostic),
+            Err(diagnostic) => {
+                stopped = Some(diagnostic.message.clone());
+                why = Some(*diagnostic);
+                break;
+            }
+        }
+        number += 1;
+    }
+    if rows.last().map(|row| row[0]) < last.first().copied() {
+        rows.push(last);
+    }
+    let mut remarks = motion.take_remarks();
+    remarks.extend(why);
+    Ok((Reference { columns, rows, steps: number - 1, every, stopped }, remarks))
+}
+
+/// Rows and numbers of a reference at most.
+const MOST_ROWS: usize = 20;
+const MOST_NUMBERS: usize = 20_000;

@@ -33,13 +33,18 @@ impl Emitted {
         determined.map(|determined| Emitted { name, determined, sources })
     }
 
-    /// The module.
-    fn text(&self) -> String {
+    /// The module, with so many lanes if any are wanted.
+    fn text(&self, lanes: Option<usize>) -> String {
         let system = self.determined.system();
         let program = Program::new(system);
         let (motion, _) = mechc::motion(&self.determined, &program).expect("it assembles");
         let file = format!("{}.mech", self.name);
-        emit::rust(&Unit { system, program: &program, sources: &self.sources, file: &file, motion, lanes: None })
+        emit::rust(&Unit { system, program: &program, sources: &self.sources, file: &file, motion, lanes })
+    }
+
+    /// How many lanes it has where all are looked at: the examples show what there is to see.
+    fn lanes(&self) -> Option<usize> {
+        self.name.starts_with("examples_").then_some(3)
     }
 
     /// The rows of the interpreter, and whether it came to the end.
@@ -166,7 +171,7 @@ fn write_modules(all: &[Emitted], folder: &Path) {
 }
 
 fn write_module(emitted: &Emitted, folder: &Path) {
-    let (name, text) = (&emitted.name, emitted.text());
+    let (name, text) = (&emitted.name, emitted.text(emitted.lanes()));
     let path = folder.join(format!("{name}.rs"));
     fs::write(&path, &text).expect("written");
     let formatted =
@@ -183,7 +188,8 @@ fn write_module(emitted: &Emitted, folder: &Path) {
 fn write_main(all: &[(Emitted, Vec<Vec<f64>>, bool)], folder: &Path) -> PathBuf {
     let mut main = "#![forbid(unsafe_code)]\n#![allow(dead_code)]\n".to_owned();
     let mut calls = String::new();
-    for (Emitted { name, .. }, rows, ends_well) in all {
+    for (emitted, rows, ends_well) in all {
+        let name = &emitted.name;
         // where the motion ends, a time beyond it must be refused
         let beyond = rows.last().map_or(0.0, |row| row[0]) + 1.0;
         let times: Vec<f64> = rows.iter().map(|row| row[0]).chain((!ends_well).then_some(beyond)).collect();
@@ -206,6 +212,22 @@ fn write_main(all: &[(Emitted, Vec<Vec<f64>>, bool)], folder: &Path) -> PathBuf 
             times.len()
         )
         .expect("a string takes everything");
+        if let Some(lanes) = emitted.lanes() {
+            writeln!(
+                calls,
+                "    let params = [{name}::Params::default(); {lanes}];
+    let (mut state, mut all) = ({name}::assemble(&params[0]).unwrap(), {name}::lanes::assemble(&params).unwrap());
+    for t in {times:?} as [f64; {}] {{
+        let alone = {name}::step(t, &mut state);
+        for (k, result) in {name}::lanes::step_each(&[t; {lanes}], &mut all).into_iter().enumerate() {{
+            assert_eq!(result, alone);
+            assert_eq!(all.get(k).unwrap().row().map(f64::to_bits), state.row().map(f64::to_bits), \"{name} {{t}}\");
+        }}
+    }}",
+                times.len()
+            )
+            .expect("a string takes everything");
+        }
     }
     write!(
         main,
@@ -291,7 +313,7 @@ fn nothing_in_a_module_can_panic() {
     for name in names {
         let emitted = Emitted::new(name.to_owned(), &stage_path(name), 0).expect("determined");
         let path = folder.path().join(format!("{name}.rs"));
-        fs::write(&path, format!("#![no_std]\n{}", emitted.text())).expect("written");
+        fs::write(&path, format!("#![no_std]\n{}", emitted.text(Some(4)))).expect("written");
         let object = folder.path().join(format!("{name}.o"));
         rustc(&[&FIRMWARE[..], &["-o", &object.to_string_lossy()]].concat(), &path);
         let bytes = fs::read(&object).expect("an object");
@@ -333,11 +355,19 @@ mod odd_names;
 #[rustfmt::skip]
 mod slider_crank;
 
+/// What a reviewer reads, and the benchmark runs.
+const GOLDENS: [&str; 4] = ["everything", "odd_names", "slider_crank", "four_bar"];
+
 #[test]
 fn goldens_are_what_is_emitted() {
-    for name in ["everything", "odd_names", "slider_crank"] {
-        let path = format!("tests/emitted/{name}.rs");
-        let emitted = stage(name).text();
+    for name in GOLDENS {
+        let (path, emitted) = if name == "four_bar" {
+            let bench = Path::new("benches/steps/four_bar.mech");
+            let emitted = Emitted::new("four_bar".to_owned(), bench, 0).expect("determined");
+            ("benches/steps/four_bar.rs".to_owned(), emitted.text(Some(16)))
+        } else {
+            (format!("tests/emitted/{name}.rs"), stage(name).text((name == "slider_crank").then_some(4)))
+        };
         if std::env::var_os("UPDATE_GOLDENS").is_some() {
             fs::write(&path, &emitted).expect("written");
         }
@@ -376,4 +406,48 @@ fn goldens_agree_with_the_interpreter() {
     agrees!(everything);
     agrees!(odd_names);
     agrees!(slider_crank);
+}
+
+#[test]
+fn lanes_of_variants_have_the_bits_of_each_alone() {
+    use slider_crank::{Params, assemble, lanes, step};
+    let params: [Params; 4] =
+        std::array::from_fn(|k| Params { crank_length: 0.05 + 0.004 * k as f64, ..Params::default() });
+    let mut all = lanes::assemble(&params).expect("they assemble");
+    let mut each = params.map(|params| assemble(&params).expect("it assembles"));
+    for row in 0..60 {
+        // each at times of its own; now and then a long way, for which a step is not enough
+        let times: [f64; 4] =
+            std::array::from_fn(|k| 0.001 * f64::from(row) * (1.0 + k as f64) + 0.03 * f64::from(row % 7 / 6));
+        let done = lanes::step_each(&times, &mut all);
+        for (k, state) in each.iter_mut().enumerate() {
+            assert_eq!(step(times[k], state), done[k]);
+            let lane = all.get(k).expect("a lane");
+            assert_eq!(lane.row().map(f64::to_bits), state.row().map(f64::to_bits), "lane {k} at {}", times[k]);
+        }
+    }
+    assert!(all.get(4).is_none());
+}
+
+#[test]
+fn what_cannot_be_is_an_error_and_leaves_the_state_as_it_was() {
+    use slider_crank::{Error, Params, assemble, step};
+    let mut state = assemble(&Params::default()).expect("it assembles");
+    step(0.01, &mut state).expect("it moves");
+    let row = state.row();
+    for t in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        assert_eq!(step(t, &mut state), Err(Error::NotANumber));
+        assert_eq!(state.row(), row);
+    }
+    let nan = Params { speed: f64::NAN, ..Params::default() };
+    assert_eq!(assemble(&nan).err(), Some(Error::NotANumber));
+    // a rod that does not reach
+    let short = Params { rod_length: 0.02, ..Params::default() };
+    assert_eq!(assemble(&short).err(), Some(Error::Divergence));
+    // it turns a while, and then comes to its dead point
+    let locks = Params { rod_length: 0.045, ..Params::default() };
+    let mut state = assemble(&locks).expect("it assembles");
+    assert_eq!(step(0.02, &mut state), Err(Error::LockUp));
+    let [x, y] = [state.q()[0], state.q()[1]];
+    assert!(state.t() < 0.02 && x.is_finite() && y.is_finite());
 }

@@ -48,9 +48,9 @@ pub(super) enum Command {
     #[command(
         long_about = "Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON.\n\n\
         As Rust, writes one module without dependencies (but the crate `libm` where a formula asks for it), whose functions \
-        give the same bits as the analysis. As LaTeX, a document with every element's equations, to be typeset with pdflatex. As \
+        give the same bits as the analysis; with --crate, a crate of its own around it, which passes `cargo test` as it is. As LaTeX, a document with every element's equations, to be typeset with pdflatex. As \
         JSON, the whole constraint system for other programs, as `docs/emit-json.md` says.",
-        after_help = "Examples:\n  mechc emit linkage.mech -o linkage.rs\n  mechc emit linkage.mech -o linkage.tex\n  \
+        after_help = "Examples:\n  mechc emit linkage.mech -o linkage.rs\n  mechc emit linkage.mech --crate linkage\n  mechc emit linkage.mech -o linkage.tex\n  \
         mechc emit linkage.mech --format json"
     )]
     Emit(EmitArguments),
@@ -161,6 +161,10 @@ pub(super) struct EmitArguments {
     /// Where the code goes; `-` is standard output
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: String,
+
+    /// Write a whole crate into this folder: the module, a page, a test against `mechc run`, a benchmark
+    #[arg(long = "crate", value_name = "DIR", conflicts_with = "output")]
+    pub folder: Option<String>,
 
     /// What to write; by the ending of OUT (.tex, .json) if not given, else rust
     #[arg(long, value_enum, value_name = "FORMAT")]

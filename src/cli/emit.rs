@@ -1,21 +1,27 @@
-//! `mechc emit`: the mechanism as Rust, its constraint system as LaTeX or JSON.
+//! `mechc emit`: the mechanism as Rust, a module or a whole crate, its constraint system as LaTeX or JSON.
 
 use super::arguments::{Content, EmitArguments, EmitFormat};
 use super::failure::Failure;
-use super::files::Output;
+use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
 use crate::diag::{Code, Diagnostic};
-use crate::emit::{self, Unit};
+use crate::emit::{self, MARK, Motion, Unit};
 use crate::program::Program;
 use crate::structure::Determined;
 use std::path::Path;
 
 pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    if arguments.folder.is_some() {
+        can_be_a_crate(arguments)?;
+    }
     let determined = input::determined(&arguments.input, false, reporter, &mut Timings::new(false))?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
+    if let Some(folder) = &arguments.folder {
+        return package(&determined, arguments, folder, &file, reporter);
+    }
     let text = match format(arguments) {
         EmitFormat::Rust => rust(&determined, arguments, &file, reporter)?,
         EmitFormat::Latex => emit::latex(determined.system(), &file),
@@ -33,11 +39,7 @@ fn rust(
     let program = Program::new(determined.system());
     let motion = match arguments.with {
         Content::Equations => None,
-        Content::Solver => {
-            let (motion, remarks) = crate::motion(determined, &program)?;
-            reporter.print(&remarks);
-            Some(motion.ok_or_else(too_large)?)
-        }
+        Content::Solver => Some(motion(determined, &program, reporter)?),
     };
     let sources = &reporter.sources;
     Ok(emit::rust(&Unit {
@@ -50,9 +52,53 @@ fn rust(
     }))
 }
 
+/// A crate: where the motion stops on its way, it is written with what there is, as a table is.
+fn package(
+    determined: &Determined,
+    arguments: &EmitArguments,
+    folder: &str,
+    file: &str,
+    reporter: &mut Reporter,
+) -> Result<(), Failure> {
+    let program = Program::new(determined.system());
+    let motion = Some(motion(determined, &program, reporter)?);
+    let lanes = arguments.lanes;
+    let (reference, said) = crate::reference(determined, &program)?;
+    let sources = &reporter.sources;
+    let unit = Unit { system: determined.system(), program: &program, sources, file, motion, lanes };
+    let crate_files = emit::package(&unit, &reference);
+    files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK)?;
+    if said.has_errors() {
+        return Err(said.into());
+    }
+    reporter.print(&said);
+    Ok(())
+}
+
+fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Result<Motion, Failure> {
+    let (motion, remarks) = crate::motion(determined, program)?;
+    reporter.print(&remarks);
+    Ok(motion.ok_or_else(too_large)?)
+}
+
+/// What a crate cannot be made of.
+fn can_be_a_crate(arguments: &EmitArguments) -> Result<(), Failure> {
+    if matches!(arguments.format, Some(EmitFormat::Latex | EmitFormat::Json)) {
+        return Err(Diagnostic::new(Code::E0706, "a crate is written in Rust only")
+            .help("leave `--format` out, or name a file with `-o` instead of a folder with `--crate`")
+            .into());
+    }
+    if arguments.with == Content::Equations {
+        return Err(Diagnostic::new(Code::E0706, "a crate needs the solver, by which it is tested")
+            .help("leave `--with` out, or name a file with `-o` instead of a folder with `--crate`")
+            .into());
+    }
+    Ok(())
+}
+
 fn too_large() -> Diagnostic {
     Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
-        .help("leave it out with `--with equations`")
+        .help("leave it out with `--with equations`, in a file that `-o` names")
 }
 
 /// As it is said, or by the ending of the output.

@@ -160,6 +160,57 @@ impl Output {
     }
 }
 
+/// Writes files into a folder, which is made if it is not there: all of them or none. A file that is there already is replaced only
+/// if it holds the mark.
+pub(super) fn write_all<'f>(
+    folder: &str,
+    files: impl Iterator<Item = (&'f str, &'f str)>,
+    mark: &str,
+) -> Result<(), Failure> {
+    let files: Vec<(PathBuf, &str)> = files.map(|(path, text)| (Path::new(folder).join(path), text)).collect();
+    for (path, _) in &files {
+        let is_ours =
+            |bytes: Vec<u8>| String::from_utf8_lossy(&bytes).lines().take(HEAD).any(|line| line.contains(mark));
+        if path.symlink_metadata().is_ok() && !fs::read(path).is_ok_and(is_ours) {
+            let shown = path.to_string_lossy();
+            return Err(Diagnostic::new(
+                Code::E0702,
+                format!("cannot write `{shown}`: a file is there that mechc did not write"),
+            )
+            .help("name a new folder, or one that this command wrote")
+            .into());
+        }
+    }
+    make_folder(Path::new(folder)).map_err(|error| cannot_write(folder, &error))?;
+    let mut outputs = Vec::new();
+    for (path, text) in &files {
+        let name = path.to_string_lossy();
+        path.parent().map_or(Ok(()), make_folder).map_err(|error| cannot_write(&name, &error))?;
+        let mut output = Output::open(&name)?;
+        output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
+        outputs.push(output);
+    }
+    outputs.into_iter().try_for_each(Output::close)
+}
+
+/// Lines of a file that may hold the mark.
+const HEAD: usize = 6;
+
+/// Makes a folder, unless it is there.
+fn make_folder(path: &Path) -> io::Result<()> {
+    match path.metadata() {
+        Ok(found) if found.is_dir() => return Ok(()),
+        Ok(_) => return Err(io::Error::other("it is a file")),
+        Err(_) => {}
+    }
+    fs::create_dir(path).map_err(|error| match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
+            io::Error::other(format!("there is no folder `{}`", parent.display()))
+        }
+        _ => error,
+    })
+}
+
 impl Destination {
     fn beside(path: &Path) -> io::Result<Destination> {
         let path = behind_links(path)?;

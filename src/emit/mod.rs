@@ -1,4 +1,4 @@
-//! A constraint system for others: as Rust, as LaTeX for a report, as JSON for other programs.
+//! A constraint system for others: as Rust, a module or a whole crate, as LaTeX for a report, as JSON for other programs.
 //!
 //! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
 //! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
@@ -9,6 +9,7 @@ mod json;
 mod latex;
 mod names;
 mod operations;
+mod package;
 mod rust;
 mod solution;
 mod tables;
@@ -16,6 +17,7 @@ mod text;
 
 pub use json::json;
 pub use latex::latex;
+pub use package::{File, MARK, Reference, package};
 pub use rust::rust;
 
 use crate::ir::ConstraintSystem;

@@ -78,7 +78,8 @@ impl Writer<'_> {
         } else {
             "//! - needs no other crate\n"
         };
-        text += "//! - needs no heap and no standard library; nothing in it panics\n\n";
+        text += "//! - needs no heap and no standard library; nothing in it panics\n";
+        text += "//!\n//! This code carries no licence of mechc's: use, change and pass it on as you like.\n\n";
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
         text + "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
     }

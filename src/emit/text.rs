@@ -19,9 +19,11 @@ pub(super) fn literal(value: f64) -> String {
     }
 }
 
-/// A name or text from elsewhere, fit for a comment.
+/// A name or text from elsewhere, fit for a comment: nothing ends the line, or turns its direction.
 pub(super) fn one_line(text: &str) -> String {
-    text.replace(['\n', '`'], " ")
+    let is_unfit =
+        |c: char| c.is_control() || c == '`' || matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}');
+    text.replace(is_unfit, " ")
 }
 
 /// Lines of documentation.

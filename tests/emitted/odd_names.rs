@@ -6,6 +6,8 @@
 //! - the motion: [`assemble`], then [`step`] from time to time
 //! - needs no other crate
 //! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
 
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]

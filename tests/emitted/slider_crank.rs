@@ -6,6 +6,8 @@
 //! - the motion: [`assemble`], then [`step`] from time to time
 //! - needs no other crate
 //! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
 
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
@@ -553,6 +555,12 @@ const TEARS: usize = 2;
 #[rustfmt::skip]
 const TEAR_SCALES: [f64; TEARS] = [
     1.0, 1.0,
+];
+
+/// The width of a cell of the grid of each of them.
+#[rustfmt::skip]
+const TEAR_CELLS: [f64; TEARS] = [
+    7.450580596923828e-9, 7.450580596923828e-9,
 ];
 
 /// What a change of each coordinate is judged against.
@@ -1200,114 +1208,115 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
     let crank_phi = t * m.params.speed + 0.5235987755982988;
     at.q[2] = crank_phi + 0.0;
     at.qd[2] = m.params.speed + 0.0;
-    let (s2, c2) = sin_cos(crank_phi);
-    let rod_x = c2 * m.params.crank_length;
+    let v2 = m.params.crank_length;
+    let (s3, c3) = sin_cos(crank_phi);
+    let rod_x = c3 * v2;
     at.q[3] = rod_x + 0.0;
-    let rod_y = s2 * m.params.crank_length;
-    let v5 = rod_y * m.params.speed;
-    let rod_x_d = -v5;
+    let rod_y = s3 * v2;
+    let v6 = rod_y * m.params.speed;
+    let rod_x_d = -v6;
     at.qd[3] = rod_x_d + 0.0;
-    let v7 = c2 * m.params.speed;
-    let v8 = m.params.speed * v7;
-    let v9 = m.params.crank_length * v8;
-    let rod_x_dd = -v9;
+    let v8 = c3 * m.params.speed;
+    let v9 = m.params.speed * v8;
+    let v10 = v2 * v9;
+    let rod_x_dd = -v10;
     at.qdd[3] = rod_x_dd + 0.0;
     at.q[4] = rod_y + 0.0;
     let rod_y_d = rod_x * m.params.speed;
     at.qd[4] = rod_y_d + 0.0;
-    let v12 = s2 * m.params.speed;
-    let v13 = m.params.speed * v12;
-    let v14 = m.params.crank_length * v13;
-    let rod_y_dd = -v14;
+    let v13 = s3 * m.params.speed;
+    let v14 = m.params.speed * v13;
+    let v15 = v2 * v14;
+    let rod_y_dd = -v15;
     at.qdd[4] = rod_y_dd + 0.0;
     let mut x1 = guess[0];
-    let mut s16 = 0.0;
-    let mut c16 = 0.0;
-    let mut v21 = 0.0;
+    let mut s17 = 0.0;
+    let mut c17 = 0.0;
+    let mut v22 = 0.0;
     let mut newton = Newton::new();
     for _ in 0..ITERATIONS {
         x1 = on_grid(x1, 7.450580596923828e-9);
-        (s16, c16) = sin_cos(x1);
-        let v17 = c16 * m.params.rod_length;
-        let v18 = 1.0 / v17;
-        let v19 = s16 * m.params.rod_length + rod_y;
-        let v20 = v19 * v18;
-        v21 = -v20;
-        newton.correct(&mut x1, v21, 7.450580596923828e-9, 1.0);
+        (s17, c17) = sin_cos(x1);
+        let v18 = c17 * m.params.rod_length;
+        let v19 = 1.0 / v18;
+        let v20 = s17 * m.params.rod_length + rod_y;
+        let v21 = v20 * v19;
+        v22 = -v21;
+        newton.correct(&mut x1, v22, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
     }
     at.note(&newton);
-    let v22 = 0.5 * v21;
-    let v23 = c16 - v22 * s16;
-    let v24 = v21 * v23 + s16;
-    let v25 = v22 * c16 + s16;
-    let v26 = c16 - v21 * v25;
-    let v27 = v24 * m.params.rod_length;
-    let v28 = rod_y + v27;
-    at.holds &= v28.abs() <= 2.586464197407e-13;
-    let v29 = v26 * m.params.rod_length;
-    let v30 = 1.0 / v29;
+    let v23 = 0.5 * v22;
+    let v24 = c17 - v23 * s17;
+    let v25 = v22 * v24 + s17;
+    let v26 = v23 * c17 + s17;
+    let v27 = c17 - v22 * v26;
+    let v28 = v25 * m.params.rod_length;
+    let v29 = rod_y + v28;
+    at.holds &= v29.abs() <= 2.586464197407e-13;
+    let v30 = v27 * m.params.rod_length;
+    let v31 = 1.0 / v30;
     at.q[5] = x1 + 0.0;
-    at.pivot(0, v30, 0.258602010819715);
-    let v31 = rod_y_d * v30;
-    let rod_phi_d = -v31;
+    at.pivot(0, v31, 0.258602010819715);
+    let v32 = rod_y_d * v31;
+    let rod_phi_d = -v32;
     at.qd[5] = rod_phi_d + 0.0;
-    let v33 = v24 * v31;
-    let v34 = v31 * v33;
-    let v35 = m.params.rod_length * v34 + v14;
-    let rod_phi_dd = v35 * v30;
+    let v34 = v25 * v32;
+    let v35 = v32 * v34;
+    let v36 = m.params.rod_length * v35 + v15;
+    let rod_phi_dd = v36 * v31;
     at.qdd[5] = rod_phi_dd + 0.0;
-    let piston_x = rod_x + v29;
+    let piston_x = rod_x + v30;
     at.q[6] = piston_x + 0.0;
-    let v38 = v5 - v27 * v31;
-    let piston_x_d = -v38;
+    let v39 = v6 - v28 * v32;
+    let piston_x_d = -v39;
     at.qd[6] = piston_x_d + 0.0;
-    let v40 = v26 * v31;
-    let v41 = v31 * v40;
-    let v42 = m.params.rod_length * v41 + v9;
-    let v43 = v27 * rod_phi_dd + v42;
-    let piston_x_dd = -v43;
+    let v41 = v27 * v32;
+    let v42 = v32 * v41;
+    let v43 = m.params.rod_length * v42 + v10;
+    let v44 = v28 * rod_phi_dd + v43;
+    let piston_x_dd = -v44;
     at.qdd[6] = piston_x_dd + 0.0;
     at.measures.values[0] = piston_x + 0.0;
-    let v45 = -v38;
-    at.measures.rates[0] = v45 + 0.0;
-    let v46 = -v43;
-    at.measures.accelerations[0] = v46 + 0.0;
-    let v47 = x1 / 0.017453292519943295;
-    at.measures.values[1] = v47 + 0.0;
-    let v48 = v31 / 0.017453292519943295;
-    let v49 = -v48;
-    at.measures.rates[1] = v49 + 0.0;
-    let v50 = rod_phi_dd / 0.017453292519943295;
-    at.measures.accelerations[1] = v50 + 0.0;
+    let v46 = -v39;
+    at.measures.rates[0] = v46 + 0.0;
+    let v47 = -v44;
+    at.measures.accelerations[0] = v47 + 0.0;
+    let v48 = x1 / 0.017453292519943295;
+    at.measures.values[1] = v48 + 0.0;
+    let v49 = v32 / 0.017453292519943295;
+    let v50 = -v49;
+    at.measures.rates[1] = v50 + 0.0;
+    let v51 = rod_phi_dd / 0.017453292519943295;
+    at.measures.accelerations[1] = v51 + 0.0;
     let mut x2 = guess[1];
-    let mut s51 = 0.0;
-    let mut c51 = 0.0;
-    let mut v54 = 0.0;
+    let mut s52 = 0.0;
+    let mut c52 = 0.0;
+    let mut v55 = 0.0;
     let mut newton = Newton::new();
     for _ in 0..ITERATIONS {
         x2 = on_grid(x2, 7.450580596923828e-9);
-        (s51, c51) = sin_cos(x2);
-        let v52 = 1.0 / c51;
-        let v53 = s51 * v52;
-        v54 = -v53;
-        newton.correct(&mut x2, v54, 7.450580596923828e-9, 1.0);
+        (s52, c52) = sin_cos(x2);
+        let v53 = 1.0 / c52;
+        let v54 = s52 * v53;
+        v55 = -v54;
+        newton.correct(&mut x2, v55, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
     }
     at.note(&newton);
-    let v55 = 0.5 * v54;
-    let v56 = c51 - v55 * s51;
-    let v57 = v54 * v56 + s51;
-    let v58 = v55 * c51 + s51;
-    let v59 = c51 - v54 * v58;
-    at.holds &= v57.abs() <= 1e-12;
-    let v60 = 1.0 / v59;
+    let v56 = 0.5 * v55;
+    let v57 = c52 - v56 * s52;
+    let v58 = v55 * v57 + s52;
+    let v59 = v56 * c52 + s52;
+    let v60 = c52 - v55 * v59;
+    at.holds &= v58.abs() <= 1e-12;
+    let v61 = 1.0 / v60;
     at.q[8] = x2 + 0.0;
-    at.pivot(1, v60, 1.0);
+    at.pivot(1, v61, 1.0);
 }
 
 #[rustfmt::skip]
@@ -1477,6 +1486,626 @@ fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
 
 }
 
+/// The same for several variants of the mechanism, or several times, at once: in loops over the
+/// lanes that a compiler turns into vector instructions. Each lane has the bits that it would have
+/// alone.
+pub mod lanes {
+    // what is done in every lane reads best, and vectorises best, with the lane's number
+    #![allow(clippy::needless_range_loop)]
+
+    use super::*;
+
+    /// Lanes that are worked on together.
+    pub const LANES: usize = 4;
+
+    /// A number in each lane.
+    pub type Each = [f64; LANES];
+
+    /// As many mechanisms, each with its own parameters, at a time of its own.
+    #[derive(Clone, Debug)]
+    pub struct States {
+        models: [Model; LANES],
+        /// The solutions of now and the ones before, or the next ones in the making.
+        solutions: [Solutions; 2],
+        /// Whether those of now are the second.
+        is_second: bool,
+        is_smooth: [bool; LANES],
+        step: Each,
+    }
+
+    impl States {
+        /// The solutions of now.
+        fn now(&self) -> &Solutions {
+            let [first, second] = &self.solutions;
+            if self.is_second { second } else { first }
+        }
+
+        /// The ones before, or the next ones in the making.
+        fn other(&self) -> &Solutions {
+            let [first, second] = &self.solutions;
+            if self.is_second { first } else { second }
+        }
+
+        /// Both, to be changed: those of now, and the others.
+        fn both(&mut self) -> (&mut Solutions, &mut Solutions) {
+            let [first, second] = &mut self.solutions;
+            if self.is_second {
+                (second, first)
+            } else {
+                (first, second)
+            }
+        }
+
+        /// The times (s).
+        #[must_use]
+        pub fn t(&self) -> &Each {
+            &self.now().t
+        }
+
+        /// The coordinates (m, rad), by the indices in [`coordinate`].
+        #[must_use]
+        pub fn q(&self) -> &[Each; N] {
+            &self.now().q
+        }
+
+        /// Their velocities (m/s, rad/s).
+        #[must_use]
+        pub fn qd(&self) -> &[Each; N] {
+            &self.now().qd
+        }
+
+        /// Their accelerations (m/s^2, rad/s^2).
+        #[must_use]
+        pub fn qdd(&self) -> &[Each; N] {
+            &self.now().qdd
+        }
+
+        /// A lane on its own; none where there is no such lane.
+        #[must_use]
+        pub fn get(&self, lane: usize) -> Option<State> {
+            (lane < LANES).then(|| self.lane(lane))
+        }
+
+        /// A lane, which is below [`LANES`], on its own.
+        fn lane(&self, k: usize) -> State {
+            let mut solutions = [self.now().lane(k), self.other().lane(k)];
+            for at in &mut solutions {
+                at.is_settled = true;
+            }
+            State {
+                model: self.models[k].clone(),
+                solutions,
+                is_second: false,
+                is_smooth: self.is_smooth[k],
+                step: self.step[k],
+            }
+        }
+
+        /// Moves a lane on its own, and leaves it among the other solutions.
+        fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
+            let mut state = self.lane(k);
+            let result = step(t, &mut state);
+            self.both().1.set_lane(k, state.at());
+            self.is_smooth[k] = false;
+            self.step[k] = state.step;
+            result
+        }
+    }
+
+    /// Brings the mechanisms to the first time, each with its own parameters.
+    ///
+    /// # Errors
+    /// The first lane that cannot be assembled, and why.
+    pub fn assemble(params: &[Params; LANES]) -> Result<States, (usize, Error)> {
+        let one = super::assemble(&Params::default()).map_err(|error| (0, error))?;
+        let mut states = States {
+            models: core::array::from_fn(|_| one.model.clone()),
+            solutions: [Solutions::ZERO, Solutions::ZERO],
+            is_second: false,
+            is_smooth: [false; LANES],
+            step: [LONGEST_STEP; LANES],
+        };
+        for (k, params) in params.iter().enumerate() {
+            let state = super::assemble(params).map_err(|error| (k, error))?;
+            states.both().0.set_lane(k, state.at());
+            if let Some(model) = states.models.get_mut(k) {
+                *model = state.model.clone();
+            }
+        }
+        Ok(states)
+    }
+
+    /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
+    /// way alone.
+    ///
+    /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
+    /// last time that it could reach.
+    pub fn step_each(t: &Each, states: &mut States) -> [Result<(), Error>; LANES] {
+        let is_done = advance(t, states);
+        let mut results = [Ok(()); LANES];
+        for k in 0..LANES {
+            if !is_done[k] {
+                results[k] = states.alone(k, t[k]);
+            }
+        }
+        states.is_second = !states.is_second;
+        results
+    }
+
+    /// Tries one step of every lane; says which ones have got there.
+    fn advance(t: &Each, states: &mut States) -> [bool; LANES] {
+        let [first, second] = &mut states.solutions;
+        let (from, at) = if states.is_second {
+            (second, first)
+        } else {
+            (first, second)
+        };
+        let from = &*from;
+        let mut h = [0.0; LANES];
+        for k in 0..LANES {
+            h[k] = t[k] - from.t[k];
+        }
+        let mut back = [0.0; LANES];
+        let mut u = [0.0; LANES];
+        for k in 0..LANES {
+            back[k] = from.t[k] - at.t[k];
+            let ratio = h[k] / back[k];
+            let is_known = states.is_smooth[k] && ratio.abs() <= FARTHEST_BEND;
+            u[k] = if is_known { ratio } else { 0.0 };
+        }
+        let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
+        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+        let mut guess = [[0.0; LANES]; TEARS];
+        let mut motion = [0.0; LANES];
+        for i in 0..TEARS {
+            for k in 0..LANES {
+                // as `bend` has it
+                let (h, back, u) = (h[k], back[k], u[k]);
+                let (x, v, a) = (x[i][k], v[i][k], a[i][k]);
+                let value = y[i][k] - x + back * (v - 0.5 * back * a);
+                let slope = back * (v - back * a - w[i][k]);
+                let curvature = 0.5 * back * back * (b[i][k] - a);
+                let cubic = 4.0 * slope - 10.0 * value - curvature;
+                let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+                let quintic = 3.0 * slope - 6.0 * value - curvature;
+                let bend = u * u * u * (cubic + u * (quartic + u * quintic));
+                let way = h * (v + 0.5 * h * a) + bend;
+                guess[i][k] = x + way;
+                motion[k] = larger(motion[k], way.abs() / TEAR_SCALES[i]);
+            }
+        }
+        solve(&guess, t, &states.models, at);
+        let mut gap = [0.0; LANES];
+        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+        for i in 0..TEARS {
+            for k in 0..LANES {
+                let rates = 0.5 * h[k] * (v[i][k] + w[i][k]);
+                let bends = h[k] * h[k] * (1.0 / 12.0) * (a[i][k] - b[i][k]);
+                let gap_here = y[i][k] - x[i][k] - rates - bends;
+                gap[k] = larger(gap[k], gap_here.abs() / TEAR_SCALES[i]);
+            }
+        }
+        let is_finite = at.are_finite();
+        let mut is_done = [false; LANES];
+        for k in 0..LANES {
+            let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
+            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP && is_finite[k];
+            is_done[k] = is_solved && is_short;
+        }
+        for k in 0..LANES {
+            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
+            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
+        }
+        for i in 0..TURNS {
+            for k in 0..LANES {
+                is_done[k] &= (at.signs[i][k] ^ from.signs[i][k]) >> 63 == 0;
+            }
+        }
+        for k in 0..LANES {
+            if is_done[k] {
+                let first = states.other().first[k];
+                let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
+                let size = h[k].abs();
+                let longest = if is_calm { 2.0 * size } else { 0.0 };
+                let shortest = if is_calm { states.step[k] } else { size };
+                states.step[k] = f64::max(longest, shortest).min(LONGEST_STEP);
+                states.is_smooth[k] = true;
+            }
+        }
+        is_done
+    }
+
+    /// What solves the equations in every lane.
+    #[derive(Clone, Debug)]
+    struct Solutions {
+        t: Each,
+        q: [Each; N],
+        qd: [Each; N],
+        qdd: [Each; N],
+        values: [Each; MEASURES],
+        rates: [Each; RATES],
+        accelerations: [Each; ACCELERATIONS],
+        /// By block: what has the sign of its determinant.
+        signs: [[u64; LANES]; TURNS],
+        /// Multipliers, residuals and angles beside what is bearable: 1 at most.
+        strain: Each,
+        /// Newton's largest first correction, scaled.
+        first: Each,
+        /// Its largest last correction, in cells of the grid.
+        open: Each,
+        /// One over the smallest pivot, scaled.
+        steepest: Each,
+    }
+
+    impl Solutions {
+        const ZERO: Self = Self {
+            t: [0.0; LANES],
+            q: [[0.0; LANES]; N],
+            qd: [[0.0; LANES]; N],
+            qdd: [[0.0; LANES]; N],
+            values: [[0.0; LANES]; MEASURES],
+            rates: [[0.0; LANES]; RATES],
+            accelerations: [[0.0; LANES]; ACCELERATIONS],
+            signs: [[0; LANES]; TURNS],
+            strain: [0.0; LANES],
+            first: [0.0; LANES],
+            open: [0.0; LANES],
+            steepest: [0.0; LANES],
+        };
+
+        /// Makes ready for being solved for.
+        fn begin(&mut self, t: &Each) {
+            self.t = *t;
+            let zero = [0.0; LANES];
+            (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
+            for (signs, is_negative) in self.signs.iter_mut().zip(TURNED) {
+                *signs = [u64::from(is_negative) << 63; LANES];
+            }
+        }
+
+        fn are_finite(&self) -> [bool; LANES] {
+            let mut sum = [0.0; LANES];
+            for each in self.q.iter().chain(&self.qd).chain(&self.qdd) {
+                for k in 0..LANES {
+                    sum[k] += 0.0 * each[k];
+                }
+            }
+            let rates = self.rates.iter().chain(&self.accelerations);
+            for each in self.values.iter().chain(rates) {
+                for k in 0..LANES {
+                    sum[k] += 0.0 * each[k];
+                }
+            }
+            sum.map(|sum| sum == 0.0)
+        }
+
+        /// A lane on its own.
+        fn lane(&self, k: usize) -> Solution {
+            let mut at = Solution::ZERO;
+            at.t = of(&self.t, k);
+            at.q = self.q.map(|each| of(&each, k));
+            at.qd = self.qd.map(|each| of(&each, k));
+            at.qdd = self.qdd.map(|each| of(&each, k));
+            at.measures.values = self.values.map(|each| of(&each, k));
+            at.measures.rates = self.rates.map(|each| of(&each, k));
+            at.measures.accelerations = self.accelerations.map(|each| of(&each, k));
+            for (is_negative, signs) in at.is_negative.iter_mut().zip(&self.signs) {
+                *is_negative = signs.get(k).is_some_and(|sign| sign >> 63 == 1);
+            }
+            at.steepest = of(&self.steepest, k);
+            at
+        }
+
+        fn set_lane(&mut self, k: usize, at: &Solution) {
+            let put = |each: &mut Each, value: f64| {
+                if let Some(place) = each.get_mut(k) {
+                    *place = value;
+                }
+            };
+            put(&mut self.t, at.t);
+            put(&mut self.steepest, at.steepest);
+            let all = self.q.iter_mut().chain(&mut self.qd).chain(&mut self.qdd);
+            let values = at.q.iter().chain(&at.qd).chain(&at.qdd);
+            for (each, value) in all.zip(values) {
+                put(each, *value);
+            }
+            for (each, value) in self.values.iter_mut().zip(at.measures.values) {
+                put(each, value);
+            }
+            for (each, rate) in self.rates.iter_mut().zip(at.measures.rates) {
+                put(each, rate);
+            }
+            for (each, value) in self.accelerations.iter_mut().zip(at.measures.accelerations) {
+                put(each, value);
+            }
+            for (signs, is_negative) in self.signs.iter_mut().zip(at.is_negative) {
+                if let Some(sign) = signs.get_mut(k) {
+                    *sign = u64::from(is_negative) << 63;
+                }
+            }
+        }
+
+        /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
+        #[inline]
+        fn watch(&mut self, k: usize, value: f64, factor: f64) {
+            self.strain[k] = larger(self.strain[k], value.abs() * factor);
+        }
+
+        /// Takes note of one over a pivot, and of what makes that a pure number.
+        #[inline]
+        fn pivot(&mut self, k: usize, turn: usize, inverse: f64, weight: f64) {
+            self.signs[turn][k] ^= inverse.to_bits();
+            self.steepest[k] = larger(self.steepest[k], inverse.abs() * weight);
+        }
+    }
+
+    /// The number of a lane.
+    fn of(each: &Each, k: usize) -> f64 {
+        each.get(k).copied().unwrap_or(f64::NAN)
+    }
+
+    /// An iteration of Newton in every lane, until all have settled or are lost.
+    struct Settling {
+        is_first: bool,
+        first: Each,
+        far: Each,
+        open: Each,
+    }
+
+    impl Settling {
+        fn new() -> Self {
+            let zero = [0.0; LANES];
+            Self {
+                is_first: true,
+                first: zero,
+                far: zero,
+                open: zero,
+            }
+        }
+
+        fn begin(&mut self) {
+            self.open = [0.0; LANES];
+        }
+
+        /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
+        #[inline]
+        fn correct(&mut self, k: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+            let size = delta.abs();
+            self.far[k] = larger(self.far[k], size / scale);
+            self.open[k] = larger(self.open[k], size / cell);
+            *x += delta;
+        }
+
+        /// Whether no further iteration is needed, or none helps.
+        fn is_done(&mut self) -> bool {
+            if self.is_first {
+                self.first = self.far;
+                self.is_first = false;
+            }
+            let mut pairs = self.open.iter().zip(&self.far);
+            let is_lost = |far: f64| far.is_nan() || far > LARGEST_CORRECTION;
+            pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
+        }
+
+        /// Leaves word of how it went.
+        fn note(&self, at: &mut Solutions) {
+            for k in 0..LANES {
+                at.first[k] = larger(at.first[k], self.first[k]);
+                at.open[k] = larger(at.open[k], self.open[k]);
+                let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
+                at.strain[k] = larger(at.strain[k], lost);
+            }
+        }
+    }
+
+    /// Out of all coordinates those that Newton solves for.
+    #[rustfmt::skip]
+    fn tears(q: &[Each; N]) -> [Each; TEARS] {
+        [q[5], q[8]]
+    }
+
+    /// Position, velocity and acceleration in every lane. Newton begins with a guess of `rod.phi`,
+    /// `piston.phi`; all else follows.
+    ///
+    /// 60 operations a lane.
+    fn solve(guess: &[Each; TEARS], t: &Each, m: &[Model; LANES], at: &mut Solutions) {
+        at.begin(t);
+        let mut w = [[0.0; LANES]; 15];
+        solve_1(guess, t, m, at, &mut w);
+        solve_2(guess, t, m, at, &mut w);
+        solve_3(guess, t, m, at, &mut w);
+        solve_4(guess, t, m, at, &mut w);
+        solve_5(guess, t, m, at, &mut w);
+        solve_6(guess, t, m, at, &mut w);
+    }
+
+    /// Part 1 of [`solve`].
+    fn solve_1(
+        guess: &[Each; TEARS],
+        t: &Each,
+        m: &[Model; LANES],
+        at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        for k in 0..LANES {
+            let crank_phi = t[k] * m[k].params.speed + 0.5235987755982988;
+            at.q[2][k] = crank_phi + 0.0;
+            at.qd[2][k] = m[k].params.speed + 0.0;
+            let v2 = m[k].params.crank_length;
+            at.watch(k, crank_phi, 1e-6);
+            let (s3, c3) = sin_cos_below_a_million(crank_phi);
+            w[8][k] = c3 * v2;
+            at.q[3][k] = w[8][k] + 0.0;
+            w[2][k] = s3 * v2;
+            w[9][k] = w[2][k] * m[k].params.speed;
+            let rod_x_d = -w[9][k];
+            at.qd[3][k] = rod_x_d + 0.0;
+            let v8 = c3 * m[k].params.speed;
+            let v9 = m[k].params.speed * v8;
+            w[10][k] = v2 * v9;
+            let rod_x_dd = -w[10][k];
+            at.qdd[3][k] = rod_x_dd + 0.0;
+            at.q[4][k] = w[2][k] + 0.0;
+            w[6][k] = w[8][k] * m[k].params.speed;
+            at.qd[4][k] = w[6][k] + 0.0;
+            let v13 = s3 * m[k].params.speed;
+            let v14 = m[k].params.speed * v13;
+            w[7][k] = v2 * v14;
+            let rod_y_dd = -w[7][k];
+            at.qdd[4][k] = rod_y_dd + 0.0;
+            w[0][k] = guess[0][k];
+            w[1][k] = m[k].params.rod_length;
+        }
+    }
+
+    /// Part 2 of [`solve`].
+    fn solve_2(
+        _guess: &[Each; TEARS],
+        _t: &Each,
+        _m: &[Model; LANES],
+        at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        let mut newton = Settling::new();
+        for _ in 0..ITERATIONS {
+            newton.begin();
+            for k in 0..LANES {
+                let mut x1 = on_grid(w[0][k], 7.450580596923828e-9);
+                at.watch(k, x1, 1e-6);
+                (w[4][k], w[5][k]) = sin_cos_below_a_million(x1);
+                let v19 = w[5][k] * w[1][k];
+                let v20 = 1.0 / v19;
+                let v21 = w[4][k] * w[1][k] + w[2][k];
+                let v22 = v21 * v20;
+                w[3][k] = -v22;
+                newton.correct(k, &mut x1, w[3][k], TEAR_CELLS[0], TEAR_SCALES[0]);
+                w[0][k] = x1;
+            }
+            if newton.is_done() {
+                break;
+            }
+        }
+        newton.note(at);
+    }
+
+    /// Part 3 of [`solve`].
+    fn solve_3(
+        _guess: &[Each; TEARS],
+        _t: &Each,
+        _m: &[Model; LANES],
+        at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        for k in 0..LANES {
+            let v24 = 0.5 * w[3][k];
+            let v25 = w[5][k] - v24 * w[4][k];
+            let v26 = w[3][k] * v25 + w[4][k];
+            let v27 = v24 * w[5][k] + w[4][k];
+            let v28 = w[5][k] - w[3][k] * v27;
+            let v29 = v26 * w[1][k];
+            let v30 = w[2][k] + v29;
+            at.watch(k, v30, 3866282011568.252);
+            let v31 = v28 * w[1][k];
+            let v32 = 1.0 / v31;
+            at.q[5][k] = w[0][k] + 0.0;
+            at.pivot(k, 0, v32, 0.258602010819715);
+            let v33 = w[6][k] * v32;
+            let rod_phi_d = -v33;
+            at.qd[5][k] = rod_phi_d + 0.0;
+            let v35 = v26 * v33;
+            let v36 = v33 * v35;
+            let v37 = w[1][k] * v36 + w[7][k];
+            let rod_phi_dd = v37 * v32;
+            at.qdd[5][k] = rod_phi_dd + 0.0;
+            let piston_x = w[8][k] + v31;
+            at.q[6][k] = piston_x + 0.0;
+            let v40 = w[9][k] - v29 * v33;
+            let piston_x_d = -v40;
+            at.qd[6][k] = piston_x_d + 0.0;
+            let v42 = v28 * v33;
+            let v43 = v33 * v42;
+            let v44 = w[1][k] * v43 + w[10][k];
+            let v45 = v29 * rod_phi_dd + v44;
+            let piston_x_dd = -v45;
+            at.qdd[6][k] = piston_x_dd + 0.0;
+            at.values[0][k] = piston_x + 0.0;
+            let v47 = -v40;
+            at.rates[0][k] = v47 + 0.0;
+            let v48 = -v45;
+            at.accelerations[0][k] = v48 + 0.0;
+            let v49 = w[0][k] / 0.017453292519943295;
+            at.values[1][k] = v49 + 0.0;
+            let v50 = v33 / 0.017453292519943295;
+            let v51 = -v50;
+            at.rates[1][k] = v51 + 0.0;
+            let v52 = rod_phi_dd / 0.017453292519943295;
+            at.accelerations[1][k] = v52 + 0.0;
+        }
+    }
+
+    /// Part 4 of [`solve`].
+    fn solve_4(
+        guess: &[Each; TEARS],
+        _t: &Each,
+        _m: &[Model; LANES],
+        _at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        for k in 0..LANES {
+            w[11][k] = guess[1][k];
+        }
+    }
+
+    /// Part 5 of [`solve`].
+    fn solve_5(
+        _guess: &[Each; TEARS],
+        _t: &Each,
+        _m: &[Model; LANES],
+        at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        let mut newton = Settling::new();
+        for _ in 0..ITERATIONS {
+            newton.begin();
+            for k in 0..LANES {
+                let mut x1 = on_grid(w[11][k], 7.450580596923828e-9);
+                at.watch(k, x1, 1e-6);
+                (w[13][k], w[14][k]) = sin_cos_below_a_million(x1);
+                let v54 = 1.0 / w[14][k];
+                let v55 = w[13][k] * v54;
+                w[12][k] = -v55;
+                newton.correct(k, &mut x1, w[12][k], TEAR_CELLS[1], TEAR_SCALES[1]);
+                w[11][k] = x1;
+            }
+            if newton.is_done() {
+                break;
+            }
+        }
+        newton.note(at);
+    }
+
+    /// Part 6 of [`solve`].
+    fn solve_6(
+        _guess: &[Each; TEARS],
+        _t: &Each,
+        _m: &[Model; LANES],
+        at: &mut Solutions,
+        w: &mut [Each; 15],
+    ) {
+        for k in 0..LANES {
+            let v57 = 0.5 * w[12][k];
+            let v58 = w[14][k] - v57 * w[13][k];
+            let v59 = w[12][k] * v58 + w[13][k];
+            let v60 = v57 * w[14][k] + w[13][k];
+            let v61 = w[14][k] - w[12][k] * v60;
+            at.watch(k, v59, 1000000000000.0);
+            let v62 = 1.0 / v61;
+            at.q[8][k] = w[11][k] + 0.0;
+            at.pivot(k, 1, v62, 1.0);
+        }
+    }
+}
+
 use sine_and_cosine::sin_cos;
 
 #[rustfmt::skip]
@@ -1634,6 +2263,29 @@ fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
     let tail = lost + (a * rest + b * half_pi);
     let r = product + tail;
     (r, (product - r) + tail)
+}
+
+}
+
+use without_branches::sin_cos_below_a_million;
+
+#[rustfmt::skip]
+mod without_branches {
+use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};
+
+// Sine and cosine without a branch, so that a loop over many angles does several at once.
+
+/// Sine and cosine of an angle (rad) whose size is below a million: the bits of [`sin_cos`](super::sin_cos).
+#[must_use]
+#[inline]
+pub fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
+    let (quarter, r, tail) = reduce_small(angle);
+    let (sin, cos) = (sin_near_zero(r, tail).to_bits(), cos_near_zero(r, tail).to_bits());
+    // an odd quarter exchanges them, the second and third turn the sine's sign, the first and second the cosine's
+    let odd = (quarter & 1).wrapping_neg();
+    let (first, second) = ((sin & !odd) | (cos & odd), (cos & !odd) | (sin & odd));
+    let turned = |quarter: u64| (quarter & 2) << 62;
+    (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
 }
 
 }

@@ -1,0 +1,335 @@
+//! A mechanism as a whole crate: the Rust module with its manifest, its page, a test that holds it against the interpreter,
+//! and a benchmark.
+//!
+//! What the interpreter computes is handed in; this room knows of no analysis.
+
+use super::Unit;
+use super::names::Namer;
+use super::rust;
+use super::text::{lines, literal, one_line};
+use std::fmt::Display;
+
+/// The version of `libm` that the interpreter runs with; `Cargo.toml` pins the same.
+const LIBM: &str = "0.2.16";
+
+const MANIFEST: &str = include_str!("package/Cargo.toml.txt");
+const LIB: &str = include_str!("package/lib.rs");
+const PAGE: &str = include_str!("package/README.md.txt");
+const TEST: &str = include_str!("package/reference.rs");
+const BENCHMARK: &str = include_str!("package/steps.rs");
+
+/// Names that a crate can have, but that would be mistaken for another one or that a system keeps for itself.
+const TAKEN: &[&str] = &[
+    "alloc",
+    "aux",
+    "build",
+    "con",
+    "core",
+    "deps",
+    "examples",
+    "incremental",
+    "libm",
+    "nul",
+    "prn",
+    "proc_macro",
+    "std",
+    "test",
+];
+
+/// The motion as the interpreter has it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reference {
+    /// Names of a row's columns.
+    pub columns: Vec<String>,
+    /// Rows of it, at least one: the first and the last, and some in between, in order (s, m, rad).
+    pub rows: Vec<Vec<f64>>,
+    /// Output times after the first, up to that of the last row.
+    pub steps: u64,
+    /// From one output time to the next (s).
+    pub every: f64,
+    /// Why it ends before the analysis does.
+    pub stopped: Option<String>,
+}
+
+/// A file of a crate.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct File {
+    /// Where it goes in the crate, with `/`.
+    pub path: &'static str,
+    /// What is in it; one of the first lines has [`MARK`].
+    pub text: String,
+}
+
+/// What every file of a crate holds near its beginning, and by which it can be told from one that somebody wrote.
+pub const MARK: &str = "ritten by mechc ";
+
+/// The files of a crate, for a unit with its motion.
+#[must_use]
+pub fn package(unit: &Unit<'_>, reference: &Reference) -> Vec<File> {
+    let module = rust(unit);
+    let writer = Writer { unit, reference, needs_libm: module.contains("libm::") };
+    vec![
+        File { path: "Cargo.toml", text: writer.manifest() },
+        File { path: "README.md", text: writer.page() },
+        File { path: "src/lib.rs", text: writer.filled(LIB, &[]) },
+        File { path: "src/mechanism.rs", text: module },
+        File { path: "tests/reference.rs", text: writer.test() },
+        File { path: "benches/steps.rs", text: writer.benchmark() },
+    ]
+}
+
+/// A valid name of a crate, out of a mechanism's.
+fn crate_name(mechanism: &str) -> String {
+    let name = Namer::default().snake(mechanism);
+    // a word of Rust got a line behind it
+    let plain = name.trim_end_matches('_');
+    if plain.len() < name.len() || TAKEN.contains(&plain) { format!("{plain}_mechanism") } else { name }
+}
+
+/// What a page says of the crate that some modules ask for.
+const WITH_LIBM: &str = "It asks for the crate `libm`, for
+elementary functions with the same bits on every platform. Where cargo does not have that yet, `cargo fetch` gets it, once.";
+
+struct Writer<'w> {
+    unit: &'w Unit<'w>,
+    reference: &'w Reference,
+    needs_libm: bool,
+}
+
+impl Writer<'_> {
+    /// A template with its places filled: those that several have, and more.
+    fn filled(&self, template: &str, more: &[(&str, String)]) -> String {
+        let system = &self.unit.system;
+        let version = env!("CARGO_PKG_VERSION");
+        let shared = [
+            ("package", crate_name(&system.name)),
+            ("mechanism", system.name.clone()),
+            ("mark", format!("W{MARK}{version} from `{}`.", one_line(self.unit.file))),
+            ("params", if system.params.is_empty() { "Params" } else { "Params::default()" }.to_owned()),
+        ];
+        let mut pieces = template.split('$');
+        let mut text = pieces.next().unwrap_or_default().to_owned();
+        // each place once, so that what is filled in is never taken for a place
+        for piece in pieces {
+            let end = piece.find(|c: char| !c.is_ascii_lowercase()).unwrap_or(piece.len());
+            let (place, rest) = piece.split_at(end);
+            let found = shared.iter().chain(more).find(|(name, _)| *name == place);
+            debug_assert!(found.is_some(), "nothing is known for `{place}`");
+            text += found.map_or("", |(_, value)| value);
+            text += rest;
+        }
+        text
+    }
+
+    fn manifest(&self) -> String {
+        let dependencies = if self.needs_libm {
+            format!("# The very version that mechc computes with: the same bits.\nlibm = \"={LIBM}\"\n")
+        } else {
+            String::new()
+        };
+        self.filled(MANIFEST, &[("dependencies", dependencies)])
+    }
+
+    fn test(&self) -> String {
+        let Reference { columns, rows, .. } = self.reference;
+        let names: Vec<String> = columns.iter().map(|name| format!("{name:?}")).collect();
+        let row = |row: &Vec<f64>| {
+            let values: Vec<String> = row.iter().copied().map(literal).collect();
+            format!("    [\n{}    ],\n", lines(&values, "    "))
+        };
+        let more =
+            [("names", lines(&names, "")), ("count", rows.len().to_string()), ("rows", rows.iter().map(row).collect())];
+        self.filled(TEST, &more)
+    }
+
+    fn benchmark(&self) -> String {
+        // without a step it measures what going nowhere costs
+        let steps = self.reference.steps.clamp(1, u64::from(u32::MAX));
+        let more = [
+            ("steps", steps.to_string()),
+            ("every", literal(self.reference.every)),
+            ("last", literal(self.times().last().copied().unwrap_or_default())),
+        ];
+        self.filled(BENCHMARK, &more)
+    }
+
+    /// The times of the rows (s).
+    fn times(&self) -> Vec<f64> {
+        self.reference.rows.iter().filter_map(|row| row.first().copied()).collect()
+    }
+
+    fn page(&self) -> String {
+        let stopped = self.reference.stopped.as_deref();
+        let end = stopped.map(|why| format!("\nThe motion ends before the file's analysis does: {}.", in_prose(why)));
+        let needs = if self.needs_libm { WITH_LIBM } else { "It asks for no other crate." };
+        let (imports, shown) = self.shown();
+        let times = self.times();
+        let some = match times.as_slice() {
+            [first, .., last] => vec![*first, times[times.len() / 2], *last],
+            few => few.to_vec(),
+        };
+        let some: Vec<String> = some.into_iter().map(literal).collect();
+        let more = [
+            ("imports", imports.to_owned()),
+            ("times", some.join(", ")),
+            ("shown", shown),
+            ("needs", needs.to_owned()),
+            ("calls", self.calls()),
+            ("parameters", self.parameters()),
+            ("bodies", self.bodies()),
+            ("coordinates", self.coordinates()),
+            ("measures", self.measures()),
+            ("end", end.unwrap_or_default()),
+        ];
+        self.filled(PAGE, &more)
+    }
+
+    /// What the example prints, and what it needs for it.
+    fn shown(&self) -> (&'static str, String) {
+        let system = self.unit.system;
+        if let Some(measure) = system.measures.first() {
+            let name = Namer::default().constant(&measure.name);
+            return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
+        }
+        if let Some(body) = system.bodies.first() {
+            let name = Namer::default().camel(&body.name);
+            return ("Body, Params, assemble, step", format!("state.pose(Body::{name})"));
+        }
+        ("Params, assemble, step", "state.q()".to_owned())
+    }
+
+    /// What can be asked of a state, depending on what there is.
+    fn calls(&self) -> String {
+        let system = self.unit.system;
+        let mut text = String::new();
+        if !system.bodies.is_empty() {
+            text += "| `state.pose(body)`, `velocity(body)`, `acceleration(body)` | those of a body, as `x`, `y` and `phi` |\n";
+        }
+        if !system.measures.is_empty() {
+            text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
+        }
+        text
+    }
+
+    fn parameters(&self) -> String {
+        let params = &self.unit.system.params;
+        let Some(first) = params.first() else {
+            return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
+        };
+        let mut namer = Namer::default();
+        let rows = params.iter().map(|param| {
+            let unit = unit(&param.unit);
+            [format!("`{}`", namer.snake(&param.name)), format!("`{}`", param.name), unit, literal(param.value)]
+        });
+        let rows: String = rows.map(|cells| line(&cells)).collect();
+        let field = Namer::default().snake(&first.name);
+        format!(
+            "Those of the file by default; `Params {{ {field}: {}, ..Params::default() }}` sets one.\n\n\
+             | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}",
+            literal(first.value)
+        )
+    }
+
+    fn bodies(&self) -> String {
+        let bodies = &self.unit.system.bodies;
+        if bodies.is_empty() {
+            return String::new();
+        }
+        let mut namer = Namer::default();
+        let rows: String = bodies
+            .iter()
+            .map(|body| line(&[format!("`Body::{}`", namer.camel(&body.name)), format!("`{}`", body.name)]))
+            .collect();
+        format!("## Bodies\n\n| name | body |\n| --- | --- |\n{rows}\n")
+    }
+
+    fn coordinates(&self) -> String {
+        let mut namer = Namer::default();
+        let rows = self.unit.system.coordinates.iter().map(|coordinate| {
+            let index = format!("`coordinate::{}`", namer.constant(&coordinate.name));
+            [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit())]
+        });
+        rows.map(|cells| line(&cells)).collect()
+    }
+
+    fn measures(&self) -> String {
+        let measures = &self.unit.system.measures;
+        if measures.is_empty() {
+            return String::new();
+        }
+        let mut namers = [Namer::default(), Namer::default(), Namer::default()];
+        let mut index = |kind: usize, name: &str| {
+            let module = ["measure", "measure_rate", "measure_acceleration"][kind];
+            format!("`{module}::{}`", namers[kind].constant(name))
+        };
+        let mut rows = String::new();
+        for measure in measures {
+            let rate = measure.first.map_or(String::new(), |_| index(1, &measure.name));
+            let acceleration = measure.second.map_or(String::new(), |_| index(2, &measure.name));
+            rows += &line(&[format!("`{}`", measure.name), index(0, &measure.name), rate, acceleration]);
+        }
+        format!(
+            "## Measures\n\n`values`, `rates` and `accelerations` of `state.measures()`, by these indices:\n\n\
+             | measure | value | first derivative | second derivative |\n| --- | --- | --- | --- |\n{rows}\n"
+        )
+    }
+}
+
+/// A message as a part of a page: its names stay in backticks.
+fn in_prose(message: &str) -> String {
+    message.split('`').map(one_line).collect::<Vec<String>>().join("`")
+}
+
+/// A unit as a reader wants it.
+fn unit(unit: &str) -> String {
+    if matches!(unit, "" | "1") { "a pure number".to_owned() } else { unit.to_owned() }
+}
+
+/// A line of a table.
+fn line<T: Display>(cells: &[T]) -> String {
+    let cells: Vec<String> = cells.iter().map(ToString::to_string).collect();
+    format!("| {} |\n", cells.join(" | "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{LIBM, PAGE, crate_name};
+
+    #[test]
+    fn names_of_crates_are_valid() {
+        let cases = [
+            ("slider_crank", "slider_crank"),
+            ("Peaucellier", "peaucellier"),
+            ("é", "u00e9"),
+            ("type", "type_mechanism"),
+            ("Self", "self_mechanism"),
+            ("core", "core_mechanism"),
+            ("_", "unnamed"),
+            ("_3rpr", "n3rpr"),
+            ("ends_", "ends"),
+        ];
+        for (mechanism, name) in cases {
+            assert_eq!(crate_name(mechanism), name);
+        }
+        assert!(crate_name(&"long".repeat(100)).len() <= 50);
+    }
+
+    #[test]
+    fn libm_is_the_one_that_is_used_here() {
+        let pinned = format!("\nlibm = \"={LIBM}\"\n");
+        assert!(include_str!("../../Cargo.toml").contains(&pinned), "{pinned}");
+    }
+
+    #[test]
+    fn the_page_has_every_error() {
+        let state = include_str!("runtime/state.rs");
+        let arms = state.lines().filter_map(|line| line.trim().strip_prefix("Error::")?.split_once(" => \""));
+        let mut count = 0;
+        for (error, text) in arms {
+            let text = text.trim_end_matches("\",");
+            assert!(PAGE.contains(&format!("| `Error::{error}` | {text}")), "{error}: {text}");
+            count += 1;
+        }
+        assert!(count >= 4, "{count} errors");
+    }
+}

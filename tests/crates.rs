@@ -1,0 +1,196 @@
+//! Emitted crates: what is in their files, and when a folder is left alone. `.ci/run` builds and tests some of them.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use assert_cmd::Command;
+use mechc::emit::{self, File, MARK, Reference, Unit};
+use mechc::program::Program;
+use mechc::source::Sources;
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use support::{Span, analyse, compile_at, files, stem};
+
+const SLIDER_CRANK: &str = "examples/slider_crank.mech";
+
+/// A crate by the paths of its files, and what it was checked against.
+struct Crate {
+    files: BTreeMap<&'static str, String>,
+    reference: Reference,
+}
+
+fn emitted(path: &Path, text: &str) -> Crate {
+    let mut sources = Sources::default();
+    let name = path.file_name().expect("a name").to_string_lossy();
+    let (determined, _) = compile_at(&mut sources, &name, text, path, 0);
+    let determined = determined.expect("determined");
+    let program = Program::new(determined.system());
+    let (motion, _) = mechc::motion(&determined, &program).expect("it assembles");
+    let (reference, _) = mechc::reference(&determined, &program).expect("it assembles");
+    assert!(motion.is_some());
+    let unit = Unit { system: determined.system(), program: &program, sources: &sources, file: &name, motion };
+    let list = emit::package(&unit, &reference).into_iter();
+    Crate { files: list.map(|File { path, text }| (path, text)).collect(), reference }
+}
+
+/// The numbers of the test's table.
+fn table(test: &str) -> Vec<f64> {
+    let (_, rows) = test.split_once("const ROWS").expect("a table");
+    let (_, rows) = rows.split_once("= [").expect("rows");
+    let numbers = rows.split([',', '[', ']', ';']).map(str::trim).filter(|text| !text.is_empty());
+    numbers.map(|number| number.parse().expect("a number")).collect()
+}
+
+/// Examples, and mechanisms with what is rare: odd names, tables, jerk.
+fn mechanisms() -> Vec<PathBuf> {
+    [files("examples", "mech"), files("tests/stages", "mech")].concat()
+}
+
+#[test]
+fn the_table_of_the_test_has_the_rows_of_the_interpreter() {
+    for path in mechanisms() {
+        let text = fs::read_to_string(&path).expect("a text");
+        let Crate { files, reference } = emitted(&path, &text);
+        let mut sources = Sources::default();
+        let compiled = compile_at(&mut sources, &stem(&path), &text, &path, 0);
+        let all = analyse(sources, compiled, Span::default()).expect_success();
+        assert_eq!(reference.columns, all.columns);
+        assert_eq!(reference.rows.first(), all.rows.first(), "{}", path.display());
+        assert_eq!(reference.rows.last(), all.rows.last(), "{}", path.display());
+        assert_eq!(reference.rows.len(), all.rows.len().min(20));
+        assert_eq!(reference.steps as usize + 1, all.rows.len());
+        assert!(reference.rows.iter().all(|row| all.rows.contains(row)), "{}", path.display());
+        assert!(reference.rows.is_sorted_by(|a, b| a[0] < b[0]));
+        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+        assert_eq!(bits(&table(&files["tests/reference.rs"])), bits(&reference.rows.concat()), "{}", path.display());
+    }
+}
+
+#[test]
+fn every_file_is_marked_and_nothing_is_left_to_fill_in() {
+    for path in mechanisms() {
+        let Crate { files, .. } = emitted(&path, &fs::read_to_string(&path).expect("a text"));
+        for (file, text) in &files {
+            assert!(text.lines().take(6).any(|line| line.contains(MARK)), "{file}");
+            assert!(!text.contains('$'), "{file}");
+            assert!(text.ends_with('\n') && !text.ends_with("\n\n"), "{file}");
+        }
+        let manifest = &files["Cargo.toml"];
+        let name = manifest.split('"').nth(1).expect("a name");
+        assert!(name.starts_with(|c: char| c.is_ascii_lowercase()), "{name}");
+        assert!(name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_'), "{name}");
+        assert_eq!(manifest.contains("libm"), files["src/mechanism.rs"].contains("libm::"), "{name}");
+        assert_eq!(files["README.md"].contains("libm"), manifest.contains("libm"), "{name}");
+        assert!(files["README.md"].contains(&format!("use {name}::{{")), "{name}");
+    }
+}
+
+#[test]
+fn what_is_written_is_as_a_formatter_leaves_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut paths = Vec::new();
+    for (number, path) in mechanisms().into_iter().enumerate() {
+        let Crate { files, .. } = emitted(&path, &fs::read_to_string(&path).expect("a text"));
+        for (file, text) in files.iter().filter(|(file, _)| file.ends_with("s.rs") || file.ends_with("e.rs")) {
+            let path = folder.path().join(format!("{number}_{}", file.replace('/', "_")));
+            fs::write(&path, text).expect("written");
+            paths.push(path);
+        }
+    }
+    let mut rustfmt = std::process::Command::new("rustfmt");
+    let output = rustfmt.args(["--check", "--edition", "2024"]).args(&paths).output().expect("rustfmt");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stdout));
+}
+
+#[test]
+fn without_an_analysis_the_first_second_is_taken() {
+    let text = fs::read_to_string(SLIDER_CRANK).unwrap().replace("analysis", "// analysis");
+    let Crate { reference, .. } = emitted(Path::new("slider_crank.mech"), &text);
+    let times: Vec<f64> = reference.rows.iter().map(|row| row[0]).collect();
+    assert_eq!(times.len(), 10);
+    assert_eq!((times[0], times[9]), (0.0, 0.9));
+}
+
+#[test]
+fn an_analysis_of_one_time_has_one_row() {
+    let text = fs::read_to_string(SLIDER_CRANK).unwrap().replace("to 40 ms every 0.5 ms", "to 0 s every 1 ms");
+    let Crate { reference, files } = emitted(Path::new("slider_crank.mech"), &text);
+    assert_eq!((reference.rows.len(), reference.steps), (1, 0));
+    assert!(files["README.md"].contains("for t in [0.0] {"));
+}
+
+/// `mechc emit … --crate …` with an exit code, and what it said.
+fn emit_crate(arguments: &[&str], code: i32) -> String {
+    let output = Command::new(env!("CARGO_BIN_EXE_mechc")).arg("emit").args(arguments).output().expect("it runs");
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(code), "{arguments:?}: {text}");
+    assert!(output.stdout.is_empty());
+    text
+}
+
+/// The files below a folder, in order, with `/`.
+fn inside(folder: &Path) -> Vec<String> {
+    let mut found = Vec::new();
+    let mut open = vec![folder.to_owned()];
+    while let Some(next) = open.pop() {
+        for entry in fs::read_dir(&next).expect("a folder") {
+            let path = entry.expect("it can be read").path();
+            if path.is_dir() {
+                open.push(path);
+            } else {
+                found.push(path.strip_prefix(folder).expect("inside").to_string_lossy().replace('\\', "/"));
+            }
+        }
+    }
+    found.sort();
+    found
+}
+
+#[test]
+fn a_folder_is_made_and_what_mechc_wrote_is_replaced() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("a_crate");
+    let name = target.to_string_lossy();
+    assert_eq!(emit_crate(&[SLIDER_CRANK, "--crate", &name], 0), "");
+    let manifest = fs::read_to_string(target.join("Cargo.toml")).unwrap();
+    let wanted =
+        ["Cargo.toml", "README.md", "benches/steps.rs", "src/lib.rs", "src/mechanism.rs", "tests/reference.rs"];
+    assert_eq!(inside(&target), wanted);
+    fs::write(target.join("src/more.rs"), "mine").unwrap();
+    emit_crate(&[SLIDER_CRANK, "--crate", &name, "--set", "rod_length=200mm"], 0);
+    assert_eq!(fs::read_to_string(target.join("Cargo.toml")).unwrap(), manifest);
+    assert!(
+        fs::read_to_string(target.join("README.md")).unwrap().contains("| `rod_length` | `rod_length` | m | 0.2 |")
+    );
+    assert_eq!(fs::read_to_string(target.join("src/more.rs")).unwrap(), "mine");
+}
+
+#[test]
+fn what_somebody_wrote_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let name = folder.path().to_string_lossy();
+    fs::create_dir(folder.path().join("tests")).unwrap();
+    fs::write(folder.path().join("tests/reference.rs"), "// mine\n").unwrap();
+    let said = emit_crate(&[SLIDER_CRANK, "--crate", &name], 4);
+    assert!(said.contains("E0702") && said.contains("reference.rs`: a file is there"), "{said}");
+    assert_eq!(inside(folder.path()), ["tests/reference.rs"], "nothing is written beside it");
+    let file = folder.path().join("tests/reference.rs");
+    assert!(emit_crate(&[SLIDER_CRANK, "--crate", &file.to_string_lossy()], 4).contains("it is a file"));
+    let far = folder.path().join("no/such");
+    assert!(emit_crate(&[SLIDER_CRANK, "--crate", &far.to_string_lossy()], 4).contains("there is no folder"));
+    assert!(emit_crate(&[SLIDER_CRANK, "--crate", ""], 4).contains("E0702"));
+}
+
+#[test]
+fn where_the_motion_stops_the_crate_is_written_up_to_there() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let target = folder.path().join("four_bar");
+    let said = emit_crate(&["tests/ui/run/four_bar_into_lock_up.mech", "--crate", &target.to_string_lossy()], 3);
+    assert!(said.contains("E0602"), "{said}");
+    let page = fs::read_to_string(target.join("README.md")).unwrap();
+    assert!(page.contains("ends before the file's analysis does: the mechanism locks up at t = 0.3758"), "{page}");
+    let numbers = table(&fs::read_to_string(target.join("tests/reference.rs")).unwrap());
+    assert!(numbers.len() > 10, "{} numbers", numbers.len());
+}
