@@ -1802,6 +1802,7 @@ pub mod lanes {
     }
 
     /// Part 1 of [`solve`].
+    #[inline(never)]
     fn solve_1(
         guess: &[Each; TEARS],
         t: &Each,
@@ -1836,6 +1837,7 @@ pub mod lanes {
     }
 
     /// Part 2 of [`solve`].
+    #[inline(never)]
     fn solve_2(
         _guess: &[Each; TEARS],
         _t: &Each,
@@ -1890,6 +1892,7 @@ pub mod lanes {
     }
 
     /// Part 3 of [`solve`].
+    #[inline(never)]
     fn solve_3(
         _guess: &[Each; TEARS],
         _t: &Each,

@@ -9,6 +9,9 @@
 #![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
 
 mod closed_form;
+#[allow(clippy::pedantic, dead_code)] // code of another hand
+#[rustfmt::skip]
+mod four_bar;
 mod mechanisms;
 mod newton;
 mod timing;
@@ -34,6 +37,7 @@ fn main() {
     let floor = median(9, || per_step(STEPS, by_hand));
     println!("closed form of the four-bar, by hand: {floor:.0} ns a step\n");
     agree();
+    emitted(floor);
     single(floor);
     four_bars(floor);
     scissor_lifts(floor);
@@ -60,14 +64,49 @@ fn agree() {
     let mut dense = Newton::new(Dense::new(&compiled), &compiled, &program, started.q());
     let mut sparse = Newton::new(Sparse::new(&compiled), &compiled, &program, started.q());
     let mut motion = started.motion(&Times::listed(0.0, turn().collect()));
+    let mut state = four_bar::assemble(&four_bar::Params::default()).expect("it assembles");
     for t in turn() {
         let row = motion.next_row().expect("a row").expect("it moves");
-        for (name, got) in [("mechc", &row[1..]), ("dense", &dense.step(t)), ("sparse", &sparse.step(t))] {
+        four_bar::step(t, &mut state).expect("it moves");
+        let emitted = state.row();
+        let ways =
+            [("mechc", &row[1..]), ("emitted", &emitted[1..]), ("dense", &dense.step(t)), ("sparse", &sparse.step(t))];
+        for (name, got) in ways {
             for (k, (a, b)) in got.iter().zip(closed_form(t)).enumerate() {
                 assert!((a - b).abs() < 1e-9, "{name}, number {k} at t = {t}: {a} instead of {b}");
             }
         }
     }
+}
+
+/// The four-bar as it is emitted: one at a time, and in 16 lanes.
+fn emitted(floor: f64) {
+    use four_bar::{Params, assemble, lanes, step};
+    let alone = median(21, || {
+        let mut state = assemble(&Params::default()).expect("it assembles");
+        per_step(STEPS, || {
+            for t in turn() {
+                step(black_box(t), &mut state).expect("it moves");
+                black_box(state.q());
+            }
+        })
+    });
+    let together = median(21, || {
+        let mut states = lanes::assemble(&[Params::default(); lanes::LANES]).expect("they assemble");
+        let all = per_step(STEPS, || {
+            for t in turn() {
+                let done = lanes::step_each(black_box(&[t; lanes::LANES]), &mut states);
+                assert!(black_box(done).iter().all(Result::is_ok));
+                black_box(states.q());
+            }
+        });
+        all / lanes::LANES as f64
+    });
+    println!("the four-bar as emitted Rust");
+    for (name, time) in [("one at a time", alone), ("16 lanes, each", together)] {
+        println!("  {name:<16} {time:>6.0} ns {:>7.2} x", time / floor);
+    }
+    println!();
 }
 
 /// Mechanisms of one loop or a few.

@@ -21,6 +21,9 @@ const LONGEST_OPERAND: usize = 20;
 /// What functions of a module within the file are indented by.
 pub(super) const MODULE: &str = "    ";
 
+/// A loop over lanes is vectorised if it is known that what it writes does not overlap, as what a function is given does not.
+const APART: &str = "#[inline(never)]\n";
+
 /// What operations are printed among.
 pub(super) trait Scene {
     /// The name and the value of a register that no operation writes.
@@ -388,13 +391,9 @@ impl<'p, S: Scene> Printer<'p, S> {
         }
         let (of, zero) = if self.scene.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
         arguments.push(("w", format!("&mut [{of}; {}]", self.terms)));
-        let mut written = Parts {
-            name: function.name,
-            arguments: &arguments,
-            margin: function.margin,
-            text: String::new(),
-            count: 0,
-        };
+        let attribute = if self.scene.has_lanes() { APART } else { "" };
+        let (name, margin) = (function.name, function.margin);
+        let mut written = Parts { name, arguments: &arguments, margin, attribute, text: String::new(), count: 0 };
         let mut calls = String::new();
         for part in parts {
             let body = match part {
@@ -678,6 +677,7 @@ struct Parts<'p> {
     name: &'p str,
     arguments: &'p [(&'p str, String)],
     margin: usize,
+    attribute: &'p str,
     text: String,
     count: usize,
 }
@@ -688,7 +688,7 @@ impl Parts<'_> {
         self.count += 1;
         let name = format!("{}_{}", self.name, self.count);
         let types: Vec<(&str, &str)> = self.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
-        self.text += &format!("/// Part {} of [`{}`].\n", self.count, self.name);
+        self.text += &format!("/// Part {} of [`{}`].\n{}", self.count, self.name, self.attribute);
         self.text += &(signature("", &name, &types, "", body, self.margin) + body + "}\n\n");
         name
     }

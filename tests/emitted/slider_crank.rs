@@ -1920,6 +1920,7 @@ pub mod lanes {
     }
 
     /// Part 1 of [`solve`].
+    #[inline(never)]
     fn solve_1(
         guess: &[Each; TEARS],
         t: &Each,
@@ -1959,6 +1960,7 @@ pub mod lanes {
     }
 
     /// Part 2 of [`solve`].
+    #[inline(never)]
     fn solve_2(
         _guess: &[Each; TEARS],
         _t: &Each,
@@ -1989,6 +1991,7 @@ pub mod lanes {
     }
 
     /// Part 3 of [`solve`].
+    #[inline(never)]
     fn solve_3(
         _guess: &[Each; TEARS],
         _t: &Each,
@@ -2044,6 +2047,7 @@ pub mod lanes {
     }
 
     /// Part 4 of [`solve`].
+    #[inline(never)]
     fn solve_4(
         guess: &[Each; TEARS],
         _t: &Each,
@@ -2057,6 +2061,7 @@ pub mod lanes {
     }
 
     /// Part 5 of [`solve`].
+    #[inline(never)]
     fn solve_5(
         _guess: &[Each; TEARS],
         _t: &Each,
@@ -2085,6 +2090,7 @@ pub mod lanes {
     }
 
     /// Part 6 of [`solve`].
+    #[inline(never)]
     fn solve_6(
         _guess: &[Each; TEARS],
         _t: &Each,
