@@ -4,10 +4,12 @@ use super::code::{Code, Function, Input, Out, Scene};
 use super::names::Names;
 use super::operations::slice;
 use super::tables::{self, Tables};
-use super::text::literal;
+use super::tape::{self, Book, Notes};
+use super::text::{documented, literal, signature};
 use crate::program::{Column, Program, Register};
 use crate::solver::{Op, Segment};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::cell::RefCell;
 
 /// What the functions of the equations are written from.
 pub(super) struct Equations<'e> {
@@ -17,6 +19,15 @@ pub(super) struct Equations<'e> {
     pub constants: FxHashMap<Register, f64>,
     /// The results of switches, by their places among the sides.
     pub sides: FxHashMap<Register, usize>,
+    /// What operations written as numbers share; none where they are written as lines.
+    pub book: Option<RefCell<Book>>,
+}
+
+/// Where a register of the program gets its value that no operation of a function writes.
+pub(super) enum Loaded {
+    Number(f64),
+    /// An array of those that operations read, and the place there.
+    Input { array: u32, index: u32 },
 }
 
 /// A function to write.
@@ -67,6 +78,9 @@ impl Equations<'_> {
         if wanted.given != Given::None && !self.sides.is_empty() {
             arguments.push(("sides", "&Sides".to_owned()));
         }
+        if let Some(book) = &self.book {
+            return self.as_numbers(wanted, &operations, &arguments, &mut book.borrow_mut());
+        }
         let segments = [Segment::Once(0..operations.len())];
         let code = Code { operations: &operations, segments: &segments, registers: self.program.registers() };
         let (result, first) = (format!("[f64; {}]", wanted.length), format!("[0.0; {}]", wanted.length));
@@ -79,6 +93,72 @@ impl Equations<'_> {
             margin: 0,
         };
         code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function)
+    }
+
+    /// A function that reads its operations from a list of numbers.
+    fn as_numbers(
+        &self,
+        wanted: &Wanted<'_>,
+        operations: &[Op],
+        arguments: &[(&str, String)],
+        book: &mut Book,
+    ) -> String {
+        let count = operations.iter().filter(|op| !matches!(op, Op::Store { .. })).count();
+        let operations = tape::with_loads(operations, self.program.registers());
+        let segments = [Segment::Once(0..operations.len())];
+        let shared = tape::share(&operations, &segments, self.program.registers());
+        let notes = Notes { pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
+        let words = book.encode(&shared.operations, self, &FxHashMap::default(), &notes).words;
+        let name = wanted.name.to_uppercase();
+        let mut lists: Vec<String> = vec![if self.names.params.is_empty() { "&[]" } else { "&p.list()" }.to_owned()];
+        lists.push("&[]".to_owned());
+        let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
+        lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
+        lists.push(if given("t") { "&[t]" } else { "&[]" }.to_owned());
+        lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
+        let turned = if wanted.negated { "    out = out.map(|value| -value);\n" } else { "" };
+        let body = format!(
+            "    let inputs: Inputs<'_> = [{}];\n    let mut out = [0.0; {}];\n    let mut v = [0.0; {}];\n    \
+             run(&{name}_CODE, &[], &inputs, &mut v, &mut out);\n{turned}    out\n",
+            lists.join(", "),
+            wanted.length,
+            shared.registers,
+        );
+        let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
+        let visibility = if wanted.is_public { "pub " } else { "" };
+        let docs = format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs);
+        documented(&docs, "")
+            + &signature(visibility, wanted.name, &types, &format!("[f64; {}]", wanted.length), &body, 0)
+            + &body
+            + "}\n\n"
+            + &tape::list(&format!("The operations of [`{}`].", wanted.name), &format!("{name}_CODE"), &words)
+    }
+
+    /// Where a register of the program gets its value.
+    pub fn loaded(&self, register: Register, known: &FxHashMap<Register, usize>) -> Loaded {
+        let inputs = &self.program.inputs;
+        let input = |array: u32, index: usize| Loaded::Input { array, index: index as u32 };
+        if let Some(&value) = self.constants.get(&register) {
+            return Loaded::Number(value);
+        }
+        if let Some(&place) = known.get(&register) {
+            return input(1, place);
+        }
+        if let Some(&side) = self.sides.get(&register) {
+            return input(2, side);
+        }
+        if register == inputs.time {
+            return input(3, 0);
+        }
+        if register < inputs.time {
+            return input(0, (register - inputs.params) as usize);
+        }
+        let order = (0..4).find(|&order| {
+            (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register)
+        });
+        order.map_or(Loaded::Number(f64::NAN), |order| {
+            input(4 + order as u32, (register - inputs.coordinates[order]) as usize)
+        })
     }
 
     /// A register of the program that no operation of a function writes.

@@ -13,12 +13,13 @@ mod package;
 mod rust;
 mod solution;
 mod tables;
+mod tape;
 mod text;
 
 pub use json::json;
 pub use latex::latex;
 pub use package::{File, MARK, Reference, package};
-pub use rust::rust;
+pub use rust::{is_large, rust};
 
 use crate::ir::ConstraintSystem;
 use crate::program::Program;

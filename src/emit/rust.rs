@@ -6,11 +6,13 @@ use super::equations::{Equations, Given, Wanted};
 use super::names::{Namer, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
+use super::tape::LARGEST_STRAIGHT;
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::ir::{Measure, Owner};
-use crate::program::{Column, Register};
+use crate::program::{Column, Register, STAGES};
 use crate::solver::RowLayout;
 use crate::source::Span;
+use std::cell::RefCell;
 
 /// The sine-cosine pair and the elimination with partial pivoting, word for word as the interpreter runs them.
 const SIN_COS: &str = include_str!("../math/sin_cos.rs");
@@ -21,6 +23,8 @@ const SOLVER: &str = include_str!("runtime/solver.rs");
 const SIDES: &str = include_str!("runtime/sides.rs");
 const MOTION: &str = include_str!("runtime/motion.rs");
 const LANES: &str = include_str!("runtime/lanes.rs");
+const LARGE: &str = include_str!("runtime/large.rs");
+const RUN: &str = include_str!("runtime/tables.rs");
 const WITHOUT_BRANCHES: &str = include_str!("../math/without_branches.rs");
 const FUNCTIONS: &str = include_str!("runtime/functions.rs");
 
@@ -39,6 +43,7 @@ pub fn rust(unit: &Unit<'_>) -> String {
         tables: &tables,
         constants: unit.program.constants().iter().copied().collect(),
         sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
+        book: is_large(unit).then(RefCell::default),
     };
     let writer = Writer { unit, names: &names, equations: &equations };
     let motion = unit.motion.as_ref().map(|motion| Solution::new(unit, motion, &equations));
@@ -47,8 +52,23 @@ pub fn rust(unit: &Unit<'_>) -> String {
     if let Some(solution) = &motion {
         body += &writer.motion(solution);
     }
+    if let Some(book) = &equations.book {
+        body += RUN;
+        body += "\n";
+        body += &book.borrow().print(&equations);
+    }
     body += &helpers(&body);
     writer.header(body.contains("libm::")) + body.trim_end() + "\n"
+}
+
+/// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
+#[must_use]
+pub fn is_large(unit: &Unit<'_>) -> bool {
+    let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
+    let of_solver = unit.motion.as_ref().map_or(0, |motion| motion.solver.operations());
+    let constants = unit.program.constants().iter().copied().collect();
+    let is_constant = |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
+    of_program + of_solver > LARGEST_STRAIGHT && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
 struct Writer<'w> {
@@ -109,6 +129,14 @@ impl Writer<'_> {
             text += &format!("            {name}: {},\n", literal(param.value));
         }
         text += "        }\n    }\n}\n\n";
+        if self.equations.book.is_some() {
+            let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
+            text += &format!(
+                "impl Params {{\n    #[rustfmt::skip]\n    fn list(&self) -> [f64; {}] {{\n        [\n{}        ]\n    }}\n}}\n\n",
+                fields.len(),
+                lines(&fields, "        "),
+            );
+        }
         if has_motion {
             text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        Self {\n";
             for name in &self.names.params {
@@ -153,7 +181,7 @@ impl Writer<'_> {
             text += &format!("    /// {kind} `{row}`{line}\n    pub const {name}: usize = {k};\n");
         }
         text += "}\n\n/// Row and column of each value that [`phi_q`] gives.\n#[rustfmt::skip]\n";
-        text += "pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [\n";
+        text += "pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [\n";
         for row in 0..system.rows.len() {
             for (column, _) in system.phi_q.row(row) {
                 text += &format!("    ({row}, {column}),\n");
@@ -330,7 +358,10 @@ impl Writer<'_> {
         let of_time = switches.iter().any(|switch| switch.on_time);
         let has_motion = switches.iter().any(|switch| !switch.on_time);
         let conditions = self.conditions();
-        let solve = solution.function(false);
+        let solve = match &self.equations.book {
+            Some(_) => LARGE.to_owned(),
+            None => solution.function(false),
+        };
         let wanted = [
             ("bodies", !system.bodies.is_empty()),
             ("measures", !system.measures.is_empty()),
@@ -343,7 +374,7 @@ impl Writer<'_> {
             ("pivoting", solution.motion.blocks.is_some()),
             ("newton", solution.has_newton()),
             ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
-            ("pivots", solve.contains("at.pivot(")),
+            ("pivots", solve.contains("at.pivot(") && self.equations.book.is_none()),
             ("jerk", system.jerk.is_some()),
             ("params", !system.params.is_empty()),
             ("known", !solution.known.is_empty()),
@@ -363,7 +394,16 @@ impl Writer<'_> {
         text += &chosen(SOLVER, &wanted);
         text += "\n";
         text += &solution.tears();
-        text += &solve;
+        text += &match &self.equations.book {
+            Some(book) => {
+                let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
+                let sides = if self.has_sides() { "sides" } else { "&[]" };
+                let model = if solution.known.is_empty() && system.params.is_empty() { "_" } else { "m" };
+                let template = chosen(LARGE, &wanted).replace("$known", known).replace("$given_sides", sides);
+                solution.as_numbers(&(template.replace("$m", model) + "\n"), &mut book.borrow_mut())
+            }
+            None => solve,
+        };
         text += &conditions;
         text += &self.watches();
         text += &self.sides(of_time, has_motion, &wanted);
@@ -612,7 +652,7 @@ const MEASURES_IN_SOLUTION: &str = "impl Measures {
 const DENSE: &str = "/// The Jacobian as a full matrix, row by row.
 pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     let mut full = [[0.0; N]; N];
-    for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
         if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
             *entry = value;
         }

@@ -3,6 +3,7 @@
 use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute, column_of};
 use super::equations::Equations;
 use super::names::Names;
+use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::{constant, documented, lines, literal};
 use super::{Motion, Unit};
 use crate::program::{Column, Register};
@@ -117,6 +118,48 @@ impl<'s> Solution<'s> {
         code.print(&SolverScene { solution: self, layout, has_lanes }, &function)
     }
 
+    /// The function that reads its operations from lists of numbers, with these lists.
+    pub fn as_numbers(&self, template: &str, book: &mut Book) -> String {
+        let solver = &self.motion.solver;
+        let Shared { operations, segments, registers } =
+            tape::share(solver.all_operations(), solver.segments(), solver.registers());
+        let notes = Notes {
+            pivot: &|number| {
+                let pivot = solver.pivots()[number as usize];
+                (pivot.turn, pivot.weight)
+            },
+            weight: &|number| solver.weight(number),
+            bound: &|row| self.motion.bounds[row as usize],
+        };
+        let Tape { words, starts } = book.encode(&operations, self.equations, &self.known, &notes);
+        let (mut list, mut settling) = (String::new(), Vec::new());
+        for segment in &segments {
+            let (range, tears) = match segment {
+                Segment::Once(range) => (range, &[][..]),
+                Segment::Newton { operations, tears } => (operations, tears.as_slice()),
+            };
+            let first = settling.len();
+            settling.extend(tears.iter().map(|tear| {
+                let sizes = [literal(tear.cell), literal(tear.scale)].join(", ");
+                format!("([{}, {}], [{sizes}])", tear.x, tear.delta)
+            }));
+            let code = [starts[range.start], starts[range.end]];
+            let tears = format!(", tears: [{first}, {}]", settling.len());
+            let tears = if self.has_newton() { tears } else { String::new() };
+            list += &format!("    Segment {{ code: {code:?}{tears} }},\n");
+        }
+        let mut text = template.to_owned();
+        text += &format!("/// Registers of [`solve`].\nconst REGISTERS: usize = {registers};\n\n");
+        text += "/// What [`solve`] runs, in order.\n#[rustfmt::skip]\n";
+        text += &format!("static SEGMENTS: [Segment; {}] = [\n{list}];\n\n", segments.len());
+        if self.has_newton() {
+            text += "/// Of each coordinate that Newton solves for: the registers of it and of its correction, the width of a cell of its\n\
+                /// grid, and what it is judged against.\n#[rustfmt::skip]\n";
+            text += &format!("static SETTLING: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n", settling.len(), lines(&settling, ""));
+        }
+        text + &tape::list("The operations of [`solve`].", "SOLVE", &words)
+    }
+
     /// By coordinate that Newton solves for: the width of a cell of its grid.
     fn cells(&self) -> Vec<f64> {
         let solver = &self.motion.solver;
@@ -222,7 +265,7 @@ impl<'s> Solution<'s> {
         text += &format!("const WORK: usize = blocks::work_of({});\n\n", tables.largest());
         text += "/// What may be left of an equation, beside the norm of its row.\n";
         text += &format!("const TOLERANCE: f64 = {};\n\n", literal(self.motion.tolerance));
-        text += "/// How the equations fall apart into blocks.\n#[rustfmt::skip]\nconst EQUATIONS: blocks::Blocks<'_> = blocks::Blocks {\n";
+        text += "/// How the equations fall apart into blocks.\n#[rustfmt::skip]\nstatic EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {\n";
         let mut list = |name: &str, values: Vec<String>| {
             text += &format!("    {name}: &[\n{}    ],\n", lines(&values, "    "));
         };
@@ -240,6 +283,11 @@ impl<'s> Solution<'s> {
     /// The coordinates that Newton solves for, out of all.
     pub fn tears(&self) -> String {
         let tears: Vec<String> = self.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
+        if tears.len() > MOST_TEARS_IN_LINE {
+            let columns: Vec<String> = self.motion.solver.tears().iter().map(u32::to_string).collect();
+            return constant("Which coordinates Newton solves for.", "TEAR_COLUMNS", "usize", "TEARS", &columns)
+                + TEARS_BY_TABLE;
+        }
         let body =
             if tears.is_empty() { "    []\n".to_owned() } else { format!("    [\n{}    ]\n", lines(&tears, "    ")) };
         let q = if tears.is_empty() { "_q" } else { "q" };
@@ -248,6 +296,20 @@ impl<'s> Solution<'s> {
         )
     }
 }
+
+/// More coordinates that Newton solves for are looked up in a table.
+const MOST_TEARS_IN_LINE: usize = 64;
+
+const TEARS_BY_TABLE: &str = "/// Of all coordinates those that Newton solves for.
+fn tears(q: &[f64; N]) -> [f64; TEARS] {
+    let mut tears = [0.0; TEARS];
+    for (tear, column) in tears.iter_mut().zip(&TEAR_COLUMNS) {
+        *tear = q.get(*column).copied().unwrap_or(f64::NAN);
+    }
+    tears
+}
+
+";
 
 /// Breaks documentation into lines.
 pub(super) fn wrapped(text: &str) -> String {

@@ -4,14 +4,20 @@
 //! for a large stack.
 
 use super::equations::{Equations, Loaded};
+use super::operations::{binary, unary};
 use super::tables::COLUMNS;
+use super::text::{lines, literal};
 use crate::expr::{Binary, Comparison, Unary};
 use crate::program::{self, Register};
 use crate::solver::{Op, Segment};
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
+use std::collections::BTreeMap;
 
 /// Beyond so many operations they are written as numbers.
 pub(super) const LARGEST_STRAIGHT: usize = 100_000;
+
+/// Words of a list on a line.
+const WORDS_ON_A_LINE: usize = 16;
 
 const UNUSED: Register = Register::MAX;
 
@@ -140,8 +146,92 @@ pub(super) struct Notes<'n> {
     pub bound: &'n dyn Fn(u32) -> f64,
 }
 
+/// What all lists of operations share.
+#[derive(Default)]
+pub(super) struct Book {
+    numbers: Numbers,
+    /// The functions that they call, by their number.
+    unary: BTreeMap<u32, Unary>,
+    binary: BTreeMap<u32, Binary>,
+}
+
+impl Book {
+    /// Writes operations down.
+    pub fn encode(
+        &mut self,
+        operations: &[Op],
+        equations: &Equations<'_>,
+        known: &FxHashMap<Register, usize>,
+        notes: &Notes<'_>,
+    ) -> Tape {
+        for op in operations {
+            match op {
+                Op::Other(program::Op::Unary { function, .. }) => {
+                    self.unary.insert(*function as u32, *function);
+                }
+                Op::Other(program::Op::Binary { function, .. }) => {
+                    self.binary.insert(*function as u32, *function);
+                }
+                _ => {}
+            }
+        }
+        encode(operations, equations, known, notes, &mut self.numbers)
+    }
+
+    /// The numbers, and the functions by their numbers.
+    pub fn print(&self, equations: &Equations<'_>) -> String {
+        let values: Vec<String> = self.numbers.values.iter().copied().map(literal).collect();
+        let mut text = format!(
+            "/// The numbers among the operations.\n#[rustfmt::skip]\nstatic NUMBERS: [f64; {}] = [\n{}];\n\n",
+            values.len(),
+            lines(&values, "")
+        );
+        let arm = |number: &u32, call: String| format!("        {number} => {call},\n");
+        let arms: String = self.unary.iter().map(|(number, of)| arm(number, unary(*of, "a"))).collect();
+        text += &choice("unary_function", "a function of one argument", &["a: f64"], "f64", &arms);
+        let arms: String = self.binary.iter().map(|(number, of)| arm(number, binary(*of, "a", "b"))).collect();
+        text += &choice("binary_function", "a function of two arguments", &["a: f64", "b: f64"], "f64", &arms);
+        let mut arms = String::new();
+        for table in 0..equations.program.tables().len() as u32 {
+            for (k, &column) in COLUMNS.iter().enumerate() {
+                let number = table * COLUMNS.len() as u32 + k as u32;
+                arms += &arm(&number, format!("&{}", equations.table(table, column)));
+            }
+        }
+        text + &choice("column_of_table", "a column of a table", &[], "&'static [f64]", &arms)
+    }
+}
+
+/// A function that gives one of several things by its number.
+fn choice(name: &str, what: &str, arguments: &[&str], result: &str, arms: &str) -> String {
+    let none = if result == "f64" { "f64::NAN" } else { "&[]" };
+    let mark = |name: &str| if arms.is_empty() { format!("_{name}") } else { name.to_owned() };
+    let arguments: Vec<String> = std::iter::once(&"number: usize").chain(arguments).map(|name| mark(name)).collect();
+    let body = if arms.is_empty() {
+        format!("    {none}\n")
+    } else {
+        format!("    match number {{\n{arms}        _ => {none},\n    }}\n")
+    };
+    let arguments = arguments.join(", ");
+    format!("/// Gives {what}, by its number.\n#[rustfmt::skip]\nfn {name}({arguments}) -> {result} {{\n{body}}}\n\n")
+}
+
+/// A list of words.
+pub(super) fn list(docs: &str, name: &str, words: &[u32]) -> String {
+    let mut text = format!("/// {docs}\n#[rustfmt::skip]\nstatic {name}: [u32; {}] = [\n", words.len());
+    for line in words.chunks(WORDS_ON_A_LINE) {
+        text += "    ";
+        for word in line {
+            text += &word.to_string();
+            text += ",";
+        }
+        text += "\n";
+    }
+    text + "];\n\n"
+}
+
 /// Writes operations down.
-pub(super) fn encode(
+fn encode(
     operations: &[Op],
     equations: &Equations<'_>,
     known: &FxHashMap<Register, usize>,
@@ -216,20 +306,5 @@ fn encode_other(op: program::Op, words: &mut Vec<u32>) {
         P::Neg { to, a } => words.extend([12, to, a]),
         P::Recip { to, a } => words.extend([13, to, a]),
         P::SinCos { sin, cos, a } => words.extend([14, sin, cos, a]),
-    }
-}
-
-/// The functions among some operations, of one argument and of two.
-pub(super) fn functions(operations: &[Op], unary: &mut FxHashSet<Unary>, binary: &mut FxHashSet<Binary>) {
-    for op in operations {
-        match op {
-            Op::Other(program::Op::Unary { function, .. }) => {
-                unary.insert(*function);
-            }
-            Op::Other(program::Op::Binary { function, .. }) => {
-                binary.insert(*function);
-            }
-            _ => {}
-        }
     }
 }

@@ -80,9 +80,9 @@ pub(super) fn lines(values: &[String], indent: &str) -> String {
 pub(super) fn constant(docs: &str, name: &str, of: &str, length: &str, values: &[String]) -> String {
     let docs = documented(docs, "");
     if values.is_empty() {
-        return format!("{docs}const {name}: [{of}; {length}] = [];\n\n");
+        return format!("{docs}static {name}: [{of}; {length}] = [];\n\n");
     }
-    format!("{docs}#[rustfmt::skip]\nconst {name}: [{of}; {length}] = [\n{}];\n\n", lines(values, ""))
+    format!("{docs}#[rustfmt::skip]\nstatic {name}: [{of}; {length}] = [\n{}];\n\n", lines(values, ""))
 }
 
 /// A text of Rust in which the lines between `//# if NAME` and `//# end` stay if that is wanted, `//# if !NAME` if not.

@@ -140,7 +140,8 @@ impl Op {
     }
 
     /// The same with other registers: `read` for those it reads, then `write` for those it writes.
-    pub(super) fn renumbered(
+    #[must_use]
+    pub fn renumbered(
         mut self,
         mut read: impl FnMut(Register) -> Register,
         mut write: impl FnMut(Register) -> Register,

@@ -369,8 +369,8 @@ pub mod lanes {
             self.t = *t;
             let zero = [0.0; LANES];
             (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
-            for (signs, is_negative) in self.signs.iter_mut().zip(TURNED) {
-                *signs = [u64::from(is_negative) << 63; LANES];
+            for (signs, is_negative) in self.signs.iter_mut().zip(&TURNED) {
+                *signs = [u64::from(*is_negative) << 63; LANES];
             }
         }
 

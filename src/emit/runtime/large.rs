@@ -8,12 +8,13 @@ impl Results for Solution {
     }
 
     fn stored(&self, column: usize) -> f64 {
-        let mut copy = column;
+        // the first column is the time
+        let mut rest = column.wrapping_sub(1);
         for list in self.lists() {
-            if let Some(value) = list.get(copy) {
+            if let Some(value) = list.get(rest) {
                 return *value;
             }
-            copy -= list.len();
+            rest = rest.wrapping_sub(list.len());
         }
         f64::NAN
     }
@@ -31,17 +32,39 @@ impl Results for Solution {
 }
 
 impl Solution {
-    fn lists(&self) -> [&[f64]; $list_count] {
-        $lists
+//# if measures
+    fn lists(&self) -> [&[f64]; 6] {
+        let [values, rates, accelerations] = self.measures.lists();
+        [&self.q, values, &self.qd, rates, &self.qdd, accelerations]
     }
+//# end
+//# if !measures
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.q, &self.qd, &self.qdd]
+    }
+//# end
 
     fn place(&mut self, column: usize) -> Option<&mut f64> {
-        let mut column = column;
-        for list in $lists_mut {
-            if column < list.len() {
-                return list.get_mut(column);
+        let mut rest = column.wrapping_sub(1);
+//# if measures
+        let of = &mut self.measures;
+        let lists: [&mut [f64]; 6] = [
+            &mut self.q,
+            &mut of.values,
+            &mut self.qd,
+            &mut of.rates,
+            &mut self.qdd,
+            &mut of.accelerations,
+        ];
+//# end
+//# if !measures
+        let lists: [&mut [f64]; 3] = [&mut self.q, &mut self.qd, &mut self.qdd];
+//# end
+        for list in lists {
+            if rest < list.len() {
+                return list.get_mut(rest);
             }
-            column -= list.len();
+            rest = rest.wrapping_sub(list.len());
         }
         None
     }
@@ -50,17 +73,26 @@ impl Solution {
 /// Operations that follow each other, and the coordinates that they are repeated for.
 struct Segment {
     code: [usize; 2],
+//# if newton
     tears: [usize; 2],
+//# end
 }
 
 /// Position, velocity and acceleration at a time, by the operations of [`SOLVE`].
-fn solve(guess: &[f64; TEARS], t: f64, m: &Model$sides_argument, at: &mut Solution) {
+#[rustfmt::skip]
+fn solve(guess: &[f64; TEARS], t: f64, $m: &Model$sides_argument, at: &mut Solution) {
     at.begin(t);
+//# if params
     let params = m.params.list();
+//# end
+//# if !params
+    let params = [];
+//# end
     let inputs: Inputs<'_> = [&params, $known, $given_sides, &[t], &[], &[], &[], &[]];
     let mut v = [0.0; REGISTERS];
     for segment in &SEGMENTS {
         let code = SOLVE.get(segment.code[0]..segment.code[1]).unwrap_or(&[]);
+//# if newton
         let tears = SETTLING.get(segment.tears[0]..segment.tears[1]).unwrap_or(&[]);
         if tears.is_empty() {
             run(code, guess, &inputs, &mut v, at);
@@ -85,5 +117,9 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model$sides_argument, at: &mut Soluti
             }
         }
         at.note(&newton);
+//# end
+//# if !newton
+        run(code, guess, &inputs, &mut v, at);
+//# end
     }
 }

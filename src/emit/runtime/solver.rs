@@ -338,7 +338,7 @@ fn rounding(at: &Solution, m: &Model) -> f64 {
 //# end
     let slopes = $phi_q(&at.q, at.t, p$sides);
     let mut norms = [f64::MIN_POSITIVE; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
             *norm = larger(*norm, slope.abs() * scale);
         }
@@ -429,7 +429,7 @@ impl Solution {
 //# if watches
         watched: [false; WATCHES],
 //# end
-        is_negative: TURNED,
+        is_negative: [false; TURNS],
         is_settled: true,
         holds: true,
         first: 0.0,
@@ -576,8 +576,9 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     at.holds = is_next_to_nothing(&values, &slopes, &at.q);
     at.q = at.q.map(|x| x + 0.0);
     at.steepest = 1.0 / pivot;
-    for (turned, block) in at.is_negative.iter_mut().zip(TURNING) {
-        *turned = elimination.is_negative.get(block).copied().unwrap_or(false);
+    let negative = &elimination.is_negative;
+    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
@@ -609,7 +610,7 @@ impl Elimination {
 /// the coordinates.
 fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
     let mut bounds = [0.0; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
         if let (Some(scale), Some(q), Some(bound)) = sizes {
             *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
