@@ -30,7 +30,15 @@ fn emitted(path: &Path, text: &str) -> Crate {
     let (motion, _) = mechc::motion(&determined, &program).expect("it assembles");
     let (reference, _) = mechc::reference(&determined, &program).expect("it assembles");
     assert!(motion.is_some());
-    let unit = Unit { system: determined.system(), program: &program, sources: &sources, file: &name, motion };
+    let unit = Unit {
+        system: determined.system(),
+        program: &program,
+        sources: &sources,
+        file: &name,
+        motion,
+        lanes: None,
+        largest_straight: emit::LARGEST_STRAIGHT,
+    };
     let list = emit::package(&unit, &reference).into_iter();
     Crate { files: list.map(|File { path, text }| (path, text)).collect(), reference }
 }

@@ -87,7 +87,7 @@ pub mod row {
 
 /// Row and column of each value that [`phi_q`] gives.
 #[rustfmt::skip]
-pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
     (0, 0),
     (1, 1),
     (2, 0),
@@ -306,7 +306,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
 /// The Jacobian as a full matrix, row by row.
 pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     let mut full = [[0.0; N]; N];
-    for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
         if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
             *entry = value;
         }
@@ -319,6 +319,7 @@ pub const COLUMNS: usize = 28;
 
 /// Why a mechanism could not be brought to a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// The time, a parameter or a formula is not a number.
     NotANumber,
@@ -326,7 +327,7 @@ pub enum Error {
     LockUp,
     /// Two branches of the motion meet: which one goes on is not determined.
     Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
+    /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
 }
 
@@ -353,6 +354,8 @@ pub struct State {
     is_second: bool,
     /// Whether the one before lies on the same smooth motion.
     is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    steepness: f64,
     /// The step that goes well (s).
     step: f64,
 }
@@ -432,9 +435,10 @@ pub const START_TIME: f64 = 0.0;
 /// How long the file's analysis takes (s).
 const SPAN: f64 = 3.2;
 
-/// The longest step (s), and the shortest.
-const LONGEST_STEP: f64 = 0.1;
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.1;
 
+/// The shortest step (s).
 const SMALLEST_STEP: f64 = 3.2e-12;
 
 /// Iterations of Newton at most.
@@ -451,19 +455,19 @@ const TEARS: usize = 2;
 
 /// What a change of each of them is judged against (m, or 1 rad).
 #[rustfmt::skip]
-const TEAR_SCALES: [f64; TEARS] = [
+static TEAR_SCALES: [f64; TEARS] = [
     1.0, 1.0,
 ];
 
 /// The width of a cell of the grid of each of them.
 #[rustfmt::skip]
-const TEAR_CELLS: [f64; TEARS] = [
+static TEAR_CELLS: [f64; TEARS] = [
     7.450580596923828e-9, 7.450580596923828e-9,
 ];
 
 /// What a change of each coordinate is judged against.
 #[rustfmt::skip]
-const SCALES: [f64; N] = [
+static SCALES: [f64; N] = [
     1.0, 1.0, 1.0, 3.5,
     3.5, 1.0, 3.0, 3.0,
     1.0,
@@ -471,7 +475,7 @@ const SCALES: [f64; N] = [
 
 /// The assembled position (m, rad).
 #[rustfmt::skip]
-const START: [f64; N] = [
+static START: [f64; N] = [
     0.0, 0.0, 0.5, 0.8775825618903728,
     0.479425538604203, 0.7771164948091609, 3.68643363770732, 1.466859276290175,
     1.7813938323744904,
@@ -482,13 +486,13 @@ const TURNS: usize = 1;
 
 /// Whether they are negative where all pivots are positive.
 #[rustfmt::skip]
-const TURNED: [bool; TURNS] = [
+static TURNED: [bool; TURNS] = [
     false,
 ];
 
 /// The width of a cell of each coordinate's grid.
 #[rustfmt::skip]
-const CELLS: [f64; N] = [
+static CELLS: [f64; N] = [
     7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
     1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
     7.450580596923828e-9,
@@ -499,7 +503,7 @@ const BLOCKS: usize = 6;
 
 /// The blocks whose determinants change.
 #[rustfmt::skip]
-const TURNING: [usize; TURNS] = [
+static TURNING: [usize; TURNS] = [
     5,
 ];
 
@@ -511,7 +515,7 @@ const TOLERANCE: f64 = 1e-12;
 
 /// How the equations fall apart into blocks.
 #[rustfmt::skip]
-const EQUATIONS: blocks::Blocks<'_> = blocks::Blocks {
+static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
     sizes: &[
         1, 1, 1, 1,
         1, 4,
@@ -563,8 +567,8 @@ impl Model {
     }
 }
 
-/// Steps from one time to another at most: what takes more is not meant.
-const MOST_STEPS: usize = 1_000_000;
+/// Steps that one call of [`step`] takes at most: what takes more is not meant.
+pub const MOST_STEPS: usize = 1_000_000;
 
 /// Trials on the way from the file's parameters to others at most, and the smallest part of it.
 const MOST_PARTS: usize = 10_000;
@@ -604,8 +608,10 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
     }
     let file = Params;
     let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(|_| Error::Divergence)?;
+    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
     let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
     // the part of the way from the file's parameters to those that are wanted
     let (mut done, mut part) = (0.0, 1.0);
     for _ in 0..MOST_PARTS {
@@ -616,10 +622,13 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             *params
         };
         let model = Model::new(&params);
-        let is_found = start(&at.q, &model, &mut found).is_ok();
-        if is_found && found.is_negative == at.is_negative {
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
             if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
                 return Ok(State {
+                    steepness,
                     model,
                     solutions: [found, at],
                     is_second: false,
@@ -630,13 +639,14 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             at.clone_from(&found);
             (done, part) = (next, 2.0 * part);
         } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
             part *= 0.5;
         }
         if part < SMALLEST_PART {
             break;
         }
     }
-    Err(Error::Divergence)
+    Err(why)
 }
 
 /// Solves at the first time, from a position nearby.
@@ -653,6 +663,9 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 ///
 /// # Errors
 /// Why it cannot get there; the state stays at the last time that it could reach.
@@ -710,6 +723,16 @@ enum Fault {
     Singular,
 }
 
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            _ => Error::Divergence,
+        }
+    }
+}
+
 /// One step to a time; says whether a longer one would do as well.
 fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let [first, second] = &mut state.solutions;
@@ -721,31 +744,41 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let from = &*from;
     let h = t - from.t;
     let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    // Taylor
-    let mut way: [f64; TEARS] = core::array::from_fn(|k| h * (v[k] + 0.5 * h * a[k]));
-    if state.is_smooth {
-        let bend = bend(from, at, h);
-        way = core::array::from_fn(|k| way[k] + bend[k]);
+    let mut way = if state.is_smooth {
+        bend(from, at, h)
+    } else {
+        [0.0; TEARS]
+    };
+    let mut guess = x;
+    let rates = v.iter().zip(&a);
+    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
     }
-    if largest(&way, &TEAR_SCALES) > LARGEST_MOTION {
+    // what is not a number is not small either
+    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
+    if !is_short {
         return Err(Fault::TooFar);
     }
-    let guess = core::array::from_fn(|k| x[k] + way[k]);
     reach(&guess, from, t, &state.model, at)?;
-    const TWELFTH: f64 = 1.0 / 12.0;
     // what both ends' velocities and accelerations make of the way between (Hermite)
     let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let gap: [f64; TEARS] = core::array::from_fn(|k| {
-        y[k] - x[k] - 0.5 * h * (v[k] + w[k]) - h * h * TWELFTH * (a[k] - b[k])
-    });
-    let gap = largest(&gap, &TEAR_SCALES);
-    if at.first > LARGEST_CORRECTION || gap > LARGEST_GAP {
+    let mut gaps = [0.0; TEARS];
+    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    let gap = largest(&gaps, &TEAR_SCALES);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
         return Err(Fault::TooFar);
     }
-    if at.is_negative != from.is_negative || at.steepest > STEEPEST {
+    let steepest = at.steepest / state.steepness;
+    if at.is_negative != from.is_negative || steepest > STEEPEST {
         return Err(Fault::Singular);
     }
-    if is_wanted && at.steepest > STEEP && rounding(at, &state.model) > ACCURACY {
+    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
         return Err(Fault::Singular);
     }
     state.is_smooth = true;
@@ -763,15 +796,18 @@ fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
     }
     let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
     let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    core::array::from_fn(|k| {
-        let value = y[k] - x[k] + back * (v[k] - 0.5 * back * a[k]);
-        let slope = back * (v[k] - back * a[k] - w[k]);
-        let curvature = 0.5 * back * back * (b[k] - a[k]);
+    let mut bend = [0.0; TEARS];
+    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
         let cubic = 4.0 * slope - 10.0 * value - curvature;
         let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
         let quintic = 3.0 * slope - 6.0 * value - curvature;
-        u * u * u * (cubic + u * (quartic + u * quintic))
-    })
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
 }
 
 /// The largest value beside its scale; what is not a number wins.
@@ -809,7 +845,10 @@ fn find(
     if !at.is_settled || !at.holds {
         // once more from a position that is known, and if that does not help either, that
         let h = t - from.t;
-        let q = core::array::from_fn(|k| from.q[k] + h * (from.qd[k] + 0.5 * h * from.qdd[k]));
+        let mut q = from.q;
+        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
+            *q += h * (qd + 0.5 * h * qdd);
+        }
         let pivoted = solve_with_pivoting(&q, t, m)?;
         solve(&tears(&pivoted.q), t, m, at);
         let first = pivoted.first;
@@ -825,13 +864,13 @@ fn find(
     }
 }
 
-/// What rounding makes of the velocities and accelerations: they are amplified by as much as the
-/// position is near to a singular one.
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
+/// amplified by as much as the position is near to a singular one.
 fn rounding(at: &Solution, m: &Model) -> f64 {
     let p = &m.params;
     let slopes = phi_q(&at.q, at.t, p);
     let mut norms = [f64::MIN_POSITIVE; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
             *norm = larger(*norm, slope.abs() * scale);
         }
@@ -842,7 +881,7 @@ fn rounding(at: &Solution, m: &Model) -> f64 {
     let gamma = gamma(&at.q, &at.qd, at.t, p);
     let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
     let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * at.steepest * amplified
+    f64::EPSILON * amplified
 }
 
 /// Why even the shortest step from a state towards a time is refused.
@@ -852,7 +891,7 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
     if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
         return Error::NotANumber;
     }
-    if at.steepest < SINGULAR {
+    if at.steepest < SINGULAR * state.steepness {
         return Error::Divergence;
     }
     // a motion that comes to a dead point after a time u is as the root of u, whose slope over
@@ -899,7 +938,7 @@ impl Solution {
         q: [0.0; N],
         qd: [0.0; N],
         qdd: [0.0; N],
-        is_negative: TURNED,
+        is_negative: [false; TURNS],
         is_settled: true,
         holds: true,
         first: 0.0,
@@ -1026,8 +1065,9 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
     at.holds = is_next_to_nothing(&values, &slopes, &at.q);
     at.q = at.q.map(|x| x + 0.0);
     at.steepest = 1.0 / pivot;
-    for (turned, block) in at.is_negative.iter_mut().zip(TURNING) {
-        *turned = elimination.is_negative.get(block).copied().unwrap_or(false);
+    let negative = &elimination.is_negative;
+    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
@@ -1059,7 +1099,7 @@ impl Elimination {
 /// the coordinates.
 fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
     let mut bounds = [0.0; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
         if let (Some(scale), Some(q), Some(bound)) = sizes {
             *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
@@ -1419,6 +1459,7 @@ pub mod lanes {
         /// Whether those of now are the second.
         is_second: bool,
         is_smooth: [bool; LANES],
+        steepness: Each,
         step: Each,
     }
 
@@ -1477,51 +1518,69 @@ pub mod lanes {
 
         /// A lane, which is below [`LANES`], on its own.
         fn lane(&self, k: usize) -> State {
+            let [first, ..] = &self.models;
+            let model = self.models.get(k).unwrap_or(first).clone();
             let mut solutions = [self.now().lane(k), self.other().lane(k)];
             for at in &mut solutions {
                 at.is_settled = true;
             }
             State {
-                model: self.models[k].clone(),
+                model,
                 solutions,
                 is_second: false,
-                is_smooth: self.is_smooth[k],
-                step: self.step[k],
+                is_smooth: self.is_smooth.get(k).copied().unwrap_or(false),
+                steepness: of(&self.steepness, k),
+                step: of(&self.step, k),
             }
         }
 
         /// Moves a lane on its own, and leaves it among the other solutions.
         fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
             let mut state = self.lane(k);
+            // where the solution before was, the one that has been tried is now
+            state.is_smooth = false;
             let result = step(t, &mut state);
             self.both().1.set_lane(k, state.at());
-            self.is_smooth[k] = false;
-            self.step[k] = state.step;
+            if let Some(is_smooth) = self.is_smooth.get_mut(k) {
+                *is_smooth = false;
+            }
+            if let Some(step) = self.step.get_mut(k) {
+                *step = state.step;
+            }
             result
         }
     }
 
-    /// Brings the mechanisms to the first time, each with its own parameters.
+    /// Brings the mechanisms to the first time, each with its own parameters; says of each lane why
+    /// it cannot be assembled, if it cannot. Such a lane has the parameters of the file.
     ///
     /// # Errors
-    /// The first lane that cannot be assembled, and why.
-    pub fn assemble(params: &[Params; LANES]) -> Result<States, (usize, Error)> {
-        let one = super::assemble(&Params).map_err(|error| (0, error))?;
+    /// Not even the file's own mechanism can be assembled.
+    #[rustfmt::skip]
+    pub fn assemble(params: &[Params; LANES]) -> Result<(States, [Result<(), Error>; LANES]), Error> {
+        let one = super::assemble(&Params)?;
         let mut states = States {
             models: core::array::from_fn(|_| one.model.clone()),
             solutions: [Solutions::ZERO, Solutions::ZERO],
             is_second: false,
             is_smooth: [false; LANES],
+            steepness: [one.steepness; LANES],
             step: [LONGEST_STEP; LANES],
         };
-        for (k, params) in params.iter().enumerate() {
-            let state = super::assemble(params).map_err(|error| (k, error))?;
+        let mut results = [Ok(()); LANES];
+        for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
+            let found = super::assemble(params);
+            *result = found.as_ref().map(|_| ()).map_err(|error| *error);
+            let state = found.unwrap_or_else(|_| one.clone());
             states.both().0.set_lane(k, state.at());
             if let Some(model) = states.models.get_mut(k) {
                 *model = state.model.clone();
             }
+            if let Some(steepness) = states.steepness.get_mut(k) {
+                *steepness = state.steepness;
+            }
         }
-        Ok(states)
+        Ok((states, results))
     }
 
     /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
@@ -1598,7 +1657,8 @@ pub mod lanes {
         let mut is_done = [false; LANES];
         for k in 0..LANES {
             let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
-            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP && is_finite[k];
+            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP * states.steepness[k];
+            let is_solved = is_solved && is_finite[k];
             is_done[k] = is_solved && is_short;
         }
         for k in 0..LANES {
@@ -1661,8 +1721,8 @@ pub mod lanes {
             self.t = *t;
             let zero = [0.0; LANES];
             (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
-            for (signs, is_negative) in self.signs.iter_mut().zip(TURNED) {
-                *signs = [u64::from(is_negative) << 63; LANES];
+            for (signs, is_negative) in self.signs.iter_mut().zip(&TURNED) {
+                *signs = [u64::from(*is_negative) << 63; LANES];
             }
         }
 

@@ -92,7 +92,7 @@ fn emitted(floor: f64) {
         })
     });
     let together = median(21, || {
-        let mut states = lanes::assemble(&[Params::default(); lanes::LANES]).expect("they assemble");
+        let mut states = lanes::assemble(&[Params::default(); lanes::LANES]).expect("they assemble").0;
         let all = per_step(STEPS, || {
             for t in turn() {
                 let done = lanes::step_each(black_box(&[t; lanes::LANES]), &mut states);

@@ -9,12 +9,16 @@ use super::timings::Timings;
 use crate::diag::{Code, Diagnostic};
 use crate::emit::{self, MARK, Motion, Unit};
 use crate::program::Program;
+use crate::source::Sources;
 use crate::structure::Determined;
 use std::path::Path;
 
 pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if arguments.folder.is_some() {
         can_be_a_crate(arguments)?;
+    }
+    if arguments.lanes.is_some() {
+        can_have_lanes(arguments)?;
     }
     let determined = input::determined(&arguments.input, false, reporter, &mut Timings::new(false))?;
     // the name without its folder: the same output wherever the file lies
@@ -42,14 +46,29 @@ fn rust(
         Content::Solver => Some(motion(determined, &program, reporter)?),
     };
     let sources = &reporter.sources;
-    Ok(emit::rust(&Unit {
-        system: determined.system(),
-        program: &program,
-        sources,
-        file,
-        motion,
-        lanes: arguments.lanes,
-    }))
+    Ok(emit::rust(&unit(determined, &program, sources, file, motion, arguments)?))
+}
+
+/// What is emitted.
+fn unit<'u>(
+    determined: &'u Determined,
+    program: &'u Program,
+    sources: &'u Sources,
+    file: &'u str,
+    motion: Option<Motion>,
+    arguments: &EmitArguments,
+) -> Result<Unit<'u>, Failure> {
+    let (system, lanes, largest_straight) = (determined.system(), arguments.lanes, emit::LARGEST_STRAIGHT);
+    let unit = Unit { system, program, sources, file, motion, lanes, largest_straight };
+    if lanes.is_some() && emit::is_large(&unit) {
+        return Err(Diagnostic::new(
+            Code::E0706,
+            format!("lanes are for mechanisms of up to {largest_straight} operations"),
+        )
+        .help("leave `--lanes` out")
+        .into());
+    }
+    Ok(unit)
 }
 
 /// A crate: where the motion stops on its way, it is written with what there is, as a table is.
@@ -62,10 +81,9 @@ fn package(
 ) -> Result<(), Failure> {
     let program = Program::new(determined.system());
     let motion = Some(motion(determined, &program, reporter)?);
-    let lanes = arguments.lanes;
     let (reference, said) = crate::reference(determined, &program)?;
     let sources = &reporter.sources;
-    let unit = Unit { system: determined.system(), program: &program, sources, file, motion, lanes };
+    let unit = unit(determined, &program, sources, file, motion, arguments)?;
     let crate_files = emit::package(&unit, &reference);
     files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK)?;
     if said.has_errors() {
@@ -79,6 +97,16 @@ fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Re
     let (motion, remarks) = crate::motion(determined, program)?;
     reporter.print(&remarks);
     Ok(motion.ok_or_else(too_large)?)
+}
+
+/// What has no lanes.
+fn can_have_lanes(arguments: &EmitArguments) -> Result<(), Failure> {
+    if format(arguments) != EmitFormat::Rust || arguments.with == Content::Equations {
+        return Err(Diagnostic::new(Code::E0706, "lanes are for Rust code with the solver")
+            .help("leave `--lanes` out, or `--format` and `--with`")
+            .into());
+    }
+    Ok(())
 }
 
 /// What a crate cannot be made of.

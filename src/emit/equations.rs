@@ -27,7 +27,10 @@ pub(super) struct Equations<'e> {
 pub(super) enum Loaded {
     Number(f64),
     /// An array of those that operations read, and the place there.
-    Input { array: u32, index: u32 },
+    Input {
+        array: u32,
+        index: u32,
+    },
 }
 
 /// A function to write.
@@ -153,9 +156,8 @@ impl Equations<'_> {
         if register < inputs.time {
             return input(0, (register - inputs.params) as usize);
         }
-        let order = (0..4).find(|&order| {
-            (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register)
-        });
+        let order =
+            (0..4).find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register));
         order.map_or(Loaded::Number(f64::NAN), |order| {
             input(4 + order as u32, (register - inputs.coordinates[order]) as usize)
         })

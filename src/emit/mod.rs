@@ -20,6 +20,7 @@ pub use json::json;
 pub use latex::latex;
 pub use package::{File, MARK, Reference, package};
 pub use rust::{is_large, rust};
+pub use tape::LARGEST_STRAIGHT;
 
 use crate::ir::ConstraintSystem;
 use crate::program::Program;
@@ -40,6 +41,8 @@ pub struct Unit<'u> {
     pub motion: Option<Motion>,
     /// How many lanes are solved at once, beside one at a time.
     pub lanes: Option<usize>,
+    /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
+    pub largest_straight: usize,
 }
 
 /// What it takes to follow the motion from the assembled start.

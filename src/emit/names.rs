@@ -88,6 +88,8 @@ impl Namer {
         };
         let name = words.split('_').map(capital).collect::<String>();
         // a number behind it stands without a line, which a variant does not have
+        // `Self` is a word of its own
+        let name = if name == "Self" { "SelfBody".to_owned() } else { name };
         self.numbered(&name, "")
     }
 

@@ -6,7 +6,6 @@ use super::equations::{Equations, Given, Wanted};
 use super::names::{Namer, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
-use super::tape::LARGEST_STRAIGHT;
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::ir::{Measure, Owner};
 use crate::program::{Column, Register, STAGES};
@@ -67,8 +66,9 @@ pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
     let of_solver = unit.motion.as_ref().map_or(0, |motion| motion.solver.operations());
     let constants = unit.program.constants().iter().copied().collect();
-    let is_constant = |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
-    of_program + of_solver > LARGEST_STRAIGHT && (0..unit.program.tables().len() as u32).all(is_constant)
+    let is_constant =
+        |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
+    of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
 struct Writer<'w> {
@@ -412,7 +412,7 @@ impl Writer<'_> {
             text += BLOCKS;
             text += "\n}\n\n";
         }
-        if let Some(lanes) = self.unit.lanes {
+        if let Some(lanes) = self.unit.lanes.filter(|_| self.equations.book.is_none()) {
             text += &self.lanes(solution, lanes, &wanted);
         }
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };

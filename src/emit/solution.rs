@@ -155,7 +155,11 @@ impl<'s> Solution<'s> {
         if self.has_newton() {
             text += "/// Of each coordinate that Newton solves for: the registers of it and of its correction, the width of a cell of its\n\
                 /// grid, and what it is judged against.\n#[rustfmt::skip]\n";
-            text += &format!("static SETTLING: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n", settling.len(), lines(&settling, ""));
+            text += &format!(
+                "static SETTLING: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n",
+                settling.len(),
+                lines(&settling, "")
+            );
         }
         text + &tape::list("The operations of [`solve`].", "SOLVE", &words)
     }
@@ -194,8 +198,8 @@ impl<'s> Solution<'s> {
             literal(*from)
         );
         text += &number("How long the file's analysis takes (s).", "SPAN", span);
-        text += &number("The longest step (s), and the shortest.", "LONGEST_STEP", span / FEWEST_STEPS);
-        text += &number("", "SMALLEST_STEP", SMALLEST_STEP * span).replace("///\n", "");
+        text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
+        text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
         let iterates = self.has_newton() || self.motion.blocks.is_some();
         if iterates {
             text += &format!("/// Iterations of Newton at most.\nconst ITERATIONS: usize = {ITERATIONS};\n\n");

@@ -13,8 +13,8 @@ use crate::solver::{Op, Segment};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
-/// Beyond so many operations they are written as numbers.
-pub(super) const LARGEST_STRAIGHT: usize = 100_000;
+/// Operations that rustc compiles as straight lines in seconds.
+pub const LARGEST_STRAIGHT: usize = 100_000;
 
 /// Words of a list on a line.
 const WORDS_ON_A_LINE: usize = 16;

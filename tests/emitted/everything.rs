@@ -167,7 +167,7 @@ pub mod row {
 
 /// Row and column of each value that [`phi_q`] gives.
 #[rustfmt::skip]
-pub const PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
     (0, 0),
     (1, 1),
     (2, 0),
@@ -2660,7 +2660,7 @@ pub fn jerk(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], t: f64, p: &Params) -> 
 /// The Jacobian as a full matrix, row by row.
 pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     let mut full = [[0.0; N]; N];
-    for ((row, column), value) in PHI_Q_PATTERN.into_iter().zip(phi_q(q, t, p)) {
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
         if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
             *entry = value;
         }
@@ -2852,6 +2852,7 @@ pub const COLUMNS: usize = 80;
 
 /// Why a mechanism could not be brought to a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// The time, a parameter or a formula is not a number.
     NotANumber,
@@ -2859,8 +2860,10 @@ pub enum Error {
     LockUp,
     /// Two branches of the motion meet: which one goes on is not determined.
     Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
+    /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
+    /// At a time where a formula goes over to another branch, a position or velocity jumps.
+    NotSmooth,
 }
 
 impl core::fmt::Display for Error {
@@ -2870,6 +2873,7 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
+            Error::NotSmooth => "a position or velocity jumps",
         })
     }
 }
@@ -2886,6 +2890,8 @@ pub struct State {
     is_second: bool,
     /// Whether the one before lies on the same smooth motion.
     is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    steepness: f64,
     /// The step that goes well (s).
     step: f64,
 }
@@ -2975,9 +2981,10 @@ pub const START_TIME: f64 = 0.05;
 /// How long the file's analysis takes (s).
 const SPAN: f64 = 0.3;
 
-/// The longest step (s), and the shortest.
-const LONGEST_STEP: f64 = 0.009375;
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.009375;
 
+/// The shortest step (s).
 const SMALLEST_STEP: f64 = 3e-13;
 
 /// Iterations of Newton at most.
@@ -2994,14 +3001,14 @@ const TEARS: usize = 5;
 
 /// What a change of each of them is judged against (m, or 1 rad).
 #[rustfmt::skip]
-const TEAR_SCALES: [f64; TEARS] = [
+static TEAR_SCALES: [f64; TEARS] = [
     1.0, 2.0, 2.0, 2.0,
     1.0,
 ];
 
 /// What a change of each coordinate is judged against.
 #[rustfmt::skip]
-const SCALES: [f64; N] = [
+static SCALES: [f64; N] = [
     1.0, 1.0, 1.0, 0.5099019513592785,
     0.5099019513592785, 1.0, 2.0, 2.0,
     1.0, 2.0, 2.0, 1.0,
@@ -3012,7 +3019,7 @@ const SCALES: [f64; N] = [
 
 /// The assembled position (m, rad).
 #[rustfmt::skip]
-const START: [f64; N] = [
+static START: [f64; N] = [
     0.0, 0.0, 0.42350803087916716, 0.9116528886269452,
     0.4109610816831038, 0.947106806477466, 4.0, 0.0,
     1.6185224440363692, 0.30000090269531243, 0.40000120359375, 0.0,
@@ -3026,13 +3033,13 @@ const TURNS: usize = 4;
 
 /// Whether they are negative where all pivots are positive.
 #[rustfmt::skip]
-const TURNED: [bool; TURNS] = [
+static TURNED: [bool; TURNS] = [
     false, true, false, false,
 ];
 
 /// The width of a cell of each coordinate's grid.
 #[rustfmt::skip]
-const CELLS: [f64; N] = [
+static CELLS: [f64; N] = [
     7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 3.725290298461914e-9,
     3.725290298461914e-9, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
     7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8, 7.450580596923828e-9,
@@ -3046,7 +3053,7 @@ const BLOCKS: usize = 19;
 
 /// The blocks whose determinants change.
 #[rustfmt::skip]
-const TURNING: [usize; TURNS] = [
+static TURNING: [usize; TURNS] = [
     8, 12, 17, 10,
 ];
 
@@ -3058,7 +3065,7 @@ const TOLERANCE: f64 = 1e-12;
 
 /// How the equations fall apart into blocks.
 #[rustfmt::skip]
-const EQUATIONS: blocks::Blocks<'_> = blocks::Blocks {
+static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
     sizes: &[
         1, 1, 1, 1,
         1, 1, 1, 1,
@@ -3186,8 +3193,8 @@ fn known(p: &Params) -> [f64; KNOWN] {
     out
 }
 
-/// Steps from one time to another at most: what takes more is not meant.
-const MOST_STEPS: usize = 1_000_000;
+/// Steps that one call of [`step`] takes at most: what takes more is not meant.
+pub const MOST_STEPS: usize = 1_000_000;
 
 /// Trials on the way from the file's parameters to others at most, and the smallest part of it.
 const MOST_PARTS: usize = 10_000;
@@ -3216,6 +3223,12 @@ const SINGULAR: f64 = 1e2;
 /// A dead point is no further off than this part of the span.
 const NEAR_FOLD: f64 = 1e-5;
 
+/// What changes by more than this at an edge jumps: positions, scaled, and velocities beside the
+/// fastest one; a speed below that part of one per span is rest.
+const POSITION_JUMP: f64 = 1e-9;
+const VELOCITY_JUMP: f64 = 1e-6;
+const REST: f64 = 1e-3;
+
 /// How often the branches of formulas are chosen anew at one time.
 const MOST_BRANCHES: usize = 8;
 
@@ -3230,8 +3243,10 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
     }
     let file = Params::default();
     let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(|_| Error::Divergence)?;
+    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
     let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
     // the part of the way from the file's parameters to those that are wanted
     let (mut done, mut part) = (0.0, 1.0);
     for _ in 0..MOST_PARTS {
@@ -3242,10 +3257,13 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             *params
         };
         let model = Model::new(&params);
-        let is_found = start(&at.q, &model, &mut found).is_ok();
-        if is_found && found.is_negative == at.is_negative {
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
             if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
                 return Ok(State {
+                    steepness,
                     model,
                     solutions: [found, at],
                     is_second: false,
@@ -3256,13 +3274,14 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             at.clone_from(&found);
             (done, part) = (next, 2.0 * part);
         } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
             part *= 0.5;
         }
         if part < SMALLEST_PART {
             break;
         }
     }
-    Err(Error::Divergence)
+    Err(why)
 }
 
 /// Solves at the first time, from a position nearby.
@@ -3280,6 +3299,11 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+/// At the end of the file's analysis the formulas of time take their earlier branches, as
+/// `mechc run` has it; at any other time where they change, the later ones.
 ///
 /// # Errors
 /// Why it cannot get there; the state stays at the last time that it could reach.
@@ -3336,6 +3360,18 @@ enum Fault {
     TooFar,
     /// The position is on another branch, or too near to one.
     Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            _ => Error::Divergence,
+        }
+    }
 }
 
 /// One step to a time; says whether a longer one would do as well.
@@ -3349,32 +3385,45 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let from = &*from;
     let h = t - from.t;
     let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    // Taylor
-    let mut way: [f64; TEARS] = core::array::from_fn(|k| h * (v[k] + 0.5 * h * a[k]));
-    if state.is_smooth {
-        let bend = bend(from, at, h);
-        way = core::array::from_fn(|k| way[k] + bend[k]);
+    let mut way = if state.is_smooth {
+        bend(from, at, h)
+    } else {
+        [0.0; TEARS]
+    };
+    let mut guess = x;
+    let rates = v.iter().zip(&a);
+    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
     }
-    if largest(&way, &TEAR_SCALES) > LARGEST_MOTION {
+    // what is not a number is not small either
+    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
+    if !is_short {
         return Err(Fault::TooFar);
     }
-    let guess = core::array::from_fn(|k| x[k] + way[k]);
     reach(&guess, from, t, &state.model, at)?;
-    const TWELFTH: f64 = 1.0 / 12.0;
     // what both ends' velocities and accelerations make of the way between (Hermite)
     let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let gap: [f64; TEARS] = core::array::from_fn(|k| {
-        y[k] - x[k] - 0.5 * h * (v[k] + w[k]) - h * h * TWELFTH * (a[k] - b[k])
-    });
-    let gap = largest(&gap, &TEAR_SCALES);
-    if at.first > LARGEST_CORRECTION || gap > LARGEST_GAP {
+    let mut gaps = [0.0; TEARS];
+    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    let gap = largest(&gaps, &TEAR_SCALES);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
         return Err(Fault::TooFar);
     }
-    if at.is_negative != from.is_negative || at.steepest > STEEPEST {
+    let steepest = at.steepest / state.steepness;
+    if at.is_negative != from.is_negative || steepest > STEEPEST {
         return Err(Fault::Singular);
     }
-    if is_wanted && at.steepest > STEEP && rounding(at, &state.model) > ACCURACY {
+    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
         return Err(Fault::Singular);
+    }
+    if at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
     }
     state.is_smooth = at.sides == from.sides;
     state.is_second = !state.is_second;
@@ -3391,15 +3440,36 @@ fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
     }
     let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
     let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    core::array::from_fn(|k| {
-        let value = y[k] - x[k] + back * (v[k] - 0.5 * back * a[k]);
-        let slope = back * (v[k] - back * a[k] - w[k]);
-        let curvature = 0.5 * back * back * (b[k] - a[k]);
+    let mut bend = [0.0; TEARS];
+    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
         let cubic = 4.0 * slope - 10.0 * value - curvature;
         let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
         let quintic = 3.0 * slope - 6.0 * value - curvature;
-        u * u * u * (cubic + u * (quartic + u * quintic))
-    })
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their
+/// branches: `at` is the later side, and `from` has the branches of the earlier one.
+fn jumps(from: &Solution, at: &Solution, m: &Model) -> bool {
+    let mut before = at.clone();
+    if find(&tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (mut way, mut change) = (at.q, at.qd);
+    for (way, q) in way.iter_mut().zip(&before.q) {
+        *way -= q;
+    }
+    for (change, qd) in change.iter_mut().zip(&before.qd) {
+        *change -= qd;
+    }
+    let fastest = largest(&at.qd, &SCALES) + largest(&before.qd, &SCALES) + REST / SPAN;
+    largest(&way, &SCALES) > POSITION_JUMP || largest(&change, &SCALES) > VELOCITY_JUMP * fastest
 }
 
 /// The largest value beside its scale; what is not a number wins.
@@ -3449,7 +3519,10 @@ fn find(
     if !at.is_settled || !at.holds {
         // once more from a position that is known, and if that does not help either, that
         let h = t - from.t;
-        let q = core::array::from_fn(|k| from.q[k] + h * (from.qd[k] + 0.5 * h * from.qdd[k]));
+        let mut q = from.q;
+        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
+            *q += h * (qd + 0.5 * h * qdd);
+        }
         let pivoted = solve_with_pivoting(&q, t, m, sides)?;
         solve(&tears(&pivoted.q), t, m, sides, at);
         let first = pivoted.first;
@@ -3466,14 +3539,14 @@ fn find(
     }
 }
 
-/// What rounding makes of the velocities and accelerations: they are amplified by as much as the
-/// position is near to a singular one.
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
+/// amplified by as much as the position is near to a singular one.
 fn rounding(at: &Solution, m: &Model) -> f64 {
     let p = &m.params;
     let sides = &at.sides;
     let slopes = phi_q_with(&at.q, at.t, p, sides);
     let mut norms = [f64::MIN_POSITIVE; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
             *norm = larger(*norm, slope.abs() * scale);
         }
@@ -3484,7 +3557,7 @@ fn rounding(at: &Solution, m: &Model) -> f64 {
     let gamma = gamma_with(&at.q, &at.qd, at.t, p, sides);
     let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
     let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * at.steepest * amplified
+    f64::EPSILON * amplified
 }
 
 /// Why even the shortest step from a state towards a time is refused.
@@ -3495,7 +3568,10 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
     if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
         return Error::NotANumber;
     }
-    if at.steepest < SINGULAR {
+    if fault == Fault::NotSmooth {
+        return Error::NotSmooth;
+    }
+    if at.steepest < SINGULAR * state.steepness {
         return Error::Divergence;
     }
     // a motion that comes to a dead point after a time u is as the root of u, whose slope over
@@ -3547,7 +3623,7 @@ impl Solution {
         qdd: [0.0; N],
         measures: Measures::ZERO,
         sides: [0.0; SIDES],
-        is_negative: TURNED,
+        is_negative: [false; TURNS],
         is_settled: true,
         holds: true,
         first: 0.0,
@@ -3676,8 +3752,9 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model, sides: &Sides) -> Result<Soluti
     at.holds = is_next_to_nothing(&values, &slopes, &at.q);
     at.q = at.q.map(|x| x + 0.0);
     at.steepest = 1.0 / pivot;
-    for (turned, block) in at.is_negative.iter_mut().zip(TURNING) {
-        *turned = elimination.is_negative.get(block).copied().unwrap_or(false);
+    let negative = &elimination.is_negative;
+    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
     }
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
@@ -3709,7 +3786,7 @@ impl Elimination {
 /// the coordinates.
 fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
     let mut bounds = [0.0; N];
-    for ((row, column), slope) in PHI_Q_PATTERN.into_iter().zip(slopes) {
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
         let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
         if let (Some(scale), Some(q), Some(bound)) = sizes {
             *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
@@ -4764,7 +4841,7 @@ fn sides_of_time(t: f64, _p: &Params) -> [f64; SIDES] {
 
 /// Which of them time alone decides.
 #[rustfmt::skip]
-const IS_OF_TIME: [bool; SIDES] = [
+static IS_OF_TIME: [bool; SIDES] = [
     true, true, true, true,
     true, true, true, true,
     true, true, true, true,
@@ -4779,7 +4856,13 @@ const FARTHEST_AHEAD: f64 = 1e-7;
 
 /// The branches with those of time exchanged.
 fn with_time(sides: &Sides, of_time: &Sides) -> Sides {
-    core::array::from_fn(|k| if IS_OF_TIME[k] { of_time[k] } else { sides[k] })
+    let mut all = *sides;
+    for ((side, of_time), is_of_time) in all.iter_mut().zip(of_time).zip(&IS_OF_TIME) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
 }
 
 /// The branches of formulas of the motion that lie ahead of a position.
@@ -4787,7 +4870,10 @@ fn sides_ahead(at: &Solution, m: &Model) -> Sides {
     let (speed, acceleration) = (largest(&at.qd, &SCALES), largest(&at.qdd, &SCALES));
     let mut ahead = f64::min(f64::min(AHEAD * SPAN, AHEAD), FARTHEST_AHEAD / speed);
     ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
-    let q = core::array::from_fn(|k| at.q[k] + ahead * (at.qd[k] + 0.5 * ahead * at.qdd[k]));
+    let mut q = at.q;
+    for ((q, qd), qdd) in q.iter_mut().zip(&at.qd).zip(&at.qdd) {
+        *q += ahead * (qd + 0.5 * ahead * qdd);
+    }
     sides_of_motion(&q, at.t + ahead, &m.params, &at.sides)
 }
 

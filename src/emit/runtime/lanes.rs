@@ -22,6 +22,7 @@ pub mod lanes {
         /// Whether those of now are the second.
         is_second: bool,
         is_smooth: [bool; LANES],
+        steepness: Each,
         step: Each,
 //# if sides
         sides: [Sides; LANES],
@@ -86,58 +87,74 @@ pub mod lanes {
 
         /// A lane, which is below [`LANES`], on its own.
         fn lane(&self, k: usize) -> State {
+            let [first, ..] = &self.models;
+            let model = self.models.get(k).unwrap_or(first).clone();
             let mut solutions = [self.now().lane(k), self.other().lane(k)];
             for at in &mut solutions {
                 at.is_settled = true;
 //# if sides
-                at.sides = self.sides[k];
+                at.sides = self.sides.get(k).copied().unwrap_or([0.0; SIDES]);
 //# end
 //# if watches
-                at.watched = self.watched[k];
+                at.watched = self.watched.get(k).copied().unwrap_or([false; WATCHES]);
 //# end
             }
             State {
-                model: self.models[k].clone(),
+                model,
                 solutions,
                 is_second: false,
-                is_smooth: self.is_smooth[k],
-                step: self.step[k],
+                is_smooth: self.is_smooth.get(k).copied().unwrap_or(false),
+                steepness: of(&self.steepness, k),
+                step: of(&self.step, k),
             }
         }
 
         /// Moves a lane on its own, and leaves it among the other solutions.
         fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
             let mut state = self.lane(k);
+            // where the solution before was, the one that has been tried is now
+            state.is_smooth = false;
             let result = step(t, &mut state);
             self.both().1.set_lane(k, state.at());
-            self.is_smooth[k] = false;
-            self.step[k] = state.step;
+            if let Some(is_smooth) = self.is_smooth.get_mut(k) {
+                *is_smooth = false;
+            }
+            if let Some(step) = self.step.get_mut(k) {
+                *step = state.step;
+            }
 //# if sides
-            self.sides[k] = state.at().sides;
+            if let Some(sides) = self.sides.get_mut(k) {
+                *sides = state.at().sides;
+            }
 //# end
 //# if watches
-            self.watched[k] = state.at().watched;
+            if let Some(watched) = self.watched.get_mut(k) {
+                *watched = state.at().watched;
+            }
 //# end
             result
         }
     }
 
-    /// Brings the mechanisms to the first time, each with its own parameters.
+    /// Brings the mechanisms to the first time, each with its own parameters; says of each lane why
+    /// it cannot be assembled, if it cannot. Such a lane has the parameters of the file.
     ///
     /// # Errors
-    /// The first lane that cannot be assembled, and why.
-    pub fn assemble(params: &[Params; LANES]) -> Result<States, (usize, Error)> {
+    /// Not even the file's own mechanism can be assembled.
+    #[rustfmt::skip]
+    pub fn assemble(params: &[Params; LANES]) -> Result<(States, [Result<(), Error>; LANES]), Error> {
 //# if params
-        let one = super::assemble(&Params::default()).map_err(|error| (0, error))?;
+        let one = super::assemble(&Params::default())?;
 //# end
 //# if !params
-        let one = super::assemble(&Params).map_err(|error| (0, error))?;
+        let one = super::assemble(&Params)?;
 //# end
         let mut states = States {
             models: core::array::from_fn(|_| one.model.clone()),
             solutions: [Solutions::ZERO, Solutions::ZERO],
             is_second: false,
             is_smooth: [false; LANES],
+            steepness: [one.steepness; LANES],
             step: [LONGEST_STEP; LANES],
 //# if sides
             sides: [one.at().sides; LANES],
@@ -146,11 +163,17 @@ pub mod lanes {
             watched: [one.at().watched; LANES],
 //# end
         };
-        for (k, params) in params.iter().enumerate() {
-            let state = super::assemble(params).map_err(|error| (k, error))?;
+        let mut results = [Ok(()); LANES];
+        for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
+            let found = super::assemble(params);
+            *result = found.as_ref().map(|_| ()).map_err(|error| *error);
+            let state = found.unwrap_or_else(|_| one.clone());
             states.both().0.set_lane(k, state.at());
             if let Some(model) = states.models.get_mut(k) {
                 *model = state.model.clone();
+            }
+            if let Some(steepness) = states.steepness.get_mut(k) {
+                *steepness = state.steepness;
             }
 //# if sides
             if let Some(sides) = states.sides.get_mut(k) {
@@ -163,7 +186,7 @@ pub mod lanes {
             }
 //# end
         }
-        Ok(states)
+        Ok((states, results))
     }
 
     /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
@@ -247,7 +270,8 @@ pub mod lanes {
         let mut is_done = [false; LANES];
         for k in 0..LANES {
             let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
-            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP && is_finite[k];
+            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP * states.steepness[k];
+            let is_solved = is_solved && is_finite[k];
             is_done[k] = is_solved && is_short;
         }
 //# if newton

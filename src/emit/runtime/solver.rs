@@ -1,5 +1,5 @@
-/// Steps from one time to another at most: what takes more is not meant.
-const MOST_STEPS: usize = 1_000_000;
+/// Steps that one call of [`step`] takes at most: what takes more is not meant.
+pub const MOST_STEPS: usize = 1_000_000;
 
 /// Trials on the way from the file's parameters to others at most, and the smallest part of it.
 const MOST_PARTS: usize = 10_000;
@@ -27,6 +27,14 @@ const SINGULAR: f64 = 1e2;
 
 /// A dead point is no further off than this part of the span.
 const NEAR_FOLD: f64 = 1e-5;
+//# if of_time
+
+/// What changes by more than this at an edge jumps: positions, scaled, and velocities beside the
+/// fastest one; a speed below that part of one per span is rest.
+const POSITION_JUMP: f64 = 1e-9;
+const VELOCITY_JUMP: f64 = 1e-6;
+const REST: f64 = 1e-3;
+//# end
 //# if motion
 
 /// How often the branches of formulas are chosen anew at one time.
@@ -49,8 +57,10 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
     let file = Params;
 //# end
     let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(|_| Error::Divergence)?;
+    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
     let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
     // the part of the way from the file's parameters to those that are wanted
     let (mut done, mut part) = (0.0, 1.0);
     for _ in 0..MOST_PARTS {
@@ -61,10 +71,13 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             *params
         };
         let model = Model::new(&params);
-        let is_found = start(&at.q, &model, &mut found).is_ok();
-        if is_found && found.is_negative == at.is_negative {
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
             if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
                 return Ok(State {
+                    steepness,
                     model,
                     solutions: [found, at],
                     is_second: false,
@@ -75,13 +88,14 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             at.clone_from(&found);
             (done, part) = (next, 2.0 * part);
         } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
             part *= 0.5;
         }
         if part < SMALLEST_PART {
             break;
         }
     }
-    Err(Error::Divergence)
+    Err(why)
 }
 
 /// Solves at the first time, from a position nearby.
@@ -101,6 +115,13 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+//# if end
+/// At the end of the file's analysis the formulas of time take their earlier branches, as
+/// `mechc run` has it; at any other time where they change, the later ones.
+//# end
 ///
 /// # Errors
 /// Why it cannot get there; the state stays at the last time that it could reach.
@@ -162,6 +183,20 @@ enum Fault {
     TooFar,
     /// The position is on another branch, or too near to one.
     Singular,
+//# if of_time
+    /// A position or velocity jumps.
+    NotSmooth,
+//# end
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            _ => Error::Divergence,
+        }
+    }
 }
 
 /// One step to a time; says whether a longer one would do as well.
@@ -175,25 +210,34 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let from = &*from;
     let h = t - from.t;
     let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    // Taylor
-    let mut way: [f64; TEARS] = core::array::from_fn(|k| h * (v[k] + 0.5 * h * a[k]));
-    if state.is_smooth {
-        let bend = bend(from, at, h);
-        way = core::array::from_fn(|k| way[k] + bend[k]);
+    let mut way = if state.is_smooth {
+        bend(from, at, h)
+    } else {
+        [0.0; TEARS]
+    };
+    let mut guess = x;
+    let rates = v.iter().zip(&a);
+    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
     }
-    if largest(&way, &TEAR_SCALES) > LARGEST_MOTION {
+    // what is not a number is not small either
+    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
+    if !is_short {
         return Err(Fault::TooFar);
     }
-    let guess = core::array::from_fn(|k| x[k] + way[k]);
     reach(&guess, from, t, &state.model, at)?;
-    const TWELFTH: f64 = 1.0 / 12.0;
     // what both ends' velocities and accelerations make of the way between (Hermite)
     let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let gap: [f64; TEARS] = core::array::from_fn(|k| {
-        y[k] - x[k] - 0.5 * h * (v[k] + w[k]) - h * h * TWELFTH * (a[k] - b[k])
-    });
-    let gap = largest(&gap, &TEAR_SCALES);
-    if at.first > LARGEST_CORRECTION || gap > LARGEST_GAP {
+    let mut gaps = [0.0; TEARS];
+    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    let gap = largest(&gaps, &TEAR_SCALES);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
         return Err(Fault::TooFar);
     }
 //# if watches
@@ -201,12 +245,18 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
         return Err(Fault::Singular);
     }
 //# end
-    if at.is_negative != from.is_negative || at.steepest > STEEPEST {
+    let steepest = at.steepest / state.steepness;
+    if at.is_negative != from.is_negative || steepest > STEEPEST {
         return Err(Fault::Singular);
     }
-    if is_wanted && at.steepest > STEEP && rounding(at, &state.model) > ACCURACY {
+    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
         return Err(Fault::Singular);
     }
+//# if of_time
+    if at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+//# end
 //# if sides
     state.is_smooth = at.sides == from.sides;
 //# end
@@ -227,16 +277,39 @@ fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
     }
     let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
     let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    core::array::from_fn(|k| {
-        let value = y[k] - x[k] + back * (v[k] - 0.5 * back * a[k]);
-        let slope = back * (v[k] - back * a[k] - w[k]);
-        let curvature = 0.5 * back * back * (b[k] - a[k]);
+    let mut bend = [0.0; TEARS];
+    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
         let cubic = 4.0 * slope - 10.0 * value - curvature;
         let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
         let quintic = 3.0 * slope - 6.0 * value - curvature;
-        u * u * u * (cubic + u * (quartic + u * quintic))
-    })
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
 }
+//# if of_time
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their
+/// branches: `at` is the later side, and `from` has the branches of the earlier one.
+fn jumps(from: &Solution, at: &Solution, m: &Model) -> bool {
+    let mut before = at.clone();
+    if find(&tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (mut way, mut change) = (at.q, at.qd);
+    for (way, q) in way.iter_mut().zip(&before.q) {
+        *way -= q;
+    }
+    for (change, qd) in change.iter_mut().zip(&before.qd) {
+        *change -= qd;
+    }
+    let fastest = largest(&at.qd, &SCALES) + largest(&before.qd, &SCALES) + REST / SPAN;
+    largest(&way, &SCALES) > POSITION_JUMP || largest(&change, &SCALES) > VELOCITY_JUMP * fastest
+}
+//# end
 
 /// The largest value beside its scale; what is not a number wins.
 fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
@@ -298,7 +371,10 @@ fn find(
 //# if pivoting
         // once more from a position that is known, and if that does not help either, that
         let h = t - from.t;
-        let q = core::array::from_fn(|k| from.q[k] + h * (from.qd[k] + 0.5 * h * from.qdd[k]));
+        let mut q = from.q;
+        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
+            *q += h * (qd + 0.5 * h * qdd);
+        }
         let pivoted = solve_with_pivoting(&q, t, m$sides)?;
         solve(&tears(&pivoted.q), t, m$sides, at);
         let first = pivoted.first;
@@ -329,8 +405,8 @@ fn find(
     }
 }
 
-/// What rounding makes of the velocities and accelerations: they are amplified by as much as the
-/// position is near to a singular one.
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
+/// amplified by as much as the position is near to a singular one.
 fn rounding(at: &Solution, m: &Model) -> f64 {
     let p = &m.params;
 //# if sides
@@ -349,7 +425,7 @@ fn rounding(at: &Solution, m: &Model) -> f64 {
     let gamma = $gamma(&at.q, &at.qd, at.t, p$sides);
     let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
     let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * at.steepest * amplified
+    f64::EPSILON * amplified
 }
 
 /// Why even the shortest step from a state towards a time is refused.
@@ -362,7 +438,12 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
     if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
         return Error::NotANumber;
     }
-    if at.steepest < SINGULAR {
+//# if of_time
+    if fault == Fault::NotSmooth {
+        return Error::NotSmooth;
+    }
+//# end
+    if at.steepest < SINGULAR * state.steepness {
         return Error::Divergence;
     }
     // a motion that comes to a dead point after a time u is as the root of u, whose slope over

@@ -1,5 +1,6 @@
 /// Why a mechanism could not be brought to a time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum Error {
     /// The time, a parameter or a formula is not a number.
     NotANumber,
@@ -7,8 +8,12 @@ pub enum Error {
     LockUp,
     /// Two branches of the motion meet: which one goes on is not determined.
     Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
+    /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
+//# if of_time
+    /// At a time where a formula goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+//# end
 }
 
 impl core::fmt::Display for Error {
@@ -18,6 +23,9 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
+//# if of_time
+            Error::NotSmooth => "a position or velocity jumps",
+//# end
         })
     }
 }
@@ -34,6 +42,8 @@ pub struct State {
     is_second: bool,
     /// Whether the one before lies on the same smooth motion.
     is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    steepness: f64,
     /// The step that goes well (s).
     step: f64,
 }
