@@ -7,6 +7,7 @@
 //! `docs/speed.md` tells how to read what it prints. Before anything is timed, the ways that are compared must agree.
 
 #![allow(clippy::expect_used, clippy::panic)] // a bench fails by panicking
+#![allow(clippy::default_constructed_unit_structs)] // this four-bar has no parameters, others have
 
 mod closed_form;
 #[allow(clippy::pedantic, dead_code)] // code of another hand

@@ -439,7 +439,9 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
         return Error::NotANumber;
     }
 //# if of_time
-    if fault == Fault::NotSmooth {
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = sides_at(at.t, &state.model) != sides_at(t, &state.model);
+    if fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge) {
         return Error::NotSmooth;
     }
 //# end
