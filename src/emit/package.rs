@@ -208,6 +208,11 @@ impl Writer<'_> {
         if !system.measures.is_empty() {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
+        if let Some(lanes) = self.unit.lanes {
+            text += &format!(
+                "| `lanes::assemble`, `lanes::step_each` | the same for {lanes} variants or times at once |\n"
+            );
+        }
         text
     }
 

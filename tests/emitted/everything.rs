@@ -2862,7 +2862,7 @@ pub enum Error {
     Bifurcation,
     /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
-    /// At a time where a formula goes over to another branch, a position or velocity jumps.
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
 }
 

@@ -421,6 +421,8 @@ pub enum Error {
     Bifurcation,
     /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
 }
 
 impl core::fmt::Display for Error {
@@ -430,6 +432,7 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
+            Error::NotSmooth => "a position or velocity jumps",
         })
     }
 }

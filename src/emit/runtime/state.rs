@@ -10,10 +10,8 @@ pub enum Error {
     Bifurcation,
     /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
     Divergence,
-//# if of_time
-    /// At a time where a formula goes over to another branch, a position or velocity jumps.
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
-//# end
 }
 
 impl core::fmt::Display for Error {
@@ -23,9 +21,7 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
-//# if of_time
             Error::NotSmooth => "a position or velocity jumps",
-//# end
         })
     }
 }
