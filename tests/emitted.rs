@@ -290,7 +290,7 @@ fn every_module_stands_alone_and_gives_the_bits_of_the_interpreter() {
         .collect();
     let source = write_main(&all, folder.path());
     let binary = folder.path().join("all");
-    rustc(&["-C", "opt-level=1", "-o", &binary.to_string_lossy()], &source);
+    rustc(&["-C", "opt-level=0", "-o", &binary.to_string_lossy()], &source);
     let output = Command::new(&binary).output().expect("it runs");
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
