@@ -160,6 +160,7 @@ pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
     let rocker_phi = q[8];
     let rocker_x = q[6];
     let rocker_y = q[7];
+
     let v1 = 2.0 * t;
     let v2 = 0.5 + v1;
     let (s3, c3) = sin_cos(crank_phi);
@@ -188,6 +189,7 @@ pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
     let v26 = 4.0 - v24;
     let v27 = -v25;
     let v28 = crank_phi - v2;
+
     out[0] = v4;
     out[1] = v5;
     out[2] = v9;
@@ -200,7 +202,8 @@ pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
     out
 }
 
-/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
 ///
 /// 10 operations.
 pub fn phi_q(q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
@@ -208,6 +211,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
     let crank_phi = q[2];
     let coupler_phi = q[5];
     let rocker_phi = q[8];
+
     let (s1, c1) = sin_cos(crank_phi);
     let (s2, c2) = sin_cos(coupler_phi);
     let v3 = 3.5 * c2;
@@ -218,6 +222,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
     let v8 = -1.5 * s4;
     let v9 = -s1;
     let v10 = -3.5 * s2;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -242,7 +247,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
     out
 }
 
-/// The partial derivative of `phi` by time.
+/// The partial derivative of `phi` by time (the equation's unit per s).
 ///
 /// 0 operations.
 pub fn phi_t(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
@@ -251,7 +256,7 @@ pub fn phi_t(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
     out
 }
 
-/// Right side of the velocity equation `phi_q qd = nu`.
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
 ///
 /// 0 operations.
 pub fn nu(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
@@ -260,7 +265,7 @@ pub fn nu(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
     out
 }
 
-/// Right side of the acceleration equation `phi_q qdd = gamma`.
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
 ///
 /// 23 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
@@ -271,6 +276,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
     let crank_phi_d = qd[2];
     let coupler_phi_d = qd[5];
     let rocker_phi_d = qd[8];
+
     let (s1, c1) = sin_cos(crank_phi);
     let (s2, c2) = sin_cos(coupler_phi);
     let (s3, c3) = sin_cos(rocker_phi);
@@ -294,6 +300,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, _p: &Params) -> [f64; N] {
     let v21 = v15 + v20;
     let v22 = -v19;
     let v23 = -v21;
+
     out[2] = v10;
     out[3] = v11;
     out[4] = v22;
@@ -683,12 +690,11 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
             return Err(Error::NotANumber);
         }
         // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() {
+        let next = if state.step >= 0.999 * left.abs() {
             t
         } else {
             now + state.step.copysign(left)
         };
-        let next = wanted;
         let (is_last, size) = (next == t, (next - now).abs());
         match advance(state, next, is_last) {
             Ok(is_calm) => {
@@ -827,17 +833,6 @@ fn larger(a: f64, b: f64) -> f64 {
 
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 fn reach(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    find(guess, from, t, m, at)
-}
-
-/// Solves with branches of formulas that are known.
-fn find(
     guess: &[f64; TEARS],
     from: &Solution,
     t: f64,
@@ -1586,8 +1581,8 @@ pub mod lanes {
         Ok((states, results))
     }
 
-    /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
-    /// way alone.
+    /// Moves every lane to a time of its own (s). A lane that asks for more than one step, as any
+    /// does that has further to go than [`LONGEST_STEP`], goes its way alone.
     ///
     /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
     /// last time that it could reach.

@@ -374,6 +374,8 @@ impl<'p, S: Scene> Printer<'p, S> {
         let (body, result) = match function.out {
             Out::Given { begin } => (format!("    {begin}\n{body}"), ""),
             Out::List { of, first } if contains_word(&body, "out") => {
+                // and what comes of it
+                let body = body.replacen("\n    out[", "\n\n    out[", 1).replace("\n\n\n", "\n\n");
                 (format!("    let mut out = {first};\n{body}    out\n"), of)
             }
             Out::List { of, first } => (format!("    {first}\n"), of),
@@ -445,7 +447,12 @@ impl<'p, S: Scene> Printer<'p, S> {
                 }
             }
         }
-        std::mem::take(&mut self.bindings) + &text
+        let mut bindings = std::mem::take(&mut self.bindings);
+        if !bindings.is_empty() && !text.is_empty() {
+            // what is given, and what is made of it
+            bindings.push('\n');
+        }
+        bindings + &text
     }
 
     fn newton(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {

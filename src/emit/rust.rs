@@ -122,7 +122,8 @@ impl Writer<'_> {
         }
         let mut text = "/// The parameters, in SI; those of the file by default.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Params {\n".to_owned();
         for (name, param) in self.names.params.iter().zip(&system.params) {
-            text += &format!("    /// `{}` ({})\n    pub {name}: f64,\n", one_line(&param.name), param.unit);
+            let (source, line) = (one_line(&param.name), self.line(param.span));
+            text += &format!("    /// `{source}` ({}){line}\n    pub {name}: f64,\n", param.unit);
         }
         text += "}\n\nimpl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        Self {\n";
         for (name, param) in self.names.params.iter().zip(&system.params) {
@@ -287,14 +288,26 @@ impl Writer<'_> {
             ("phi", "The residual of the equations (m, m^2 or rad).", 1, &outputs.phi, "N"),
             (
                 "phi_q",
-                "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].",
+                "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or\nrad).",
                 1,
                 &outputs.phi_q,
                 "ENTRIES",
             ),
-            ("phi_t", "The partial derivative of `phi` by time.", 1, &outputs.nu, "N"),
-            ("nu", "Right side of the velocity equation `phi_q qd = nu`.", 1, &outputs.nu, "N"),
-            ("gamma", "Right side of the acceleration equation `phi_q qdd = gamma`.", 2, &outputs.gamma, "N"),
+            ("phi_t", "The partial derivative of `phi` by time (the equation's unit per s).", 1, &outputs.nu, "N"),
+            (
+                "nu",
+                "Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).",
+                1,
+                &outputs.nu,
+                "N",
+            ),
+            (
+                "gamma",
+                "Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).",
+                2,
+                &outputs.gamma,
+                "N",
+            ),
         ];
         let jerk = ("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, &outputs.jerk, "N");
         let kinds = kinds.into_iter().chain((!outputs.jerk.is_empty()).then_some(jerk));
@@ -422,7 +435,10 @@ impl Writer<'_> {
         let sides = if self.has_sides() { ", sides" } else { "" };
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
         let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
-        text.replace("$sides_argument", argument).replace("$sides", sides).replace("$qddd", qddd)
+        text.replace("$wanted", if of_time { "wanted" } else { "next" })
+            .replace("$sides_argument", argument)
+            .replace("$sides", sides)
+            .replace("$qddd", qddd)
             + &self.frozen(solution)
     }
 

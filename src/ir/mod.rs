@@ -77,6 +77,8 @@ pub struct Param {
     pub value: f64,
     /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
     pub unit: String,
+    /// The name's place.
+    pub span: Span,
 }
 
 /// A body with its place in the text.

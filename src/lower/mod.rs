@@ -59,7 +59,12 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         params: model
             .params
             .iter()
-            .map(|p| Param { name: p.declared.name.clone(), value: p.value, unit: p.dimension.unit() })
+            .map(|p| Param {
+                name: p.declared.name.clone(),
+                value: p.value,
+                unit: p.dimension.unit(),
+                span: p.declared.span,
+            })
             .collect(),
         bodies: model
             .bodies

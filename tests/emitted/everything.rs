@@ -15,13 +15,13 @@
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `a` (m)
+    /// `a` (m), line 3
     pub a: f64,
-    /// `rate` (1/s)
+    /// `rate` (1/s), line 5
     pub rate: f64,
-    /// `n` (1)
+    /// `n` (1), line 6
     pub n: f64,
-    /// `half` (1)
+    /// `half` (1), line 7
     pub half: f64,
 }
 
@@ -366,6 +366,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let stone_x = q[12];
     let stone_y = q[13];
     let stone_phi = q[14];
+
     let v1 = libm::atan2(0.0, a);
     let v2 = v1 + -1.5707963267948966;
     let v3 = a * half;
@@ -625,6 +626,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v257 = v147 - v37;
     let v258 = v164 - v72;
     let v259 = v176 - v143;
+
     out[0] = v177;
     out[1] = v178;
     out[2] = v182;
@@ -649,7 +651,8 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out
 }
 
-/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
 ///
 /// 151 operations.
 pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
@@ -673,6 +676,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let plate_y = q[4];
     let stone_y = q[13];
     let stone_x = q[12];
+
     let v1 = a * half;
     let (_, c2) = sin_cos(sled_phi);
     let (s3, c3) = sin_cos(rocker_phi);
@@ -824,6 +828,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let v149 = 1.0 + v148;
     let v150 = v149 / 9.0;
     let v151 = v147 - v150;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -883,13 +888,14 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     out
 }
 
-/// The partial derivative of `phi` by time.
+/// The partial derivative of `phi` by time (the equation's unit per s).
 ///
 /// 172 operations.
 pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let mut out = [0.0; N];
     let half = p.half;
     let n = p.n;
+
     let v1 = half + -1.0;
     let v2 = 4.0 * t;
     let (s3, _) = sin_cos(v2);
@@ -1062,6 +1068,7 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v170 = v132 + v169;
     let v171 = v131 + v170;
     let v172 = v129 + v171;
+
     out[17] = -v70;
     out[18] = -v95;
     out[19] = -v125;
@@ -1069,13 +1076,14 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out
 }
 
-/// Right side of the velocity equation `phi_q qd = nu`.
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
 ///
 /// 172 operations.
 pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let mut out = [0.0; N];
     let half = p.half;
     let n = p.n;
+
     let v1 = half + -1.0;
     let v2 = 4.0 * t;
     let (s3, _) = sin_cos(v2);
@@ -1248,6 +1256,7 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v170 = v132 + v169;
     let v171 = v131 + v170;
     let v172 = v129 + v171;
+
     out[17] = v70;
     out[18] = v95;
     out[19] = v125;
@@ -1255,7 +1264,7 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out
 }
 
-/// Right side of the acceleration equation `phi_q qdd = gamma`.
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
 ///
 /// 477 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -1296,6 +1305,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let plate_y_d = qd[4];
     let stone_x_d = qd[12];
     let stone_y_d = qd[13];
+
     let v1 = a * half;
     let v2 = half + -1.0;
     let v3 = -1.0 + v2;
@@ -1773,6 +1783,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v475 = -v461;
     let v476 = 0.17453292519943295 * v266;
     let v477 = v319 - v230;
+
     out[2] = v373;
     out[3] = v227;
     out[7] = v470;
@@ -1847,6 +1858,7 @@ pub fn jerk(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], t: f64, p: &Params) -> 
     let stone_x_dd = qdd[12];
     let stone_y_dd = qdd[13];
     let n = p.n;
+
     let v1 = a * half;
     let v2 = half + -1.0;
     let v3 = -1.0 + v2;
@@ -2640,6 +2652,7 @@ pub fn jerk(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], t: f64, p: &Params) -> 
     let v791 = -v776;
     let v792 = 0.17453292519943295 * v483;
     let v793 = v526 - v395;
+
     out[2] = v683;
     out[3] = v373;
     out[7] = v786;
@@ -2726,6 +2739,7 @@ fn all_measures(
     let free_y_dd = qdd[16];
     let crank_x_dd = qdd[0];
     let crank_y_dd = qdd[1];
+
     let v1 = 0.6 * sled_x;
     let v2 = 0.8 * sled_y;
     let v3 = v1 + v2;
@@ -2828,6 +2842,7 @@ fn all_measures(
     let v100 = v72 * v99;
     let v101 = -2.0 * v100;
     let v102 = v98 + v101;
+
     out[0] = v3;
     out[1] = v14;
     out[2] = v48;
@@ -3178,6 +3193,7 @@ fn known(p: &Params) -> [f64; KNOWN] {
     let a = p.a;
     let half = p.half;
     let n = p.n;
+
     let v1 = libm::atan2(0.0, a);
     let v2 = v1 + -1.5707963267948966;
     let v3 = a * half;
@@ -3185,6 +3201,7 @@ fn known(p: &Params) -> [f64; KNOWN] {
     let v5 = -1.0 + v4;
     let v6 = 2.0 * n;
     let v7 = v6 / 10.0;
+
     out[0] = v2;
     out[1] = v3;
     out[2] = v4;
@@ -4822,6 +4839,7 @@ fn sides_of_time(t: f64, _p: &Params) -> [f64; SIDES] {
     let v17 = f64::from(t < -1.0);
     let v18 = t / 10.0;
     let v19 = libm::floor(v18);
+
     out[0] = v1;
     out[1] = v2;
     out[2] = v3;
@@ -4893,6 +4911,7 @@ fn sides_of_motion(q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; SI
     let rocker_y = q[7];
     let gauge_phi = q[20];
     let gauge_x = q[18];
+
     let (s1, c1) = sin_cos(crank_phi);
     let v2 = a * c1;
     let v3 = a * s1;
@@ -4913,6 +4932,7 @@ fn sides_of_motion(q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; SI
     let v18 = either(v17, v4, v5);
     let v19 = f64::from(0.2 < v18);
     let v20 = sign(v14);
+
     out[0] = sides[0];
     out[1] = sides[1];
     out[2] = sides[2];
@@ -5133,6 +5153,7 @@ fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let stone_x = q[12];
     let stone_y = q[13];
     let stone_phi = q[14];
+
     let v1 = libm::atan2(0.0, a);
     let v2 = v1 + -1.5707963267948966;
     let v3 = a * half;
@@ -5370,6 +5391,7 @@ fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let v235 = v130 - v33;
     let v236 = v147 - v64;
     let v237 = v159 - v126;
+
     out[0] = v160;
     out[1] = v161;
     out[2] = v165;
@@ -5417,6 +5439,7 @@ fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; ENTRIES
     let plate_y = q[4];
     let stone_y = q[13];
     let stone_x = q[12];
+
     let v1 = a * half;
     let (_, c2) = sin_cos(sled_phi);
     let (s3, c3) = sin_cos(rocker_phi);
@@ -5559,6 +5582,7 @@ fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; ENTRIES
     let v140 = 1.0 + v139;
     let v141 = v140 / 9.0;
     let v142 = v138 - v141;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -5625,6 +5649,7 @@ fn nu_with(_q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let mut out = [0.0; N];
     let half = p.half;
     let n = p.n;
+
     let v1 = half + -1.0;
     let v2 = 4.0 * t;
     let (s3, _) = sin_cos(v2);
@@ -5785,6 +5810,7 @@ fn nu_with(_q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let v158 = v120 + v157;
     let v159 = v119 + v158;
     let v160 = v117 + v159;
+
     out[17] = v58;
     out[18] = v83;
     out[19] = v113;
@@ -5832,6 +5858,7 @@ fn gamma_with(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params, sides: &Sides) ->
     let plate_y_d = qd[4];
     let stone_x_d = qd[12];
     let stone_y_d = qd[13];
+
     let v1 = a * half;
     let v2 = half + -1.0;
     let v3 = -1.0 + v2;
@@ -6286,6 +6313,7 @@ fn gamma_with(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params, sides: &Sides) ->
     let v452 = -v438;
     let v453 = 0.17453292519943295 * v243;
     let v454 = v296 - v207;
+
     out[2] = v350;
     out[3] = v204;
     out[7] = v447;
@@ -6366,6 +6394,7 @@ fn jerk_with(
     let stone_x_dd = qdd[12];
     let stone_y_dd = qdd[13];
     let n = p.n;
+
     let v1 = a * half;
     let v2 = half + -1.0;
     let v3 = -1.0 + v2;
@@ -7139,6 +7168,7 @@ fn jerk_with(
     let v771 = -v756;
     let v772 = 0.17453292519943295 * v463;
     let v773 = v506 - v375;
+
     out[2] = v663;
     out[3] = v353;
     out[7] = v766;

@@ -15,21 +15,21 @@
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `fn_` (1)
+    /// `fn_` (1), line 3
     pub fn_: f64,
-    /// `Self` (1/s)
+    /// `Self` (1/s), line 4
     pub self_: f64,
-    /// `é` (1)
+    /// `é` (1), line 5
     pub u00e9: f64,
-    /// `R` (m)
+    /// `R` (m), line 6
     pub r: f64,
-    /// `r` (m)
+    /// `r` (m), line 7
     pub r_2: f64,
-    /// `greater` (1)
+    /// `greater` (1), line 8
     pub greater: f64,
-    /// `select` (1)
+    /// `select` (1), line 9
     pub select: f64,
-    /// `v1` (1)
+    /// `v1` (1), line 10
     pub v1: f64,
 }
 
@@ -189,6 +189,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let loop_y_2 = q[4];
     let fn_ = p.fn_;
     let r_2 = p.r_2;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = t * self_;
@@ -214,6 +215,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v23 = v22 / r;
     let v24 = v9 + v23;
     let v25 = v10 - v24;
+
     out[0] = v12;
     out[1] = v13;
     out[2] = v18;
@@ -223,7 +225,8 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out
 }
 
-/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
 ///
 /// 8 operations.
 pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
@@ -232,6 +235,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let r_2 = p.r_2;
     let fn_ = p.fn_;
     let loop_phi = q[2];
+
     let v1 = -1.0 / r;
     let v2 = r_2 * v1;
     let v3 = fn_ * v2;
@@ -240,6 +244,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let v6 = c5 * r;
     let v7 = s5 * r;
     let v8 = -v7;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -254,7 +259,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     out
 }
 
-/// The partial derivative of `phi` by time.
+/// The partial derivative of `phi` by time (the equation's unit per s).
 ///
 /// 6 operations.
 pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -264,17 +269,19 @@ pub fn phi_t(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let greater_2 = p.greater;
     let self_ = p.self_;
     let u00e9 = p.u00e9;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = t * self_;
     let v4 = u00e9 + v3;
     let v5 = f64::from(v2 < v4);
     let v6 = select(v5, self_, 0.0);
+
     out[4] = -v6;
     out
 }
 
-/// Right side of the velocity equation `phi_q qd = nu`.
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
 ///
 /// 6 operations.
 pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -284,17 +291,19 @@ pub fn nu(_q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let greater_2 = p.greater;
     let self_ = p.self_;
     let u00e9 = p.u00e9;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = t * self_;
     let v4 = u00e9 + v3;
     let v5 = f64::from(v2 < v4);
     let v6 = select(v5, self_, 0.0);
+
     out[4] = v6;
     out
 }
 
-/// Right side of the acceleration equation `phi_q qdd = gamma`.
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
 ///
 /// 7 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
@@ -302,6 +311,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let loop_phi = q[2];
     let loop_phi_d = qd[2];
     let r = p.r;
+
     let (s1, c1) = sin_cos(loop_phi);
     let v2 = s1 * loop_phi_d;
     let v3 = c1 * loop_phi_d;
@@ -309,6 +319,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let v5 = loop_phi_d * v2;
     let v6 = r * v4;
     let v7 = r * v5;
+
     out[2] = v6;
     out[3] = v7;
     out
@@ -576,12 +587,14 @@ fn known(p: &Params) -> [f64; KNOWN] {
     let r = p.r;
     let r_2 = p.r_2;
     let fn_ = p.fn_;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = -1.0 / r;
     let v4 = r_2 * v3;
     let v5 = fn_ * v4;
     let v6 = -1.0 + v5;
+
     out[0] = v2;
     out[1] = v6;
     out
@@ -1223,6 +1236,7 @@ fn sides_of_time(t: f64, p: &Params) -> [f64; SIDES] {
     let greater_2 = p.greater;
     let self_ = p.self_;
     let u00e9 = p.u00e9;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = t * self_;
@@ -1230,6 +1244,7 @@ fn sides_of_time(t: f64, p: &Params) -> [f64; SIDES] {
     let v5 = f64::from(v2 < v4);
     let v6 = sign(t);
     let v7 = f64::from(t < 1.0);
+
     out[0] = v5;
     out[1] = v6;
     out[2] = v7;
@@ -1422,6 +1437,7 @@ fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let loop_y_2 = q[4];
     let fn_ = p.fn_;
     let r_2 = p.r_2;
+
     let v1 = p7 * select_2;
     let v2 = v1 - greater_2;
     let v3 = t * self_;
@@ -1444,6 +1460,7 @@ fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let v20 = v19 / r;
     let v21 = v6 + v20;
     let v22 = v7 - v21;
+
     out[0] = v9;
     out[1] = v10;
     out[2] = v15;
@@ -1462,6 +1479,7 @@ fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; ENTRIE
     let r_2 = p.r_2;
     let fn_ = p.fn_;
     let loop_phi = q[2];
+
     let v1 = -1.0 / r;
     let v2 = r_2 * v1;
     let v3 = fn_ * v2;
@@ -1470,6 +1488,7 @@ fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; ENTRIE
     let v6 = c5 * r;
     let v7 = s5 * r;
     let v8 = -v7;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -1490,7 +1509,9 @@ fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; ENTRIE
 fn nu_with(_q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; N] {
     let mut out = [0.0; N];
     let self_ = p.self_;
+
     let v1 = select(sides[0], self_, 0.0);
+
     out[4] = v1;
     out
 }
@@ -1503,6 +1524,7 @@ fn gamma_with(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params, _sides: &Sides) 
     let loop_phi = q[2];
     let loop_phi_d = qd[2];
     let r = p.r;
+
     let (s1, c1) = sin_cos(loop_phi);
     let v2 = s1 * loop_phi_d;
     let v3 = c1 * loop_phi_d;
@@ -1510,6 +1532,7 @@ fn gamma_with(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params, _sides: &Sides) 
     let v5 = loop_phi_d * v2;
     let v6 = r * v4;
     let v7 = r * v5;
+
     out[2] = v6;
     out[3] = v7;
     out

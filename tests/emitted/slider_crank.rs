@@ -15,11 +15,11 @@
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
-    /// `crank_length` (m)
+    /// `crank_length` (m), line 6
     pub crank_length: f64,
-    /// `rod_length` (m)
+    /// `rod_length` (m), line 7
     pub rod_length: f64,
-    /// `speed` (1/s)
+    /// `speed` (1/s), line 8
     pub speed: f64,
 }
 
@@ -231,6 +231,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let rod_length = p.rod_length;
     let piston_x = q[6];
     let piston_y = q[7];
+
     let v1 = t * speed;
     let v2 = 0.5235987755982988 + v1;
     let (s3, _) = sin_cos(piston_phi);
@@ -251,6 +252,7 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     let v18 = v16 - piston_x;
     let v19 = v17 - piston_y;
     let v20 = crank_phi - v2;
+
     out[0] = v5;
     out[1] = v6;
     out[2] = v12;
@@ -263,7 +265,8 @@ pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
     out
 }
 
-/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`].
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
 ///
 /// 9 operations.
 pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
@@ -273,6 +276,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let crank_length = p.crank_length;
     let rod_phi = q[5];
     let rod_length = p.rod_length;
+
     let (_, c1) = sin_cos(piston_phi);
     let (s2, c2) = sin_cos(crank_phi);
     let v3 = c2 * crank_length;
@@ -282,6 +286,7 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     let v7 = s5 * rod_length;
     let v8 = -v4;
     let v9 = -v7;
+
     out[0] = -1.0;
     out[1] = -1.0;
     out[2] = 1.0;
@@ -302,27 +307,29 @@ pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
     out
 }
 
-/// The partial derivative of `phi` by time.
+/// The partial derivative of `phi` by time (the equation's unit per s).
 ///
 /// 0 operations.
 pub fn phi_t(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let mut out = [0.0; N];
     let speed = p.speed;
+
     out[8] = -speed;
     out
 }
 
-/// Right side of the velocity equation `phi_q qd = nu`.
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
 ///
 /// 0 operations.
 pub fn nu(_q: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let mut out = [0.0; N];
     let speed = p.speed;
+
     out[8] = speed;
     out
 }
 
-/// Right side of the acceleration equation `phi_q qdd = gamma`.
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
 ///
 /// 17 operations.
 pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
@@ -335,6 +342,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let piston_phi_d = qd[8];
     let crank_length = p.crank_length;
     let rod_length = p.rod_length;
+
     let (s1, _) = sin_cos(piston_phi);
     let (s2, c2) = sin_cos(crank_phi);
     let (s3, c3) = sin_cos(rod_phi);
@@ -352,6 +360,7 @@ pub fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params) -> [f64; N] {
     let v15 = rod_phi_d * v6;
     let v16 = rod_length * v14;
     let v17 = rod_length * v15;
+
     out[2] = v12;
     out[3] = v13;
     out[4] = v16;
@@ -394,9 +403,11 @@ fn all_measures(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], _t: f64, _p: &Param
     let piston_x = q[6];
     let piston_x_d = qd[6];
     let piston_x_dd = qdd[6];
+
     let v1 = rod_phi / 0.017453292519943295;
     let v2 = rod_phi_d / 0.017453292519943295;
     let v3 = rod_phi_dd / 0.017453292519943295;
+
     out[0] = piston_x;
     out[1] = v1;
     out[2] = piston_x_d;
@@ -802,12 +813,11 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
             return Err(Error::NotANumber);
         }
         // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() {
+        let next = if state.step >= 0.999 * left.abs() {
             t
         } else {
             now + state.step.copysign(left)
         };
-        let next = wanted;
         let (is_last, size) = (next == t, (next - now).abs());
         match advance(state, next, is_last) {
             Ok(is_calm) => {
@@ -946,17 +956,6 @@ fn larger(a: f64, b: f64) -> f64 {
 
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 fn reach(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    find(guess, from, t, m, at)
-}
-
-/// Solves with branches of formulas that are known.
-fn find(
     guess: &[f64; TEARS],
     from: &Solution,
     t: f64,
@@ -1677,8 +1676,8 @@ pub mod lanes {
         Ok((states, results))
     }
 
-    /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
-    /// way alone.
+    /// Moves every lane to a time of its own (s). A lane that asks for more than one step, as any
+    /// does that has further to go than [`LONGEST_STEP`], goes its way alone.
     ///
     /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
     /// last time that it could reach.

@@ -189,8 +189,8 @@ pub mod lanes {
         Ok((states, results))
     }
 
-    /// Moves every lane to a time of its own (s). A lane that asks for more than one step goes its
-    /// way alone.
+    /// Moves every lane to a time of its own (s). A lane that asks for more than one step, as any
+    /// does that has further to go than [`LONGEST_STEP`], goes its way alone.
     ///
     /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
     /// last time that it could reach.

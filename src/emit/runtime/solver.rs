@@ -136,7 +136,7 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
             return Err(Error::NotANumber);
         }
         // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() {
+        let $wanted = if state.step >= 0.999 * left.abs() {
             t
         } else {
             now + state.step.copysign(left)
@@ -144,9 +144,6 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
 //# if of_time
         // what is fast may be over before the step's end
         let next = first_edge(now, wanted, &state.model);
-//# end
-//# if !of_time
-        let next = wanted;
 //# end
         let (is_last, size) = (next == t, (next - now).abs());
         match advance(state, next, is_last) {
@@ -323,6 +320,7 @@ fn larger(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
 
+//# if sides
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 fn reach(
     guess: &[f64; TEARS],
@@ -346,17 +344,17 @@ fn reach(
     Err(Fault::TooFar)
 //# end
 //# if !motion
-//# if sides
     find(guess, from, t, m, &sides_at(t, m), at)
-//# end
-//# if !sides
-    find(guess, from, t, m, at)
-//# end
 //# end
 }
 
 /// Solves with branches of formulas that are known.
 fn find(
+//# end
+//# if !sides
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+fn reach(
+//# end
     guess: &[f64; TEARS],
     from: &Solution,
     t: f64,
