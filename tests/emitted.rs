@@ -27,9 +27,12 @@ struct Emitted {
 
 impl Emitted {
     fn new(name: String, path: &Path, number: usize) -> Option<Emitted> {
+        Emitted::of(name, &fs::read_to_string(path).expect("a text"), path, number)
+    }
+
+    fn of(name: String, text: &str, path: &Path, number: usize) -> Option<Emitted> {
         let mut sources = Sources::default();
-        let text = fs::read_to_string(path).expect("a text");
-        let (determined, _) = compile_at(&mut sources, &stem(path), &text, path, number);
+        let (determined, _) = compile_at(&mut sources, &stem(path), text, path, number);
         determined.map(|determined| Emitted { name, determined, sources })
     }
 
@@ -84,9 +87,32 @@ impl Emitted {
     }
 }
 
-/// Everything that is emitted here: examples, reference cases and the stages.
+/// A scissor lift of so many cells, driven at its upper end: one block, whose loop is too long for one function.
+fn scissor_lift(cells: usize) -> String {
+    let (sin, cos) = mechc::math::sin_cos(0.5);
+    let mut text = "mechanism lift {\n ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
+    for k in 0..cells {
+        let y = (k as f64 + 0.5) * sin;
+        for (bar, x, phi) in [("a", 0.5 * cos + 0.003, 0.5), ("b", 0.5 * cos, -0.5)] {
+            text += &format!(
+                " body {bar}{k} at ({x}, {y}, {phi}) {{ point L = (-0.5, 0) point M = (0, 0) point R = (0.5, 0) }}\n"
+            );
+        }
+        text += &format!(" joint m{k}: revolute(a{k}.M, b{k}.M)\n");
+    }
+    for (k, next) in (1..cells).enumerate() {
+        text += &format!(" joint l{k}: revolute(b{k}.L, a{next}.L)\n joint r{k}: revolute(a{k}.R, b{next}.R)\n");
+    }
+    text += " joint base: revolute(ground.O, a0.L)\n joint roll: revolute_translational(b0.R, ground.floor)\n";
+    let (top, height) = (cells - 1, cells as f64 * sin);
+    text + &format!(" driver lift: y(a{top}.R) = {height} + 0.1 * sin(t)\n analysis from 0 to 1 every 0.1\n}}")
+}
+
+/// Everything that is emitted here: examples, reference cases and the stages, and one that takes several functions.
 fn all() -> Vec<Emitted> {
     let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let lift = Emitted::of("lift".to_owned(), &scissor_lift(50), Path::new("lift"), 0).expect("determined");
+    assert!(lift.text(None).contains("        solve_"), "the loop calls no functions");
     let all: Vec<Emitted> = paths
         .iter()
         .flat_map(|path| {
@@ -99,6 +125,7 @@ fn all() -> Vec<Emitted> {
                 Emitted::new(name, path, number)
             })
         })
+        .chain([lift])
         .collect();
     assert!(all.len() >= 70, "{} systems", all.len());
     all

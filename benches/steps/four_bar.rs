@@ -1001,15 +1001,15 @@ impl Newton {
         }
     }
 
-    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
-    fn correct(&mut self, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
             self.first = larger(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        *x += delta;
+        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.
@@ -1178,8 +1178,8 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
         let v35 = v21 * v28;
         let v36 = v35 - v22 * v31;
         v37 = v36 * v25;
-        newton.correct(&mut x1, v34, 7.450580596923828e-9, 1.0);
-        newton.correct(&mut x2, v37, 7.450580596923828e-9, 1.0);
+        x1 = newton.corrected(x1, v34, 7.450580596923828e-9, 1.0);
+        x2 = newton.corrected(x2, v37, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }

@@ -510,7 +510,7 @@ impl<'p, S: Scene> Printer<'p, S> {
             let (x, delta) = (self.value(tear.x), self.value(tear.delta));
             let (cell, scale) = (literal(tear.cell), literal(tear.scale));
             before += &format!("        {x} = on_grid({x}, {cell});\n");
-            after += &format!("        newton.correct(&mut {x}, {delta}, {cell}, {scale});\n");
+            after += &format!("        {x} = newton.corrected({x}, {delta}, {cell}, {scale});\n");
         }
         format!(
             "    let mut newton = Newton::new();\n    for _ in 0..ITERATIONS {{\n{before}{body}{after}        \

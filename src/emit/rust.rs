@@ -435,7 +435,8 @@ impl Writer<'_> {
         let sides = if self.has_sides() { ", sides" } else { "" };
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
         let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
-        text.replace("$wanted", if of_time { "wanted" } else { "next" })
+        text.replace("$from", if solution.motion.blocks.is_some() { "from" } else { "_from" })
+            .replace("$wanted", if of_time { "wanted" } else { "next" })
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)

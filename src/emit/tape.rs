@@ -9,7 +9,7 @@ use super::tables::COLUMNS;
 use super::text::{lines, literal};
 use crate::expr::{Binary, Comparison, Unary};
 use crate::program::{self, Register};
-use crate::solver::{Op, Segment};
+use crate::solver::{LARGEST_MULTIPLIER, Op, Segment};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 
@@ -266,7 +266,7 @@ fn encode(
             Op::Recip { to, a } => words.extend([13, to, a]),
             Op::SinCos { sin, cos, a } => words.extend([14, sin, cos, a]),
             Op::Multiplier { to, a, b, weight } => {
-                words.extend([7, to, a, b, 15, to, numbers.of((notes.weight)(weight))]);
+                words.extend([7, to, a, b, 15, to, numbers.of((notes.weight)(weight) / LARGEST_MULTIPLIER)]);
             }
             Op::Residual { a, row } => words.extend([16, a, numbers.of((notes.bound)(row))]),
             Op::Pivot { a, pivot } => {

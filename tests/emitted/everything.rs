@@ -3707,15 +3707,15 @@ impl Newton {
         }
     }
 
-    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
-    fn correct(&mut self, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
             self.first = larger(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        *x += delta;
+        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.
@@ -3928,7 +3928,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, sides: &Sides, at: &mut Soluti
         let v76 = v75 + -9.0;
         let v77 = v76 * v73;
         v78 = -v77;
-        newton.correct(&mut x1, v78, 7.450580596923828e-9, 1.0);
+        x1 = newton.corrected(x1, v78, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
@@ -4088,7 +4088,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, sides: &Sides, at: &mut Soluti
         let v221 = 0.6 * v220 + v218;
         let v222 = v221 * 1.25;
         let v223 = -v222;
-        newton.correct(&mut x2, v223, 1.4901161193847656e-8, 2.0);
+        x2 = newton.corrected(x2, v223, 1.4901161193847656e-8, 2.0);
         if newton.is_done() {
             break;
         }
@@ -4458,8 +4458,8 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, sides: &Sides, at: &mut Soluti
         let v553 = v541 * v546 + v552;
         let v554 = v553 * v545;
         let v555 = -v554;
-        newton.correct(&mut x3, v555, 1.4901161193847656e-8, 2.0);
-        newton.correct(&mut x4, v551, 1.4901161193847656e-8, 2.0);
+        x3 = newton.corrected(x3, v555, 1.4901161193847656e-8, 2.0);
+        x4 = newton.corrected(x4, v551, 1.4901161193847656e-8, 2.0);
         if newton.is_done() {
             break;
         }
@@ -4744,7 +4744,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, sides: &Sides, at: &mut Soluti
         let v797 = v796 - 0.8 * v793;
         let v798 = v797 * v791;
         v799 = -v798;
-        newton.correct(&mut x5, v799, 7.450580596923828e-9, 1.0);
+        x5 = newton.corrected(x5, v799, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }

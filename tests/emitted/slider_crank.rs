@@ -1126,15 +1126,15 @@ impl Newton {
         }
     }
 
-    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
-    fn correct(&mut self, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
             self.first = larger(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        *x += delta;
+        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.
@@ -1284,7 +1284,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         let v20 = s17 * m.params.rod_length + rod_y;
         let v21 = v20 * v19;
         v22 = -v21;
-        newton.correct(&mut x1, v22, 7.450580596923828e-9, 1.0);
+        x1 = newton.corrected(x1, v22, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }
@@ -1344,7 +1344,7 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
         let v53 = 1.0 / c52;
         let v54 = s52 * v53;
         v55 = -v54;
-        newton.correct(&mut x2, v55, 7.450580596923828e-9, 1.0);
+        x2 = newton.corrected(x2, v55, 7.450580596923828e-9, 1.0);
         if newton.is_done() {
             break;
         }

@@ -109,7 +109,7 @@ fn solve(guess: &[f64; TEARS], t: f64, $m: &Model$sides_argument, at: &mut Solut
             for (registers, sizes) in tears {
                 let delta = v.get(registers[1]).copied().unwrap_or(f64::NAN);
                 if let Some(x) = v.get_mut(registers[0]) {
-                    newton.correct(x, delta, sizes[0], sizes[1]);
+                    *x = newton.corrected(*x, delta, sizes[0], sizes[1]);
                 }
             }
             if newton.is_done() {

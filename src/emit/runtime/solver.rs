@@ -356,7 +356,7 @@ fn find(
 fn reach(
 //# end
     guess: &[f64; TEARS],
-    from: &Solution,
+    $from: &Solution,
     t: f64,
     m: &Model,
 //# if sides
@@ -585,15 +585,15 @@ impl Newton {
         }
     }
 
-    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
-    fn correct(&mut self, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
             self.first = larger(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        *x += delta;
+        x + delta
     }
 
     /// Whether no further iteration is needed, or none helps.

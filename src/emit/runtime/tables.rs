@@ -87,7 +87,7 @@ fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mu
                         2
                     }
                     15 => {
-                        out.bounded(of(v, 0).abs() * number(1), 16.0);
+                        out.bounded(of(v, 0).abs() * number(1), 1.0);
                         2
                     }
                     16 => {
