@@ -70,7 +70,7 @@ use syntax::ast;
 ///         joint axle: revolute(ground.O, wheel.O)
 ///         driver motor: rotation(axle) = 90 deg/s * t
 ///     }");
-/// let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+/// let tree = syntax::parse(&sources, file).tree;
 /// let (determined, _) = mechc::compile(&tree.mechanisms[0], &Surroundings::default(), &sources);
 /// let determined = determined.expect("it is determined");
 /// let program = Program::new(determined.system());

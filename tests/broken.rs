@@ -370,7 +370,7 @@ fn told(draft: &Draft, expected: &Expected) -> Result<(), TestCaseError> {
 fn places(text: &str, names: &[String]) -> Vec<std::ops::Range<usize>> {
     let mut sources = Sources::default();
     let file = sources.add("machine.mech", text);
-    let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+    let tree = syntax::parse(&sources, file).tree;
     let mechanism = &tree.mechanisms[0];
     let range = |span: mechc::source::Span| span.start as usize..span.end as usize;
     let items = mechanism.items.iter().filter(|item| {

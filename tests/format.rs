@@ -6,9 +6,10 @@ mod support;
 
 use mechc::diag::{Color, Diagnostics, Format, render};
 use mechc::source::{Sources, Span};
+use mechc::syntax::ast::File;
 use mechc::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
 use mechc::syntax::format::expression;
-use mechc::syntax::{format, parse, parse_expression};
+use mechc::syntax::{Parsed, format, parse, parse_expression};
 use proptest::prelude::*;
 use std::fs;
 use support::files;
@@ -25,11 +26,17 @@ fn read<T>(text: &str, parse: impl Fn(&Sources, mechc::source::FileId) -> Result
     })
 }
 
+/// The tree of a text without faults.
+fn whole(parsed: Parsed) -> Result<File, Diagnostics> {
+    if parsed.faults.is_empty() { Ok(parsed.tree) } else { Err(parsed.faults) }
+}
+
 /// Formats a text, after a check that the result is the same file and that formatting it again changes nothing.
 fn formatted(name: &str, text: &str) -> String {
-    let tree = read(text, parse).unwrap_or_else(|faults| panic!("{name}: {faults}"));
+    let read_file = |text: &str| read(text, |sources, file| whole(parse(sources, file)));
+    let tree = read_file(text).unwrap_or_else(|faults| panic!("{name}: {faults}"));
     let once = format(&tree);
-    let again = read(&once, parse).unwrap_or_else(|faults| panic!("{name}, formatted: {faults}"));
+    let again = read_file(&once).unwrap_or_else(|faults| panic!("{name}, formatted: {faults}"));
     assert_eq!(file_shape(&again), file_shape(&tree), "{name}:\n{once}");
     assert_eq!(format(&again), once, "{name} changes when it is formatted twice");
     assert!(once.lines().all(|line| line.trim_end() == line), "{name}: spaces at the end of a line\n{once}");

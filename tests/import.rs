@@ -43,7 +43,7 @@ fn imported(model: &str, settings: Option<&str>) -> Imported {
     if let Some(text) = &text {
         let mut sources = Sources::default();
         let id = sources.add("imported.mech", text.as_str());
-        let again = syntax::parse(&sources, id).unwrap_or_else(|_| panic!("it does not read back:\n{text}"));
+        let again = syntax::parse(&sources, id).tree;
         assert_eq!(&syntax::format(&again), text, "it is formatted");
         let (_, said) = check::check(&again.mechanisms[0], &check::Surroundings::default(), &sources);
         // constants that are not finite are told by the command

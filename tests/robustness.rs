@@ -260,7 +260,7 @@ fn printing_stays_linear_where_parts_are_shared() {
     let text = pendulum(&chain, "p39 * t").replace("body bar {", "body bar at (p39, 0, 0) {");
     let mut sources = Sources::default();
     let file = sources.add("chain", text.as_str());
-    let tree = mechc::syntax::parse(&sources, file).expect("it follows the grammar");
+    let tree = mechc::syntax::parse(&sources, file).tree;
     let (model, _) = mechc::check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
     let model = model.expect("sound");
     assert!(model.to_string().len() < 20_000);

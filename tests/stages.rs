@@ -18,7 +18,7 @@ fn every_stage_of_every_mechanism() {
         let text = fs::read_to_string(&path).expect("a text");
         let mut sources = Sources::default();
         let file = sources.add(name.clone(), text.as_str());
-        let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+        let tree = syntax::parse(&sources, file).tree;
         let (model, diagnostics) = check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
         assert!(diagnostics.is_empty(), "{name}");
         let model = model.expect("sound");

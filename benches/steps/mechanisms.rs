@@ -10,7 +10,7 @@ pub type Compiled = Determined;
 pub fn compile(text: &str) -> Compiled {
     let mut sources = Sources::default();
     let file = sources.add("bench.mech", text.to_owned());
-    let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+    let tree = syntax::parse(&sources, file).tree;
     let (determined, diagnostics) = mechc::compile(&tree.mechanisms[0], &Surroundings::default(), &sources);
     assert!(determined.is_some(), "{diagnostics:?}");
     determined.expect("it is determined")

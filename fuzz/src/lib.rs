@@ -62,14 +62,13 @@ pub fn run(text: &str) -> Ran {
     let mut ran = Ran::default();
     let mut sources = Sources::default();
     let file = sources.add("text.mech", text);
-    let tree = match syntax::parse(&sources, file) {
-        Ok(tree) => tree,
-        Err(faults) => {
-            assert!(faults.has_errors(), "refused without a reason");
-            say(faults.iter(), &sources);
-            return ran;
-        }
-    };
+    let parsed = syntax::parse(&sources, file);
+    if !parsed.faults.is_empty() {
+        assert!(parsed.faults.has_errors(), "refused without a reason");
+        say(parsed.faults.iter(), &sources);
+        return ran;
+    }
+    let tree = parsed.tree;
     ran.is_read = true;
     reads_back(&tree);
     let found = check::check_file(&tree);
@@ -88,11 +87,12 @@ fn reads_back(tree: &ast::File) {
     let once = syntax::format(tree);
     let mut sources = Sources::default();
     let file = sources.add("formatted.mech", once.as_str());
-    let again = match syntax::parse(&sources, file) {
-        Ok(again) => again,
-        Err(_) if tree.mechanisms.is_empty() => return,
-        Err(faults) => panic!("the formatted text is refused: {faults:?}\n{once}"),
-    };
+    let again = syntax::parse(&sources, file);
+    if tree.mechanisms.is_empty() {
+        return;
+    }
+    assert!(again.faults.is_empty(), "the formatted text is refused: {:?}\n{once}", again.faults);
+    let again = again.tree;
     assert_eq!(file_shape(&again), file_shape(tree), "another tree:\n{once}");
     assert_eq!(syntax::format(&again), once, "formatting twice is not formatting once");
 }

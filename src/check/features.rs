@@ -75,6 +75,7 @@ impl Checker<'_> {
                 FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
                 FeatureKind::Circle { .. } => Feature::Circle(None),
                 FeatureKind::Curve { .. } => Feature::Curve(None),
+                FeatureKind::Broken => continue,
             };
             let first = self.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {

@@ -138,7 +138,7 @@ impl Checker<'_> {
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
-                ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
+                ItemKind::Ground { .. } | ItemKind::Analysis { .. } | ItemKind::Broken { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             if is_taken(&name.text) || callable && is_builtin(&name.text) {

@@ -40,7 +40,8 @@ pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Mechanism,
 /// The tree of a command's file.
 pub(super) fn tree(input: &Input, reporter: &mut Reporter) -> Result<ast::File, Failure> {
     let file = files::read(&input.file, &mut reporter.sources)?;
-    Ok(syntax::parse(&reporter.sources, file)?)
+    let parsed = syntax::parse(&reporter.sources, file);
+    if parsed.faults.is_empty() { Ok(parsed.tree) } else { Err(parsed.faults.into()) }
 }
 
 fn checked(file: &ast::File, input: &Input, reporter: &mut Reporter) -> Result<Mechanism, Failure> {

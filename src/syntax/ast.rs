@@ -113,6 +113,13 @@ pub enum ItemKind {
         /// Its formula.
         value: Expr,
     },
+    /// What does not follow the grammar
+    Broken {
+        /// The names that it may have declared.
+        names: Vec<Name>,
+        /// The features in its block, where it is that of a body or of the ground.
+        features: Vec<Feature>,
+    },
     /// `analysis from A to B every H`
     Analysis {
         /// First time.
@@ -154,6 +161,8 @@ pub struct Feature {
 /// The kinds of features.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FeatureKind {
+    /// What does not follow the grammar; its name may be empty
+    Broken,
     /// `point P = (x, y)`
     Point {
         /// A tuple.

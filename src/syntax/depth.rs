@@ -4,6 +4,7 @@
 //! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
 //! tree builder counts them in.)
 
+use super::tokens::next_token;
 use super::{DECLARATIONS, errors};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
@@ -11,15 +12,15 @@ use crate::source::{FileId, Span};
 /// The deepest nesting that is read.
 pub const DEEPEST: usize = 200;
 
-/// Refuses a text that nests deeper than [`DEEPEST`].
-pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
+/// Refuses a piece of a text, from its byte `base` on, that nests deeper than [`DEEPEST`].
+pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnostic>> {
     // for each open parenthesis, the `if`s that stand open inside it: whether the last `else` has been read
     let mut levels: Vec<Vec<bool>> = vec![Vec::new()];
     let mut ifs = 0;
     let mut after_else = false;
     let mut rest = text;
     while let Some(token) = next_token(&mut rest) {
-        let at = (text.len() - rest.len() - token.len()) as u32;
+        let at = (base + text.len() - rest.len() - token.len()) as u32;
         let is_else_if = std::mem::replace(&mut after_else, token == "else") && token == "if";
         let parentheses = levels.len() - 1;
         let Some(level) = levels.last_mut() else { break };
@@ -58,34 +59,5 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
 fn set_last(level: &mut [bool], after_last_else: bool) {
     if let Some(last) = level.last_mut() {
         *last = after_last_else;
-    }
-}
-
-/// The next word or character that is neither comment, string nor white space.
-pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
-    loop {
-        let text = rest.trim_start();
-        let first = text.chars().next()?;
-        let length = if text.starts_with("//") {
-            *rest = text.split_once('\n').map_or("", |(_, after)| after);
-            continue;
-        } else if first == '"' {
-            // a string ends on its line, or is no string
-            match text[1..].find(['"', '\n']) {
-                Some(end) => end + 2,
-                None => text.len(),
-            }
-        } else if first.is_ascii_digit() {
-            text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len())
-        } else if first.is_alphanumeric() || first == '_' {
-            text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
-        } else if text.starts_with("==") || text.starts_with("<=") || text.starts_with(">=") || text.starts_with("!=") {
-            2
-        } else {
-            first.len_utf8()
-        };
-        let (token, after) = text.split_at(length);
-        *rest = after;
-        return Some(token);
     }
 }

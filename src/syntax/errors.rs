@@ -1,8 +1,8 @@
 //! What is said of a text that does not follow the grammar.
 
 use super::DEEPEST;
+use super::grammar::Rule;
 use super::mends::Fault;
-use super::parse::Rule;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
@@ -44,14 +44,29 @@ pub fn chained_comparison(span: Span) -> Diagnostic {
         .help("join two comparisons with `and`: `a < b and b < c`")
 }
 
-/// A syntax error as the parser found it, in human words.
-pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId) -> Diagnostic {
+/// A declaration of the mechanism within the braces of a body.
+pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
+    fault.help = vec![format!("a `{word}` stands in the mechanism: put it behind the `}}` of this body or ground")];
+    fault
+}
+
+/// A name that no message could hold.
+pub fn long_name(span: Span, longest: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0105, format!("a name has at most {longest} characters"))
+        .at(span, "this one is longer")
+        .help("choose a shorter name, and say the rest in a `///` comment")
+}
+
+/// A syntax error as the parser found it in the piece of a text that begins at a byte, in human words.
+///
+/// To see what was meant takes a look at all of the text before it.
+pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize, with_mend: bool) -> Diagnostic {
     let text = source.text.as_str();
     let end = if source.is_option { "the end of the formula" } else { "the end of the file" };
     let offset = match error.location {
-        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => at,
+        pest::error::InputLocation::Pos(at) | pest::error::InputLocation::Span((at, _)) => base + at,
     };
-    if let Some(double) = double_equals(error, text, offset, file) {
+    if with_mend && let Some(double) = double_equals(error, text, offset, file) {
         return double;
     }
     let found = found_at(text, offset);
@@ -80,6 +95,9 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId) -> Diagnost
         "not expected here".to_owned()
     };
     let diagnostic = Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label);
+    if !with_mend {
+        return diagnostic;
+    }
     let diagnostic = match fault.reason() {
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
@@ -166,14 +184,16 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
 /// A rule in the user's words; empty for what is said by another one.
 fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
     match rule {
-        Rule::file | Rule::mechanism | Rule::kw_mechanism => "`mechanism`",
+        Rule::file | Rule::mechanism | Rule::mechanism_head | Rule::kw_mechanism => "`mechanism`",
         Rule::EOI if after_operand => "",
         Rule::EOI => end,
         Rule::param
         | Rule::function
         | Rule::table
         | Rule::ground
+        | Rule::ground_head
         | Rule::body
+        | Rule::body_head
         | Rule::joint
         | Rule::driver
         | Rule::constraint

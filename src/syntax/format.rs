@@ -48,6 +48,7 @@ enum Group {
     Drivers,
     Measures,
     Analysis,
+    Broken,
 }
 
 impl Group {
@@ -62,6 +63,7 @@ impl Group {
             ItemKind::Equation { driver: true, .. } => Group::Drivers,
             ItemKind::Measure { .. } => Group::Measures,
             ItemKind::Analysis { .. } => Group::Analysis,
+            ItemKind::Broken { .. } => Group::Broken,
         }
     }
 }
@@ -79,6 +81,8 @@ fn group(items: &[Item]) -> String {
 
 fn item_cells(kind: &ItemKind) -> Vec<String> {
     match kind {
+        // what is broken has no form
+        ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Param { name, value } => cells(["param", &name.text, &defined(value)]),
         ItemKind::Function { name, argument, value } => {
             cells(["fn", &format!("{}({})", name.text, argument.text), &defined(value)])
@@ -149,6 +153,7 @@ fn body(features: &[Feature]) -> String {
 fn feature_cells(feature: &Feature) -> Vec<String> {
     let name = &feature.name.text;
     match &feature.kind {
+        FeatureKind::Broken => Vec::new(),
         FeatureKind::Point { at } => cells(["point", name, &format!("= {}", pair(at))]),
         FeatureKind::AxisAlong { origin, direction } => {
             cells(["axis", name, &format!("= {} along {}", place(origin), pair(direction))])

@@ -4,7 +4,8 @@
 //! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
 
 use super::ast::{Comparison, Expr, ExprKind, Factor, Sign};
-use super::parse::{Built, Reader, Rule};
+use super::build::{Built, Reader};
+use super::grammar::Rule;
 use super::{DEEPEST, errors};
 use crate::source::Span;
 use pest::iterators::Pair;
@@ -27,17 +28,19 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
     within(depth, span)?;
     let kind = match pair.as_rule() {
         Rule::literal => literal(reader, pair)?,
-        Rule::word => ExprKind::Name(reader.name(&pair)),
+        Rule::word => ExprKind::Name(reader.name(&pair)?),
         Rule::member => {
-            let mut parts = pair.into_inner().map(|part| reader.name(&part));
+            let mut parts = pair.into_inner();
             match (parts.next(), parts.next()) {
-                (Some(owner), Some(feature)) => ExprKind::Member { owner, feature },
+                (Some(owner), Some(feature)) => {
+                    ExprKind::Member { owner: reader.name(&owner)?, feature: reader.name(&feature)? }
+                }
                 _ => return Err(reader.truncated()),
             }
         }
         Rule::call => {
             let mut parts = pair.into_inner();
-            let name = parts.next().map(|part| reader.name(&part)).ok_or_else(|| reader.truncated())?;
+            let name = reader.name(&parts.next().ok_or_else(|| reader.truncated())?)?;
             let arguments = reader.list(parts, depth + 1)?;
             ExprKind::Call { name, arguments }
         }
@@ -68,7 +71,7 @@ fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
     let Some(unit) = parts.next() else {
         return Ok(ExprKind::Literal { value, unit: None });
     };
-    let name = reader.name(&unit);
+    let name = reader.name(&unit)?;
     let power = match parts.next() {
         None => 1,
         Some(power) => {

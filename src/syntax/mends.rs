@@ -1,7 +1,7 @@
 //! What was probably meant by a text that does not follow the grammar, as far as the words around the fault tell.
 
-use super::depth::next_token;
-use super::parse::Rule;
+use super::grammar::Rule;
+use super::tokens::next_token;
 use super::{DECLARATIONS, FEATURES};
 use crate::diag::nearest;
 

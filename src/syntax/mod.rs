@@ -4,17 +4,23 @@
 //! which units there are, or what a joint is.
 
 pub mod ast;
+mod build;
 mod depth;
 mod errors;
 pub mod format;
 mod formula;
+mod grammar;
 mod mends;
+mod outline;
 mod parse;
-mod recover;
+mod tokens;
+mod trivia;
 
+pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::format;
-pub use parse::{is_name, normalized, parse, parse_expression};
+pub use parse::{Parsed, parse, parse_expression};
+pub use trivia::{Comment, Trivia};
 
 /// Words that begin a declaration, where every formula before them has ended.
 const DECLARATIONS: &[&str] = &[

@@ -1,384 +1,475 @@
-//! From the parser's pairs to the tree of declarations.
+//! From a text to its tree, declaration by declaration: a fault spoils the one it stands in, and no other.
+//!
+//! The grammar says what a declaration is; where it begins, and where its block ends, is seen beforehand from words and braces
+//! ([`Outline`]). So a text that follows the grammar is read as the grammar has it, and of any other one everything is read that
+//! does.
 
-use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
-use super::{depth, errors, formula, recover};
+use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name};
+use super::build::{Built, Piece, Reader, docs_above, normalized};
+use super::errors;
+use super::grammar::Rule;
+use super::outline::Outline;
+use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
-use pest::Parser;
-use pest::iterators::{Pair, Pairs};
-use std::borrow::Cow;
-use unicode_normalization::UnicodeNormalization;
+use pest::iterators::Pair;
+use rustc_hash::FxHashSet;
+use std::convert::Infallible;
+use std::ops::Range;
 
-pub(super) use grammar::Rule;
+/// How many faults of a text are worth a look for what was meant.
+const MOST_MENDS: usize = 100;
 
-/// The generated parser, in a module of its own because its items carry no documentation.
-#[allow(missing_docs)]
-mod grammar {
-    #[derive(pest_derive::Parser)]
-    #[grammar = "../grammar/mech.pest"]
-    pub struct Grammar;
+/// A text as it was read: all of it, whatever its faults.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Parsed {
+    /// What follows the grammar, with the places of what does not.
+    pub tree: File,
+    /// What stands between.
+    pub trivia: Trivia,
+    /// What does not follow the grammar, by place.
+    pub faults: Diagnostics,
 }
 
-/// Stack that the deepest text may take, in bytes.
-const STACK: usize = 16 << 20;
-
-/// So many faults of one text are told; each costs another reading.
-const MOST_FAULTS: usize = 20;
-
-/// A fault is rare and large; the way without one should be quick.
-pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
-
-/// The tree of a file.
-///
-/// # Errors
-/// The faults of the text: nested too deep, not of the grammar, or without any mechanism. After one the reading goes on
-/// behind the declaration that holds it.
-pub fn parse(sources: &Sources, file: FileId) -> Result<File, Diagnostics> {
-    let mut source = Cow::Borrowed(sources.get(file));
-    let mut faults = Diagnostics::default();
-    let (mut last, mut stays) = (None, false);
-    // keywords that were taken for names: every use of them is a fault, and none of its own
-    let mut bad_names: Vec<String> = Vec::new();
-    loop {
-        let read = on_a_deep_stack(&source, file, |reader| {
-            let mechanisms = reader.read(Rule::file)?.filter(|pair| pair.as_rule() == Rule::mechanism);
-            mechanisms.map(|pair| reader.mechanism(pair)).collect::<Built<Vec<Mechanism>>>()
-        });
-        let fault = match read {
-            Ok(mechanisms) if faults.is_empty() && mechanisms.is_empty() => {
-                return Err(errors::no_mechanism(sources.end_of(file)).into());
-            }
-            Ok(mechanisms) if faults.is_empty() => return Ok(File { mechanisms }),
-            Ok(_) => return Err(sorted(faults)),
-            Err(fault) => fault,
-        };
-        let fault = within(fault, sources.get(file).text.len());
-        let at = fault.labels.first().map_or(0, |label| label.span.start as usize);
-        if last == Some(at) {
-            // the declaration before it was not to blame, the one that begins there is
-            if std::mem::replace(&mut stays, true) {
-                return Err(sorted(faults));
-            }
-        } else {
-            if !recover::uses_bad_name(&source.text, at, &bad_names) {
-                faults.push(*fault);
-            }
-            bad_names.extend(recover::bad_name(&source.text, at));
-            stays = false;
-        }
-        last = Some(at);
-        if faults.len() == MOST_FAULTS || !recover::blank(&mut source.to_mut().text, at, stays) {
-            return Err(sorted(faults));
-        }
+/// Reads a file.
+#[must_use]
+pub fn parse(sources: &Sources, file: FileId) -> Parsed {
+    let source = sources.get(file);
+    let mut reading = Reading {
+        source,
+        file,
+        outline: Outline::new(&source.text),
+        at: 0,
+        faults: Diagnostics::default(),
+        bad_names: FxHashSet::default(),
+        has_told_the_end: false,
+    };
+    let mechanisms = reading.file();
+    let mut faults = reading.faults;
+    if mechanisms.is_empty() && faults.is_empty() {
+        faults.push(errors::no_mechanism(sources.end_of(file)));
     }
-}
-
-/// Keeps a fault in the text, though a brace was put behind its end.
-fn within(mut fault: Box<Diagnostic>, length: usize) -> Box<Diagnostic> {
-    for label in &mut fault.labels {
-        (label.span.start, label.span.end) = (label.span.start.min(length as u32), label.span.end.min(length as u32));
-    }
-    fault
-}
-
-fn sorted(mut faults: Diagnostics) -> Diagnostics {
     faults.sort_by_place();
-    faults
+    Parsed { tree: File { mechanisms }, trivia: trivia::of(&source.text, file), faults }
 }
 
 /// A formula alone, as the command line takes it.
 ///
 /// # Errors
-/// As [`parse`].
+/// It does not follow the grammar.
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
-    on_a_deep_stack(sources.get(file), file, |reader| {
-        let mut pairs = reader.read(Rule::expression_only)?;
-        reader.next_expr(&mut pairs)
-    })
-    .map_err(|fault| (*fault).into())
+    let source = sources.get(file);
+    let piece = Piece { source, file, range: 0..source.text.len() };
+    piece
+        .read(Rule::expression_only, |reader, pair| reader.whole_formula(pair))
+        .map_err(|refused| (*piece.fault(refused, true)).into())
 }
 
-/// A name as it is compared: in NFC.
-#[must_use]
-pub fn normalized(name: &str) -> String {
-    name.nfc().collect()
-}
-
-/// Whether a text can stand where a name is wanted: an identifier, and no keyword.
-#[must_use]
-pub fn is_name(text: &str) -> bool {
-    let pair = grammar::Grammar::parse(Rule::name, text).ok().and_then(|mut pairs| pairs.next());
-    pair.is_some_and(|pair| pair.as_str().len() == text.len())
-}
-
-fn on_a_deep_stack<T>(source: &Source, file: FileId, work: impl FnOnce(&Reader<'_>) -> Built<T>) -> Built<T> {
-    depth::measure(&source.text, file)?;
-    stacker::maybe_grow(STACK, STACK, || work(&Reader { source, file }))
-}
-
-/// Builds the nodes of one text.
-pub(super) struct Reader<'a> {
+/// A text on its way to a tree.
+struct Reading<'a> {
     source: &'a Source,
     file: FileId,
+    outline: Outline<'a>,
+    /// The token that is to be read next.
+    at: usize,
+    faults: Diagnostics,
+    /// Keywords that were taken for names: every use of them is a fault, and none of its own.
+    bad_names: FxHashSet<&'a str>,
+    /// That the text ends too early is said once, not for each block that is open.
+    has_told_the_end: bool,
 }
 
-impl<'a> Reader<'a> {
-    /// The pairs inside one rule that matches the whole text.
-    fn read(&self, rule: Rule) -> Built<Pairs<'a, Rule>> {
-        let pairs = grammar::Grammar::parse(rule, &self.source.text)
-            .map_err(|error| Box::new(errors::from_pest(&error, self.source, self.file)))?;
-        match pairs.into_iter().next() {
-            Some(pair) => Ok(pair.into_inner()),
-            None => Err(self.truncated()),
-        }
-    }
-
-    /// A pair's place, without the white space and comments that the parser may have taken in behind it.
-    pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        let start = pair.as_span().start();
-        let mut last = pair.clone();
-        while !ends_with_a_token(last.as_rule()) {
-            match last.into_inner().next_back() {
-                Some(inner) => last = inner,
-                None => return Span { file: self.file, start: start as u32, end: pair.as_span().end() as u32 },
+impl Reading<'_> {
+    fn file(&mut self) -> Vec<Mechanism> {
+        let mut mechanisms: Vec<Mechanism> = Vec::new();
+        let mut is_outside_told = false;
+        while !self.outline.is_behind_the_last(self.at) {
+            if self.outline.word(self.at) == "mechanism"
+                || self.outline.block_behind(self.at).is_some_and(|k| k == self.at + 2)
+            {
+                mechanisms.extend(self.mechanism());
+                continue;
             }
-        }
-        Span { file: self.file, start: start as u32, end: last.as_span().end() as u32 }
-    }
-
-    /// The words that a span covers.
-    pub(super) fn text(&self, span: Span) -> &str {
-        &self.source.text[span.start as usize..span.end as usize]
-    }
-
-    pub(super) fn name(&self, pair: &Pair<'_, Rule>) -> Name {
-        Name { text: normalized(pair.as_str()), span: self.span(pair) }
-    }
-
-    /// What cannot happen while the grammar is what this file believes it to be.
-    pub(super) fn truncated(&self) -> Box<Diagnostic> {
-        let end = self.source.text.len() as u32;
-        let span = Span { file: self.file, start: end, end };
-        Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
-    }
-
-    fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
-        let span = self.span(&pair);
-        let docs = self.docs_above(span.start);
-        let mut inner = significant(pair);
-        let name = self.next_name(&mut inner)?;
-        let items = inner.map(|item| self.item(item)).collect::<Built<Vec<_>>>()?;
-        Ok(Mechanism { docs, name, span, items })
-    }
-
-    fn item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
-        let span = self.span(&pair);
-        let docs = self.docs_above(span.start);
-        let rule = pair.as_rule();
-        let mut inner = significant(pair);
-        let kind = match rule {
-            Rule::param => ItemKind::Param { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
-            Rule::function => ItemKind::Function {
-                name: self.next_name(&mut inner)?,
-                argument: self.next_name(&mut inner)?,
-                value: self.next_expr(&mut inner)?,
-            },
-            Rule::table => self.table(&mut inner)?,
-            Rule::ground => ItemKind::Ground { features: self.features(inner)? },
-            Rule::body => self.body(inner)?,
-            Rule::joint => self.joint(&mut inner)?,
-            Rule::driver | Rule::constraint => ItemKind::Equation {
-                driver: rule == Rule::driver,
-                name: self.next_name(&mut inner)?,
-                left: self.next_expr(&mut inner)?,
-                right: self.next_expr(&mut inner)?,
-            },
-            Rule::measure => {
-                ItemKind::Measure { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? }
+            // the declarations behind a brace too many are told once
+            if !std::mem::replace(&mut is_outside_told, true) {
+                let wanted = if mechanisms.is_empty() { Rule::mechanism } else { Rule::mechanism_or_end };
+                let fault = self.fault_of(wanted);
+                self.tell(fault);
             }
-            Rule::analysis => ItemKind::Analysis {
-                from: self.next_expr(&mut inner)?,
-                to: self.next_expr(&mut inner)?,
-                every: self.next_expr(&mut inner)?,
-            },
-            _ => return Err(self.truncated()),
-        };
-        Ok(Item { docs, span, kind })
-    }
-
-    fn table<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
-        let name = self.next_name(inner)?;
-        let mut periodic = false;
-        for pair in inner {
-            match pair.as_rule() {
-                Rule::periodic => periodic = true,
-                Rule::table_rows => {
-                    let rows = pair.into_inner().map(|row| formula::build(self, row, 0)).collect::<Built<Vec<_>>>()?;
-                    return Ok(ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) });
+            match mechanisms.last_mut() {
+                Some(last) if self.outline.word(self.at) != "}" => {
+                    let end = self.items(&mut last.items, true);
+                    last.span = last.span.to(end);
                 }
-                Rule::table_file => {
-                    let rows = self.table_file(pair)?;
-                    return Ok(ItemKind::Table { name, periodic, rows });
+                _ => self.at = (self.at + 1).max(self.outline.resumption(self.at)),
+            }
+        }
+        mechanisms
+    }
+
+    /// `mechanism NAME { … }`, if it is more than a word.
+    fn mechanism(&mut self) -> Option<Mechanism> {
+        let (first, start) = (self.at, self.outline.start(self.at));
+        let brace = self.outline.block_behind(first);
+        let head = self.head(Rule::mechanism_head, brace, |reader, pair| reader.head(pair));
+        let mut has_brace = true;
+        let name = match head {
+            Ok((name, _)) => name,
+            Err(fault) => {
+                // who leaves out the brace that opens leaves out the one that closes as well
+                has_brace = brace.is_some();
+                let is_head =
+                    self.outline.begins_declaration(first + 2) && fault_at(&fault) == self.outline.start(first + 2);
+                self.tell(fault);
+                match brace {
+                    Some(brace) => self.at = brace + 1,
+                    None if is_head => self.at = first + 2,
+                    None => {
+                        self.at = self.outline.resumption(first).max(first + 1);
+                        return None;
+                    }
                 }
-                _ => {}
+                self.names_of(first, self.at).pop()?
+            }
+        };
+        let mut items = Vec::new();
+        let end = self.items(&mut items, has_brace);
+        let span = self.span(start..start).to(end);
+        Some(Mechanism { docs: docs_above(&self.source.text, start), name, span, items })
+    }
+
+    /// The declarations up to the brace that closes their mechanism; gives the place of that brace.
+    fn items(&mut self, items: &mut Vec<Item>, must_close: bool) -> Span {
+        loop {
+            match self.outline.word(self.at) {
+                "}" => {
+                    self.at += 1;
+                    return self.span(self.outline.start(self.at - 1)..self.outline.end(self.at - 1));
+                }
+                "ground" if self.outline.begins_declaration(self.at) => self.block(items, Rule::ground_head),
+                "body" => self.block(items, Rule::body_head),
+                "" | "mechanism" if self.ends_the_mechanism() => {
+                    if must_close {
+                        self.tell_the_end(Rule::item_or_close);
+                    }
+                    let end = self.outline.end_before(self.at);
+                    return self.span(end..end);
+                }
+                _ => {
+                    let item = self.plain_item();
+                    items.push(item);
+                }
             }
         }
-        Err(self.truncated())
     }
 
-    fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
-        let mut inner = pair.into_inner();
-        let string = inner.next().ok_or_else(|| self.truncated())?;
-        let path = Name { text: string.as_str().trim_matches('"').to_owned(), span: self.span(&string) };
-        let mut units = inner.map(|unit| self.name(&unit));
-        let units = match (units.next(), units.next()) {
-            (Some(first), Some(second)) => Some([first, second]),
-            _ => None,
+    fn ends_the_mechanism(&self) -> bool {
+        self.outline.is_behind_the_last(self.at) || self.outline.begins_declaration(self.at)
+    }
+
+    /// A body or the ground; what was meant for the mechanism and stands in its block comes behind it.
+    fn block(&mut self, items: &mut Vec<Item>, rule: Rule) {
+        let first = self.at;
+        let start = self.outline.start(first);
+        let brace = self.outline.block_behind(first);
+        let head = if rule == Rule::ground_head {
+            self.head(rule, brace, |_, _| Ok(None))
+        } else {
+            self.head(rule, brace, |reader, pair| reader.head(pair).map(Some))
         };
-        Ok(TableRows::File { path, units })
-    }
-
-    fn body<'i>(&self, inner: impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
-        let mut inner = inner.peekable();
-        let name = self.next_name(&mut inner)?;
-        let pose = match inner.next_if(|pair| pair.as_rule() == Rule::paren) {
-            Some(pair) => Some(formula::build_operand(self, pair, 0)?),
-            None => None,
-        };
-        Ok(ItemKind::Body { name, pose, features: self.features(inner)? })
-    }
-
-    fn joint<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
-        let name = self.next_name(inner)?;
-        let call = inner.next().ok_or_else(|| self.truncated())?;
-        let call_span = self.span(&call);
-        let mut parts = call.into_inner();
-        let kind = self.next_name(&mut parts)?;
-        let arguments = self.list(parts, 1)?;
-        Ok(ItemKind::Joint { name, kind, arguments, call_span })
-    }
-
-    fn features<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>) -> Built<Vec<Feature>> {
-        pairs.map(|pair| self.feature(pair)).collect()
-    }
-
-    fn feature(&self, pair: Pair<'_, Rule>) -> Built<Feature> {
-        let span = self.span(&pair);
-        let docs = self.docs_above(span.start);
-        let rule = pair.as_rule();
-        let along = pair.clone().into_inner().any(|p| p.as_rule() == Rule::along);
-        let mut inner = significant(pair);
-        let name = self.next_name(&mut inner)?;
-        let kind = match rule {
-            Rule::point => FeatureKind::Point { at: self.next_operand(&mut inner)? },
-            Rule::axis if along => FeatureKind::AxisAlong {
-                origin: self.next_operand(&mut inner)?,
-                direction: self.next_operand(&mut inner)?,
-            },
-            Rule::axis => {
-                FeatureKind::AxisTo { origin: self.next_operand(&mut inner)?, target: self.next_operand(&mut inner)? }
+        if let Err(fault) = &head {
+            let is_brace_missing = fault_at(fault) == self.outline.start(self.outline.resumption(first));
+            let fault = fault.clone();
+            self.tell(fault);
+            match brace {
+                Some(brace) => self.at = brace + 1,
+                // features stand where the brace should
+                None if is_brace_missing && self.is_feature(self.outline.resumption(first)) => {
+                    self.at = self.outline.resumption(first);
+                }
+                None => {
+                    self.at = self.outline.resumption(first).max(first + 1);
+                    items.push(self.broken(first, Vec::new()));
+                    return;
+                }
             }
-            Rule::circle => {
-                FeatureKind::Circle { center: self.next_operand(&mut inner)?, radius: self.next_expr(&mut inner)? }
-            }
-            Rule::curve => FeatureKind::Curve {
-                argument: self.next_name(&mut inner)?,
-                at: self.next_operand(&mut inner)?,
-                estimate: inner.next().map(|e| formula::build(self, e, 0)).transpose()?,
-            },
-            _ => return Err(self.truncated()),
-        };
-        Ok(Feature { docs, span, name, kind })
-    }
-
-    /// The formulas of a list, without its commas and brackets.
-    pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
-        pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)).collect()
-    }
-
-    fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
-        pairs.next().map(|pair| self.name(&pair)).ok_or_else(|| self.truncated())
-    }
-
-    fn next_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
-        let pair = pairs.next().ok_or_else(|| self.truncated())?;
-        formula::build(self, pair, 0)
-    }
-
-    fn next_operand<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
-        let pair = pairs.next().ok_or_else(|| self.truncated())?;
-        formula::build_operand(self, pair, 0)
-    }
-
-    /// The `///` lines directly above a declaration that begins its line.
-    fn docs_above(&self, start: u32) -> Vec<String> {
-        let text = &self.source.text[..start as usize];
-        let line_start = text.rfind('\n').map_or(0, |at| at + 1);
-        if !text[line_start..].trim().is_empty() {
-            return Vec::new();
         }
-        let mut docs: Vec<String> = text[..line_start]
-            .lines()
-            .rev()
-            .map_while(|line| line.trim_start().strip_prefix("///"))
-            .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned())
-            .collect();
-        docs.reverse();
-        docs
+        let behind_head = self.at;
+        let mut misplaced = Vec::new();
+        let features = self.features(&mut misplaced);
+        let span = self.span(start..self.outline.end_before(self.at));
+        let kind = match head {
+            Ok(None) => ItemKind::Ground { features },
+            Ok(Some((name, pose))) => ItemKind::Body { name, pose, features },
+            Err(_) => ItemKind::Broken { names: self.names_of(first, behind_head), features },
+        };
+        items.push(Item { docs: docs_above(&self.source.text, start), span, kind });
+        items.append(&mut misplaced);
+    }
+
+    fn is_feature(&self, k: usize) -> bool {
+        super::FEATURES.contains(&self.outline.word(k))
+    }
+
+    /// The features up to the brace that closes their block, or to where it is missing.
+    fn features(&mut self, misplaced: &mut Vec<Item>) -> Vec<Feature> {
+        let mut features = Vec::new();
+        loop {
+            match self.outline.word(self.at) {
+                "}" => {
+                    self.at += 1;
+                    return features;
+                }
+                "" if self.outline.is_behind_the_last(self.at) => {
+                    self.tell_the_end(Rule::feature_or_close);
+                    return features;
+                }
+                _ if self.outline.begins_large_declaration(self.at) => {
+                    // as many braces are closed as are open here: none is missing
+                    let is_misplaced = self.outline.braces_from(self.at) <= -2;
+                    let fault = self.fault_of(Rule::feature_or_close);
+                    if !is_misplaced {
+                        self.tell(fault);
+                        return features;
+                    }
+                    let word = self.outline.word(self.at);
+                    self.tell(Box::new(errors::misplaced_in_body(*fault, word)));
+                    match word {
+                        "ground" => self.block(misplaced, Rule::ground_head),
+                        "body" => self.block(misplaced, Rule::body_head),
+                        _ => {
+                            let item = self.plain_item();
+                            misplaced.push(item);
+                        }
+                    }
+                }
+                _ => {
+                    let feature = self.feature();
+                    features.push(feature);
+                }
+            }
+        }
+    }
+
+    /// A declaration of the mechanism that has no block, or what stands in its place.
+    fn plain_item(&mut self) -> Item {
+        let first = self.at;
+        let read = if self.outline.begins_large_declaration(first) {
+            self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| reader.plain_item(pair))
+        } else {
+            Err(self.fault_of(Rule::item_or_close))
+        };
+        match read {
+            Ok(item) => {
+                self.at = self.outline.index_at(item.span.end as usize);
+                item
+            }
+            Err(fault) => {
+                self.skip(fault);
+                self.broken(first, Vec::new())
+            }
+        }
+    }
+
+    fn feature(&mut self) -> Feature {
+        let first = self.at;
+        let read = if self.is_feature(first) {
+            self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| reader.feature(pair))
+        } else {
+            Err(self.fault_of(Rule::feature_or_close))
+        };
+        match read {
+            Ok(feature) => {
+                self.at = self.outline.index_at(feature.span.end as usize);
+                feature
+            }
+            Err(fault) => {
+                self.skip(fault);
+                let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
+                let nameless = Name { text: String::new(), span };
+                let name = self.names_of(first, self.at).pop().unwrap_or(nameless);
+                Feature {
+                    docs: docs_above(&self.source.text, span.start as usize),
+                    span,
+                    name,
+                    kind: FeatureKind::Broken,
+                }
+            }
+        }
+    }
+
+    /// Reads the declaration that begins here, up to where the next one does; what is wrong with it is told as it is seen from what
+    /// follows.
+    fn declaration<T>(
+        &self,
+        [alone, with_next]: [Rule; 2],
+        make: impl Fn(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+    ) -> Built<T> {
+        let (start, next) = (self.outline.start(self.at), self.outline.end_of_plain(self.at));
+        self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
+            let piece = self.piece(start..self.outline.end(next));
+            piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+        })
+    }
+
+    fn piece(&self, range: Range<usize>) -> Piece<'_> {
+        Piece { source: self.source, file: self.file, range }
+    }
+
+    fn sees_mends(&self) -> bool {
+        self.faults.len() < MOST_MENDS
+    }
+
+    /// Goes on behind a fault: at the next declaration, or where the block around it is closed.
+    fn skip(&mut self, fault: Box<Diagnostic>) {
+        let found = self.outline.index_at(fault_at(&fault));
+        let next = self.outline.resumption(self.at);
+        self.at = if found > next { self.outline.resumption(found) } else { next }.max(self.at + 1);
+        self.tell(fault);
+    }
+
+    /// The head of a block, from its keyword to its brace.
+    fn head<T>(
+        &mut self,
+        rule: Rule,
+        brace: Option<usize>,
+        make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+    ) -> Built<T> {
+        let piece = self.head_piece(brace);
+        let head = piece.read(rule, make).map_err(|refused| piece.fault(refused, self.sees_mends()))?;
+        self.at = brace.map_or(self.at, |brace| brace + 1);
+        Ok(head)
+    }
+
+    /// From here to behind a brace; where there is none, to behind the word that stands in its place.
+    fn head_piece(&self, brace: Option<usize>) -> Piece<'_> {
+        let last = brace.unwrap_or_else(|| self.outline.resumption(self.at));
+        self.piece(self.outline.start(self.at)..self.outline.end(last))
+    }
+
+    /// What is wrong with the word that stands here, where a rule was to begin.
+    fn fault_of(&self, rule: Rule) -> Box<Diagnostic> {
+        let piece = self.piece(self.outline.start(self.at)..self.outline.end(self.at));
+        let refused = piece.read(rule, |reader, _| Err::<Infallible, _>(reader.truncated()));
+        match refused {
+            Err(refused) => piece.fault(refused, self.sees_mends()),
+        }
+    }
+
+    fn tell_the_end(&mut self, rule: Rule) {
+        if !std::mem::replace(&mut self.has_told_the_end, true) {
+            let fault = self.fault_of(rule);
+            self.tell(fault);
+        }
+    }
+
+    fn tell(&mut self, fault: Box<Diagnostic>) {
+        let at = fault_at(&fault);
+        if !self.outline.uses_bad_name(at, &self.bad_names) {
+            self.faults.push(*fault);
+        }
+        self.bad_names.extend(self.outline.bad_name(at));
+    }
+
+    /// What was read from a token up to here, as broken.
+    fn broken(&self, first: usize, features: Vec<Feature>) -> Item {
+        let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
+        let docs = docs_above(&self.source.text, span.start as usize);
+        Item { docs, span, kind: ItemKind::Broken { names: self.names_of(first, self.at), features } }
+    }
+
+    fn names_of(&self, first: usize, end: usize) -> Vec<Name> {
+        self.outline
+            .names_of(first, end)
+            .map(|token| Name { text: normalized(token.text), span: self.span(token.start..token.end()) })
+            .collect()
+    }
+
+    fn span(&self, range: Range<usize>) -> Span {
+        Span { file: self.file, start: range.start as u32, end: range.end as u32 }
     }
 }
 
-/// Whether a rule's last part is a word or a bracket, which it ends with and not behind.
-fn ends_with_a_token(rule: Rule) -> bool {
-    !matches!(
-        rule,
-        Rule::expr
-            | Rule::conditional
-            | Rule::literal
-            | Rule::unit_power
-            | Rule::param
-            | Rule::function
-            | Rule::table
-            | Rule::table_file
-            | Rule::point
-            | Rule::axis
-            | Rule::circle
-            | Rule::curve
-            | Rule::joint
-            | Rule::driver
-            | Rule::constraint
-            | Rule::measure
-            | Rule::analysis
-    )
+/// The byte at which a fault is.
+fn fault_at(fault: &Diagnostic) -> usize {
+    fault.labels.first().map_or(0, |label| label.span.start as usize)
 }
 
-/// The pairs that carry something: no keywords, no punctuation.
-fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
-    pair.into_inner().filter(|pair| {
-        matches!(
-            pair.as_rule(),
-            Rule::name
-                | Rule::word
-                | Rule::expr
-                | Rule::paren
-                | Rule::call
-                | Rule::periodic
-                | Rule::table_rows
-                | Rule::table_file
-                | Rule::param
-                | Rule::function
-                | Rule::table
-                | Rule::ground
-                | Rule::body
-                | Rule::joint
-                | Rule::driver
-                | Rule::constraint
-                | Rule::measure
-                | Rule::analysis
-                | Rule::point
-                | Rule::axis
-                | Rule::circle
-                | Rule::curve
-        )
-    })
+#[cfg(test)]
+mod tests {
+    use super::super::grammar::{Grammar, Rule};
+    use super::super::tokens::tokens;
+    use super::parse;
+    use crate::diag::Code;
+    use crate::source::Sources;
+    use crate::syntax::ast::{FeatureKind, ItemKind};
+    use pest::Parser;
+
+    fn parsed(text: &str) -> super::Parsed {
+        let mut sources = Sources::default();
+        let file = sources.add("text.mech", text);
+        parse(&sources, file)
+    }
+
+    /// The next number of a sequence that looks random.
+    fn next(state: &mut u64) -> usize {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 33) as usize
+    }
+
+    /// A text with one of its words left out, said twice, or put in another's place.
+    fn damaged(text: &str, state: &mut u64) -> String {
+        let tokens = tokens(text);
+        let (k, other) = (next(state) % tokens.len(), next(state) % tokens.len());
+        let word = match next(state) % 3 {
+            0 => String::new(),
+            1 => format!("{0} {0}", tokens[k].text),
+            _ => tokens[other].text.to_owned(),
+        };
+        format!("{}{word}{}", &text[..tokens[k].start], &text[tokens[k].end()..])
+    }
+
+    const TEXT: &str = include_str!("../../examples/table_driven.mech");
+    const MORE: &str = include_str!("../../examples/cam_with_dwells.mech");
+
+    #[test]
+    fn what_is_read_without_faults_is_what_the_grammar_has() {
+        let (mut state, mut refused) = (1, 0);
+        for k in 0..600 {
+            let text = damaged(if k % 2 == 0 { TEXT } else { MORE }, &mut state);
+            let is_in_the_grammar = Grammar::parse(Rule::file, &text).is_ok();
+            let faults = parsed(&text).faults;
+            // what the grammar lets pass may still be no formula
+            let is_let_pass = faults.iter().all(|f| f.code == Code::E0309 || f.message.contains("unit"));
+            assert_eq!(is_in_the_grammar, faults.is_empty() || is_let_pass, "{text}\n{faults:?}");
+            refused += usize::from(!is_in_the_grammar);
+        }
+        assert!(refused > 200, "only {refused} texts were broken");
+    }
+
+    #[test]
+    fn a_fault_spoils_its_own_declaration_and_no_other() {
+        let text = "mechanism m {\n ground { point A = (0, 0 point B = (1, 0) }\n param r = 3 3\n param s = 4\n joint j revolute(a, b)\n body c at (0 { point P = (0, 0) }\n}";
+        let parsed = parsed(text);
+        assert_eq!(parsed.faults.len(), 4, "{:?}", parsed.faults);
+        let items = &parsed.tree.mechanisms[0].items;
+        assert_eq!(items.len(), 5);
+        let ItemKind::Ground { features } = &items[0].kind else { panic!("the ground is whole") };
+        assert_eq!(features[0].kind, FeatureKind::Broken);
+        assert_eq!((features[0].name.text.as_str(), features[1].name.text.as_str()), ("A", "B"));
+        assert!(matches!(&items[1].kind, ItemKind::Broken { names, .. } if names[0].text == "r"));
+        assert!(matches!(&items[2].kind, ItemKind::Param { name, .. } if name.text == "s"));
+        assert!(matches!(&items[3].kind, ItemKind::Broken { names, .. } if names[0].text == "j"));
+        assert!(matches!(&items[4].kind, ItemKind::Broken { features, .. } if features.len() == 1));
+    }
+
+    #[test]
+    fn many_faults_take_linear_time() {
+        let text = format!("mechanism m {{\n{}}}", "param r = 3 +\n".repeat(5_000));
+        assert_eq!(parsed(&text).faults.len(), 5_000);
+        let text = "joint ".repeat(100_000);
+        assert!(!parsed(&text).faults.is_empty());
+        let text = "{ ".repeat(100_000);
+        assert!(!parsed(&text).faults.is_empty());
+    }
 }

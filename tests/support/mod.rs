@@ -75,10 +75,11 @@ pub fn compile_at(
     number: usize,
 ) -> (Option<Determined>, Diagnostics) {
     let file = sources.add(name, text);
-    let tree = match syntax::parse(sources, file) {
-        Ok(tree) => tree,
-        Err(diagnostics) => return (None, diagnostics),
-    };
+    let parsed = syntax::parse(sources, file);
+    if !parsed.faults.is_empty() {
+        return (None, parsed.faults);
+    }
+    let tree = parsed.tree;
     let diagnostics = check::check_file(&tree);
     if diagnostics.has_errors() {
         return (None, diagnostics);
@@ -119,7 +120,7 @@ pub fn run_number(path: &Path, text: &str, number: usize, span: Span) -> Outcome
 pub fn mechanisms(text: &str) -> Vec<String> {
     let mut sources = Sources::default();
     let file = sources.add("text", text);
-    let tree = syntax::parse(&sources, file).expect("it follows the grammar");
+    let tree = syntax::parse(&sources, file).tree;
     tree.mechanisms.iter().map(|mechanism| mechanism.name.text.clone()).collect()
 }
 

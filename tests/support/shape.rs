@@ -86,12 +86,14 @@ fn item_shape(kind: &ItemKind) -> String {
             format!("equation {driver} {} {} {}", name.text, shape(left), shape(right))
         }
         ItemKind::Measure { name, value } => format!("measure {} {}", name.text, shape(value)),
+        ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }
 }
 
 fn feature_shape(feature: &Feature) -> String {
     let text = match &feature.kind {
+        FeatureKind::Broken => "broken".to_owned(),
         FeatureKind::Point { at } => format!("point {}", shape(at)),
         FeatureKind::AxisAlong { origin, direction } => format!("along {} {}", shape(origin), shape(direction)),
         FeatureKind::AxisTo { origin, target } => format!("to {} {}", shape(origin), shape(target)),

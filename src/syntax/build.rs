@@ -1,0 +1,324 @@
+//! From the parser's pairs to the tree of declarations, one declaration at a time.
+
+use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Name, TableRows};
+use super::grammar::{Grammar, Rule};
+use super::{depth, errors, formula};
+use crate::diag::Diagnostic;
+use crate::source::{FileId, Source, Span};
+use pest::Parser;
+use pest::iterators::Pair;
+use std::ops::Range;
+use unicode_normalization::UnicodeNormalization;
+
+/// Stack that the deepest text may take, in bytes.
+const STACK: usize = 16 << 20;
+
+/// The longest name, in characters.
+const LONGEST_NAME: usize = 200;
+
+/// A fault is rare and large; the way without one should be quick.
+pub(super) type Built<T> = Result<T, Box<Diagnostic>>;
+
+/// Builds the nodes of a piece of a text.
+pub(super) struct Reader<'a> {
+    source: &'a Source,
+    file: FileId,
+    /// The byte of the text at which the piece begins.
+    base: usize,
+}
+
+/// A stretch of a text.
+#[derive(Clone)]
+pub(super) struct Piece<'a> {
+    pub source: &'a Source,
+    pub file: FileId,
+    /// In bytes.
+    pub range: Range<usize>,
+}
+
+/// Why a piece cannot be read.
+pub(super) enum Refused {
+    /// It does not follow the grammar.
+    ByGrammar(Box<pest::error::Error<Rule>>),
+    /// It means nothing all the same.
+    Else(Box<Diagnostic>),
+}
+
+impl Piece<'_> {
+    /// Reads a piece by a rule that matches it from its beginning on, and makes something of it.
+    pub fn read<T>(
+        &self,
+        rule: Rule,
+        make: impl FnOnce(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
+    ) -> Result<T, Refused> {
+        let text = &self.source.text[self.range.clone()];
+        let reader = Reader { source: self.source, file: self.file, base: self.range.start };
+        depth::measure(text, self.file, self.range.start).map_err(Refused::Else)?;
+        stacker::maybe_grow(STACK, STACK, || {
+            let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
+            let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
+            make(&reader, pair).map_err(Refused::Else)
+        })
+    }
+
+    /// What is to be said of a piece that was refused; with a look at what was meant, if that is wanted.
+    pub fn fault(&self, refused: Refused, with_mend: bool) -> Box<Diagnostic> {
+        match refused {
+            Refused::Else(fault) => fault,
+            Refused::ByGrammar(error) => {
+                Box::new(errors::from_pest(&error, self.source, self.file, self.range.start, with_mend))
+            }
+        }
+    }
+}
+
+/// A name as it is compared: in NFC.
+#[must_use]
+pub fn normalized(name: &str) -> String {
+    if name.is_ascii() { name.to_owned() } else { name.nfc().collect() }
+}
+
+/// Whether a text can stand where a name is wanted: an identifier, and no keyword.
+#[must_use]
+pub fn is_name(text: &str) -> bool {
+    let pair = Grammar::parse(Rule::name, text).ok().and_then(|mut pairs| pairs.next());
+    pair.is_some_and(|pair| pair.as_str().len() == text.len()) && text.chars().count() <= LONGEST_NAME
+}
+
+impl Reader<'_> {
+    /// A pair's place, without the white space and comments that the parser may have taken in behind it.
+    pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
+        let start = pair.as_span().start();
+        let mut last = pair.clone();
+        while !ends_with_a_token(last.as_rule()) {
+            match last.clone().into_inner().next_back() {
+                Some(inner) => last = inner,
+                None => break,
+            }
+        }
+        let place = |at: usize| (self.base + at) as u32;
+        Span { file: self.file, start: place(start), end: place(last.as_span().end()) }
+    }
+
+    /// The words that a span covers.
+    pub(super) fn text(&self, span: Span) -> &str {
+        &self.source.text[span.start as usize..span.end as usize]
+    }
+
+    pub(super) fn name(&self, pair: &Pair<'_, Rule>) -> Built<Name> {
+        let name = Name { text: normalized(pair.as_str()), span: self.span(pair) };
+        if name.text.len() > LONGEST_NAME && name.text.chars().count() > LONGEST_NAME {
+            return Err(Box::new(errors::long_name(name.span, LONGEST_NAME)));
+        }
+        Ok(name)
+    }
+
+    /// What cannot happen while the grammar is what this file believes it to be.
+    pub(super) fn truncated(&self) -> Box<Diagnostic> {
+        let end = self.source.text.len() as u32;
+        let span = Span { file: self.file, start: end, end };
+        Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
+    }
+
+    /// A declaration of the mechanism that has no block.
+    pub(super) fn plain_item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
+        let pair = pair.into_inner().next().ok_or_else(|| self.truncated())?;
+        let span = self.span(&pair);
+        let docs = self.docs_above(span.start);
+        let rule = pair.as_rule();
+        let mut inner = significant(pair);
+        let kind = match rule {
+            Rule::param => ItemKind::Param { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
+            Rule::function => ItemKind::Function {
+                name: self.next_name(&mut inner)?,
+                argument: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+            },
+            Rule::table => self.table(&mut inner)?,
+            Rule::joint => self.joint(&mut inner)?,
+            Rule::driver | Rule::constraint => ItemKind::Equation {
+                driver: rule == Rule::driver,
+                name: self.next_name(&mut inner)?,
+                left: self.next_expr(&mut inner)?,
+                right: self.next_expr(&mut inner)?,
+            },
+            Rule::measure => {
+                ItemKind::Measure { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? }
+            }
+            Rule::analysis => ItemKind::Analysis {
+                from: self.next_expr(&mut inner)?,
+                to: self.next_expr(&mut inner)?,
+                every: self.next_expr(&mut inner)?,
+            },
+            _ => return Err(self.truncated()),
+        };
+        Ok(Item { docs, span, kind })
+    }
+
+    /// The name of a mechanism's or body's head, and the pose behind `at`.
+    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<(Name, Option<Expr>)> {
+        let mut inner = significant(pair);
+        let name = self.next_name(&mut inner)?;
+        let pose = inner.next().map(|pair| formula::build_operand(self, pair, 0)).transpose()?;
+        Ok((name, pose))
+    }
+
+    /// A formula that is alone in its text.
+    pub(super) fn whole_formula(&self, pair: Pair<'_, Rule>) -> Built<Expr> {
+        self.next_expr(&mut pair.into_inner())
+    }
+
+    fn table<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
+        let name = self.next_name(inner)?;
+        let mut periodic = false;
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::periodic => periodic = true,
+                Rule::table_rows => {
+                    let rows = pair.into_inner().map(|row| formula::build(self, row, 0)).collect::<Built<Vec<_>>>()?;
+                    return Ok(ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) });
+                }
+                Rule::table_file => {
+                    let rows = self.table_file(pair)?;
+                    return Ok(ItemKind::Table { name, periodic, rows });
+                }
+                _ => {}
+            }
+        }
+        Err(self.truncated())
+    }
+
+    fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
+        let mut inner = pair.into_inner();
+        let string = inner.next().ok_or_else(|| self.truncated())?;
+        let path = Name { text: string.as_str().trim_matches('"').to_owned(), span: self.span(&string) };
+        let mut inner = inner.filter(|pair| pair.as_rule() == Rule::word);
+        let units = match (inner.next(), inner.next()) {
+            (Some(first), Some(second)) => Some([self.name(&first)?, self.name(&second)?]),
+            _ => None,
+        };
+        Ok(TableRows::File { path, units })
+    }
+
+    fn joint<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
+        let name = self.next_name(inner)?;
+        let call = inner.next().ok_or_else(|| self.truncated())?;
+        let call_span = self.span(&call);
+        let mut parts = call.into_inner();
+        let kind = self.next_name(&mut parts)?;
+        let arguments = self.list(parts, 1)?;
+        Ok(ItemKind::Joint { name, kind, arguments, call_span })
+    }
+
+    /// A feature of a body or of the ground.
+    pub(super) fn feature(&self, pair: Pair<'_, Rule>) -> Built<Feature> {
+        let pair = pair.into_inner().next().ok_or_else(|| self.truncated())?;
+        let span = self.span(&pair);
+        let docs = self.docs_above(span.start);
+        let rule = pair.as_rule();
+        let along = pair.clone().into_inner().any(|p| p.as_rule() == Rule::along);
+        let mut inner = significant(pair);
+        let name = self.next_name(&mut inner)?;
+        let kind = match rule {
+            Rule::point => FeatureKind::Point { at: self.next_operand(&mut inner)? },
+            Rule::axis if along => FeatureKind::AxisAlong {
+                origin: self.next_operand(&mut inner)?,
+                direction: self.next_operand(&mut inner)?,
+            },
+            Rule::axis => {
+                FeatureKind::AxisTo { origin: self.next_operand(&mut inner)?, target: self.next_operand(&mut inner)? }
+            }
+            Rule::circle => {
+                FeatureKind::Circle { center: self.next_operand(&mut inner)?, radius: self.next_expr(&mut inner)? }
+            }
+            Rule::curve => FeatureKind::Curve {
+                argument: self.next_name(&mut inner)?,
+                at: self.next_operand(&mut inner)?,
+                estimate: inner.next().map(|e| formula::build(self, e, 0)).transpose()?,
+            },
+            _ => return Err(self.truncated()),
+        };
+        Ok(Feature { docs, span, name, kind })
+    }
+
+    /// The formulas of a list, without its commas and brackets.
+    pub(super) fn list<'i>(&self, pairs: impl Iterator<Item = Pair<'i, Rule>>, depth: usize) -> Built<Vec<Expr>> {
+        pairs.filter(|pair| pair.as_rule() == Rule::expr).map(|pair| formula::build(self, pair, depth)).collect()
+    }
+
+    fn next_name<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Name> {
+        pairs.next().ok_or_else(|| self.truncated()).and_then(|pair| self.name(&pair))
+    }
+
+    fn next_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
+        let pair = pairs.next().ok_or_else(|| self.truncated())?;
+        formula::build(self, pair, 0)
+    }
+
+    fn next_operand<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
+        let pair = pairs.next().ok_or_else(|| self.truncated())?;
+        formula::build_operand(self, pair, 0)
+    }
+
+    fn docs_above(&self, start: u32) -> Vec<String> {
+        docs_above(&self.source.text, start as usize)
+    }
+}
+
+/// The `///` lines directly above a declaration that begins its line.
+pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
+    let text = &text[..start];
+    let line_start = text.rfind('\n').map_or(0, |at| at + 1);
+    if !text[line_start..].trim().is_empty() {
+        return Vec::new();
+    }
+    let mut docs: Vec<String> = text[..line_start]
+        .lines()
+        .rev()
+        .map_while(|line| line.trim_start().strip_prefix("///"))
+        .map(|line| line.strip_prefix(' ').unwrap_or(line).trim_end().to_owned())
+        .collect();
+    docs.reverse();
+    docs
+}
+
+/// Whether a rule's last part is a word or a bracket, which it ends with and not behind.
+fn ends_with_a_token(rule: Rule) -> bool {
+    !matches!(
+        rule,
+        Rule::expr
+            | Rule::conditional
+            | Rule::literal
+            | Rule::unit_power
+            | Rule::param
+            | Rule::function
+            | Rule::table
+            | Rule::table_file
+            | Rule::point
+            | Rule::axis
+            | Rule::circle
+            | Rule::curve
+            | Rule::joint
+            | Rule::driver
+            | Rule::constraint
+            | Rule::measure
+            | Rule::analysis
+    )
+}
+
+/// The pairs that carry something: no keywords, no punctuation.
+fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
+    pair.into_inner().filter(|pair| {
+        matches!(
+            pair.as_rule(),
+            Rule::name
+                | Rule::word
+                | Rule::expr
+                | Rule::paren
+                | Rule::call
+                | Rule::periodic
+                | Rule::table_rows
+                | Rule::table_file
+        )
+    })
+}

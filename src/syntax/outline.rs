@@ -1,0 +1,191 @@
+//! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
+
+use super::tokens::{Token, tokens};
+use super::{DECLARATIONS, FEATURES};
+use rustc_hash::FxHashSet;
+
+/// The words of a text with what they may be the beginning of.
+pub(super) struct Outline<'a> {
+    text: &'a str,
+    tokens: Vec<Token<'a>>,
+    /// By token: whether it stands where the name of the declaration before it does.
+    names: Vec<bool>,
+}
+
+/// Words of the language that begin no declaration.
+const WORDS: &[&str] =
+    &["at", "along", "to", "from", "every", "radius", "if", "then", "else", "and", "or", "not", "periodic", "spline"];
+
+/// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
+const LONGEST_HEAD: usize = 100;
+
+impl<'a> Outline<'a> {
+    pub fn new(text: &'a str) -> Outline<'a> {
+        let tokens = tokens(text);
+        let takes_name = |word: &str| DECLARATIONS.contains(&word) && !["ground", "analysis"].contains(&word);
+        let (mut names, mut is_name) = (Vec::with_capacity(tokens.len()), false);
+        let mut before = "";
+        for token in &tokens {
+            is_name = takes_name(before) && !is_name;
+            names.push(is_name);
+            before = token.text;
+        }
+        Outline { text, tokens, names }
+    }
+
+    /// The number of the first token at or behind a byte.
+    pub fn index_at(&self, byte: usize) -> usize {
+        self.tokens.partition_point(|token| token.start < byte)
+    }
+
+    /// A token's word; empty behind the last one.
+    pub fn word(&self, k: usize) -> &'a str {
+        self.tokens.get(k).map_or("", |token| token.text)
+    }
+
+    /// Where a token begins; the end of the text behind the last one.
+    pub fn start(&self, k: usize) -> usize {
+        self.tokens.get(k).map_or(self.text.len(), |token| token.start)
+    }
+
+    /// Where the text before a token ends, its white space and comments not counted.
+    pub fn end_before(&self, k: usize) -> usize {
+        k.checked_sub(1).and_then(|k| self.tokens.get(k)).map_or(0, |token| token.end())
+    }
+
+    /// One past the end of a token.
+    pub fn end(&self, k: usize) -> usize {
+        self.tokens.get(k).map_or(self.text.len(), |token| token.end())
+    }
+
+    pub fn is_behind_the_last(&self, k: usize) -> bool {
+        k >= self.tokens.len()
+    }
+
+    /// Where the declaration that begins at a token ends if it is one without a block: at the next keyword that begins one, or the
+    /// brace that closes the block around it.
+    ///
+    /// What follows the grammar never goes on behind that.
+    pub fn end_of_plain(&self, k: usize) -> usize {
+        let ends = |k: usize| matches!(self.word(k), "{" | "}") || self.is_keyword(k) && !self.is_inside(k);
+        (k + 1..self.tokens.len()).find(|&k| ends(k)).unwrap_or(self.tokens.len())
+    }
+
+    /// The token at which reading goes on after a fault in the declaration that begins at a token: where the next one begins, or
+    /// the block around it is closed. What stands in braces in between goes with it.
+    pub fn resumption(&self, k: usize) -> usize {
+        let mut depth = 0_usize;
+        for next in k..self.tokens.len() {
+            match self.word(next) {
+                "{" => depth += 1,
+                "}" if depth == 0 => return next,
+                "}" => depth -= 1,
+                _ if depth == 0 && next > k && self.begins_declaration(next) => return next,
+                _ => {}
+            }
+        }
+        self.tokens.len()
+    }
+
+    /// The brace that opens the block of a declaration whose head is at fault, if it has one.
+    pub fn block_behind(&self, k: usize) -> Option<usize> {
+        let end = self.tokens.len().min(k + LONGEST_HEAD);
+        (k + 1..end)
+            .take_while(|&next| self.word(next) != "}" && !self.begins_declaration(next))
+            .find(|&next| self.word(next) == "{")
+    }
+
+    /// How many more braces are opened than closed from a token on; negative if more are closed.
+    pub fn braces_from(&self, k: usize) -> isize {
+        let weight = |token: &Token<'_>| isize::from(token.text == "{") - isize::from(token.text == "}");
+        self.tokens.get(k..).unwrap_or_default().iter().map(weight).sum()
+    }
+
+    /// The names that the declaration at a token would have given: the word behind its keyword, or the first of two words.
+    pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
+        let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+        let head = self.tokens.get(k..end.min(k + 2)).unwrap_or_default();
+        // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
+        head.iter().filter(is_name).filter(|token| !DECLARATIONS.contains(&token.text)).copied()
+    }
+
+    /// Whether a token stands where the name of the declaration before it does.
+    pub fn is_name_of(&self, k: usize) -> bool {
+        self.names.get(k).copied().unwrap_or(false)
+    }
+
+    /// Whether a token is a keyword that begins a declaration wherever the grammar holds.
+    fn is_keyword(&self, k: usize) -> bool {
+        DECLARATIONS.contains(&self.word(k)) && self.word(k + 1) != "."
+    }
+
+    /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
+    fn is_inside(&self, k: usize) -> bool {
+        if self.is_first_on_its_line(k) {
+            return false;
+        }
+        let (next, second) = (self.word(k + 1), self.word(k + 2));
+        let goes_on = match self.word(k) {
+            "ground" => next == "{",
+            "analysis" => next == "from",
+            "fn" | "curve" => second == "(",
+            "joint" | "driver" | "constraint" => second == ":",
+            "mechanism" => second == "{",
+            "body" => second == "{" || second == "at",
+            _ => second == "=",
+        };
+        // after a bracket or an operator a formula goes on
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        let is_operand = ["(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
+        self.is_name_of(k) || is_operand && !goes_on
+    }
+
+    fn is_first_on_its_line(&self, k: usize) -> bool {
+        let start = self.start(k);
+        let before = k.checked_sub(1).map_or(0, |before| self.end(before));
+        k == 0 || self.text[before..start].contains('\n')
+    }
+
+    /// Whether a declaration begins at a token: by its keyword, or by a word in the place of one.
+    pub fn begins_declaration(&self, k: usize) -> bool {
+        // `ground.O` is a point, `joint joint: …` has a name that is none
+        if self.word(k + 1) == "." {
+            return false;
+        }
+        if DECLARATIONS.contains(&self.word(k)) {
+            return !self.is_inside(k);
+        }
+        if self.is_name_of(k) {
+            return false;
+        }
+        let is_word = |word: &str| word.starts_with(char::is_alphabetic) && !WORDS.contains(&word);
+        // `30 mm` and `a.b` go on with a word
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        if !is_word(self.word(k)) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
+            return false;
+        }
+        let is_equation = self.word(k + 2) == "=";
+        let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
+        is_block
+            || (is_word(self.word(k + 1)) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || self.word(k + 1) == "from"
+    }
+
+    /// Whether a declaration of the mechanism, rather than of a body, begins at a token.
+    pub fn begins_large_declaration(&self, k: usize) -> bool {
+        let word = self.word(k);
+        self.begins_declaration(k) && DECLARATIONS.contains(&word) && !FEATURES.contains(&word)
+    }
+
+    /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
+    pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
+        let k = self.index_at(byte);
+        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && bad_names.contains(self.word(k)))
+    }
+
+    /// The keyword that stands at a place where a name should.
+    pub fn bad_name(&self, byte: usize) -> Option<&'a str> {
+        let k = self.index_at(byte);
+        (self.start(k) == byte && DECLARATIONS.contains(&self.word(k)) && self.is_name_of(k)).then(|| self.word(k))
+    }
+}

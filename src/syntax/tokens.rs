@@ -1,0 +1,55 @@
+//! The words and characters of a text, as far as they tell where its declarations begin and end.
+//!
+//! This is coarser than the grammar, and never fails: it serves where a text does not follow the grammar, or is not read yet.
+
+/// A word or character, by the byte where it begins.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) struct Token<'a> {
+    pub start: usize,
+    pub text: &'a str,
+}
+
+impl Token<'_> {
+    pub fn end(self) -> usize {
+        self.start + self.text.len()
+    }
+}
+
+/// All tokens of a text.
+pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+    let mut tokens = Vec::new();
+    let mut rest = text;
+    while let Some(token) = next_token(&mut rest) {
+        tokens.push(Token { start: text.len() - rest.len() - token.len(), text: token });
+    }
+    tokens
+}
+
+/// The next word or character that is neither comment, string nor white space.
+pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
+    loop {
+        let text = rest.trim_start();
+        let first = text.chars().next()?;
+        let length = if text.starts_with("//") {
+            *rest = text.split_once('\n').map_or("", |(_, after)| after);
+            continue;
+        } else if first == '"' {
+            // a string ends on its line, or is no string
+            match text[1..].find(['"', '\n']) {
+                Some(end) => end + 2,
+                None => text.len(),
+            }
+        } else if first.is_ascii_digit() {
+            text.find(|c: char| !(c.is_ascii_digit() || c == '.')).unwrap_or(text.len())
+        } else if first.is_alphanumeric() || first == '_' {
+            text.find(|c: char| !(c.is_alphanumeric() || c == '_')).unwrap_or(text.len())
+        } else if text.starts_with("==") || text.starts_with("<=") || text.starts_with(">=") || text.starts_with("!=") {
+            2
+        } else {
+            first.len_utf8()
+        };
+        let (token, after) = text.split_at(length);
+        *rest = after;
+        return Some(token);
+    }
+}
