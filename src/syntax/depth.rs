@@ -4,9 +4,10 @@
 //! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
 //! tree builder counts them in.)
 
-use super::{DECLARATIONS, errors};
+use super::errors;
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
+use crate::vocabulary::is_declaration;
 
 /// The deepest nesting that is read.
 pub const DEEPEST: usize = 200;
@@ -41,7 +42,7 @@ pub fn measure(text: &str, file: FileId) -> Result<(), Box<Diagnostic>> {
             }
             "," | "=" | "}" => ifs -= std::mem::take(level).len(),
             // `ground.O` is a point
-            word if DECLARATIONS.contains(&word) && !rest.trim_start().starts_with('.') => {
+            word if is_declaration(word) && !rest.trim_start().starts_with('.') => {
                 levels = vec![Vec::new()];
                 ifs = 0;
             }

@@ -1,7 +1,7 @@
 //! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
 //!
-//! The grammar is `grammar/mech.pest`. This room knows words and precedences; it does not know which names exist,
-//! which units there are, or what a joint is.
+//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This room knows words and precedences; it
+//! does not know which names exist, or what a joint is.
 
 pub mod ast;
 mod depth;
@@ -15,25 +15,3 @@ mod recover;
 pub use depth::DEEPEST;
 pub use format::format;
 pub use parse::{is_name, normalized, parse, parse_expression};
-
-/// Words that begin a declaration, where every formula before them has ended.
-const DECLARATIONS: &[&str] = &[
-    "mechanism",
-    "param",
-    "fn",
-    "table",
-    "ground",
-    "body",
-    "point",
-    "axis",
-    "circle",
-    "curve",
-    "joint",
-    "driver",
-    "constraint",
-    "measure",
-    "analysis",
-];
-
-/// Those of them that stand in a body or the ground.
-const FEATURES: &[&str] = &["point", "axis", "circle", "curve"];

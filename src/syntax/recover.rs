@@ -4,7 +4,7 @@
 //! put where white space was. Braces are never torn apart: a fault in the head of a block takes the whole block with it.
 
 use super::depth::next_token;
-use super::{DECLARATIONS, FEATURES};
+use crate::vocabulary::{Keyword, is_declaration, is_feature};
 use std::ops::Range;
 
 /// A declaration as far as words and braces tell.
@@ -51,10 +51,10 @@ fn put_missing_brace(text: &mut String, at: usize) -> bool {
         tokens.iter().fold(0_isize, |depth, (_, token)| depth + isize::from(*token == "{") - isize::from(*token == "}"))
     };
     let word = tokens[k].1;
-    let is_large = DECLARATIONS.contains(&word) && !FEATURES.contains(&word) && word != "mechanism";
+    let is_large = is_declaration(word) && !is_feature(word) && word != "mechanism";
     let has_head = k >= 2 && tokens[k - 2].1 == "mechanism";
     // what stands before it must be complete
-    let begun = tokens[..k].iter().rposition(|(_, token)| DECLARATIONS.contains(token)).unwrap_or(0);
+    let begun = tokens[..k].iter().rposition(|(_, token)| is_declaration(token)).unwrap_or(0);
     let count = |wanted: &str| tokens[begun..k].iter().filter(|(_, token)| *token == wanted).count();
     let ends = k > 0 && tokens[k - 1].1.ends_with(|c: char| c.is_alphanumeric() || c == ')' || c == '}' || c == '{');
     let is_complete = ends && count("(") == count(")") && !is_name_of(&tokens, k);
@@ -87,7 +87,7 @@ pub(super) fn uses_bad_name(text: &str, at: usize, bad_names: &[String]) -> bool
 pub(super) fn bad_name(text: &str, at: usize) -> Option<String> {
     let tokens = tokens(text);
     let k = tokens.iter().position(|&(start, _)| start == at)?;
-    (DECLARATIONS.contains(&tokens[k].1) && is_name_of(&tokens, k)).then(|| tokens[k].1.to_owned())
+    (is_declaration(tokens[k].1) && is_name_of(&tokens, k)).then(|| tokens[k].1.to_owned())
 }
 
 fn tokens(text: &str) -> Vec<(usize, &str)> {
@@ -101,7 +101,7 @@ fn tokens(text: &str) -> Vec<(usize, &str)> {
 
 /// Whether a token stands where the name of the declaration before it does.
 fn is_name_of(tokens: &[(usize, &str)], k: usize) -> bool {
-    let takes_name = |word: &str| DECLARATIONS.contains(&word) && !["ground", "analysis"].contains(&word);
+    let takes_name = |word: &str| is_declaration(word) && !["ground", "analysis"].contains(&word);
     k > 0 && takes_name(tokens[k - 1].1) && !is_name_of(tokens, k - 1)
 }
 
@@ -112,10 +112,10 @@ fn begins_declaration(tokens: &[(usize, &str)], k: usize) -> bool {
     if token(k + 1) == "." || is_name_of(tokens, k) {
         return false;
     }
-    if DECLARATIONS.contains(&token(k)) {
+    if is_declaration(token(k)) {
         return true;
     }
-    let is_word = |token: &str| token.starts_with(char::is_alphabetic) && !WORDS.contains(&token);
+    let is_word = |token: &str| token.starts_with(char::is_alphabetic) && !is_joining(token);
     // `30 mm` and `a.b` go on with a word
     let before = if k > 0 { token(k - 1) } else { "" };
     let is_after_operand = before == "." || before.starts_with(|c: char| c.is_ascii_digit()) || is_name_of(tokens, k);
@@ -129,9 +129,10 @@ fn begins_declaration(tokens: &[(usize, &str)], k: usize) -> bool {
         || token(k + 1) == "from"
 }
 
-/// Words of the language that begin no declaration.
-const WORDS: &[&str] =
-    &["at", "along", "to", "from", "every", "radius", "if", "then", "else", "and", "or", "not", "periodic", "spline"];
+/// Whether a word of the language stands between the parts of a declaration or formula.
+fn is_joining(word: &str) -> bool {
+    Keyword::named(word).is_some_and(Keyword::is_joining)
+}
 
 fn beginning_at(declarations: &[Declaration], at: usize) -> Option<Range<usize>> {
     declarations.iter().find(|declaration| declaration.extent.start == at).map(|declaration| declaration.extent.clone())
@@ -190,7 +191,7 @@ fn declarations(text: &str) -> Option<Vec<Declaration>> {
             }
             _ if begins_declaration(&tokens, k) => {
                 close(&mut open, &mut done, depth, start);
-                let is_known = DECLARATIONS.contains(&token);
+                let is_known = is_declaration(token);
                 open.push((depth, Declaration { extent: start..text.len(), block: None, is_known }));
             }
             _ => {}
