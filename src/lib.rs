@@ -16,6 +16,8 @@ pub mod source;
 
 pub mod math;
 
+pub mod vocabulary;
+
 pub mod diag;
 
 pub mod syntax;

@@ -11,11 +11,12 @@ use support::files;
 const ROOMS: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("math", &[]),
+    ("vocabulary", &[]),
     ("diag", &["source"]),
     ("expr", &["math"]),
-    ("syntax", &["source", "diag"]),
-    ("model", &["source", "expr"]),
-    ("check", &["source", "math", "diag", "expr", "syntax", "model"]),
+    ("syntax", &["source", "vocabulary", "diag"]),
+    ("model", &["source", "vocabulary", "expr"]),
+    ("check", &["source", "math", "vocabulary", "diag", "expr", "syntax", "model"]),
     ("ir", &["source", "expr"]),
     ("lower", &["expr", "model", "ir", "math"]),
     ("structure", &["ir", "expr", "diag"]),
@@ -24,7 +25,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math"]),
     ("emit", &["source", "solver", "program", "structure", "ir", "expr"]),
     ("output", &[]),
-    ("import", &["source", "diag", "syntax"]),
+    ("import", &["source", "vocabulary", "diag", "syntax"]),
 ];
 
 #[test]

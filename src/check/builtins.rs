@@ -1,36 +1,12 @@
 //! Calls of the language's own functions.
 
 use super::formula::{Context, Dim, Value};
-use super::names::FUNCTIONS;
 use super::{Checker, errors};
 use crate::expr::{Binary, ExprId, Motion, Unary};
 use crate::model::{Condition, ConditionKind, Dimension};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
-
-const PURE_UNARY: &[(&str, Unary)] = &[
-    ("sin", Unary::Sin),
-    ("cos", Unary::Cos),
-    ("tan", Unary::Tan),
-    ("asin", Unary::Asin),
-    ("acos", Unary::Acos),
-    ("atan", Unary::Atan),
-    ("sinh", Unary::Sinh),
-    ("cosh", Unary::Cosh),
-    ("tanh", Unary::Tanh),
-    ("exp", Unary::Exp),
-    ("ln", Unary::Ln),
-    ("log10", Unary::Log10),
-];
-
-const MOTIONS: &[(&str, Motion)] = &[
-    ("step", Motion::Step),
-    ("step5", Motion::Step5),
-    ("step7", Motion::Step7),
-    ("harmonic", Motion::Harmonic),
-    ("cycloidal", Motion::Cycloidal),
-    ("modsine", Motion::ModifiedSine),
-];
+use crate::vocabulary::{Function, Group};
 
 /// An argument with its place.
 type Argument = (Span, Value);
@@ -44,25 +20,16 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Option<Value> {
-        if name.text == "der" {
-            let [argument] = arguments else {
-                self.report(errors::argument_count("der", e.span, "one argument", arguments.len()));
-                return None;
-            };
-            return self.derivative(e, argument, context);
-        }
-        let Some(&(_, least, most)) = FUNCTIONS.iter().find(|&&(f, ..)| f == name.text) else {
+        let Some(function) = Function::named(&name.text) else {
             return self.quantity(e, name, arguments, context);
         };
-        if arguments.len() < least || arguments.len() > most {
-            let wanted = match (least, most) {
-                (1, 1) => "one argument".to_owned(),
-                (2, 2) => "two arguments".to_owned(),
-                (_, usize::MAX) => format!("{least} arguments or more"),
-                _ => format!("{least} arguments"),
-            };
-            self.report(errors::argument_count(&name.text, e.span, &wanted, arguments.len()));
+        if arguments.len() < function.least || arguments.len() > function.most {
+            let (wanted, found) = (function.takes(), arguments.len());
+            self.report(errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found));
             return None;
+        }
+        if let (Group::Derivative, [argument]) = (function.group, arguments) {
+            return self.derivative(e, argument, context);
         }
         let values: Vec<Option<Value>> = arguments.iter().map(|argument| self.number(argument, context)).collect();
         let values: Vec<Argument> = arguments
@@ -70,21 +37,26 @@ impl Checker<'_> {
             .zip(values)
             .map(|(argument, value)| value.map(|value| (argument.span, value)))
             .collect::<Option<_>>()?;
-        self.apply(&name.text, &values, context)
+        self.apply(function, &values, context)
     }
 
-    fn apply(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
-        if let Some(&(_, unary)) = PURE_UNARY.iter().find(|&&(f, _)| f == function) {
-            let (span, value) = arguments[0];
-            self.demand(&format!("the argument of `{function}`"), Dimension::PURE, span, value.dim, context)?;
-            return Some(Value { id: self.model.graph.unary(unary, value.id), dim: Dim::PURE });
+    fn apply(&mut self, function: &Function, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
+        let name = function.word.name;
+        match function.group {
+            Group::Pure => {
+                let (span, value) = arguments[0];
+                self.demand(&format!("the argument of `{name}`"), Dimension::PURE, span, value.dim, context)?;
+                let id = self.model.graph.unary(Unary::named(name)?, value.id);
+                Some(Value { id, dim: Dim::PURE })
+            }
+            Group::Motion => self.motion(name, Motion::named(name)?, arguments, context),
+            Group::Polynomial => self.polynomial(arguments, context),
+            // a derivative is taken of a formula, not of its value
+            Group::Alike | Group::Derivative => self.apply_to_alike(name, arguments, context),
         }
-        if let Some(&(_, motion)) = MOTIONS.iter().find(|&&(f, _)| f == function) {
-            return self.motion(function, motion, arguments, context);
-        }
-        if function == "poly" {
-            return self.polynomial(arguments, context);
-        }
+    }
+
+    fn apply_to_alike(&mut self, function: &str, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
         let dim = self.all_alike(function, arguments, context)?;
         let ids: Vec<ExprId> = arguments.iter().map(|(_, value)| value.id).collect();
         let graph = &mut self.model.graph;

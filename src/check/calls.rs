@@ -2,10 +2,11 @@
 
 use super::formula::{Context, Dim, Value};
 use super::names::Entity;
-use super::{Checker, errors, names};
+use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
+use crate::vocabulary::is_called;
 
 /// One expansion of a function or measure: which, of what argument, and how it is read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -22,13 +23,13 @@ pub(super) struct Call {
 impl Checker<'_> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
-        if names::is_builtin(&name.text) {
+        if is_called(&name.text) {
             return self.builtin(e, name, arguments, context);
         }
         match self.space.get(&name.text).filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {
-                    self.report(errors::argument_count(&name.text, e.span, "one argument", arguments.len()));
+                    self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
                     return None;
                 };
                 let argument = self.number(argument, context)?;

@@ -1,11 +1,11 @@
 //! What is said of a mechanism that does not pass.
 
-use super::names::{Entity, FUNCTIONS, QUANTITIES};
-use super::units::Unit;
+use super::names::Entity;
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
+use crate::vocabulary::{Constant, FUNCTIONS, QUANTITIES, QuantityWord, Unit, Word};
 
 fn meant(wanted: &str, names: &[&str]) -> Option<String> {
     nearest(wanted, names.iter().copied()).map(|name| format!("was `{name}` meant?"))
@@ -28,7 +28,8 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
-    let nearest = meant(&name.text, &["t", "pi", "tau"]).filter(|_| name.text.chars().count() > 1);
+    let nearest =
+        meant(&name.text, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
         .at(name.span, "not known here")
         .help_if(
@@ -50,8 +51,8 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
 
 pub fn unknown_function(name: &Name, own: &[&str]) -> Diagnostic {
     let mut known: Vec<&str> = own.to_vec();
-    known.extend(FUNCTIONS.iter().map(|&(f, ..)| f));
-    known.extend(QUANTITIES);
+    known.extend(FUNCTIONS.iter().map(|function| function.word.name));
+    known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
     let special = match name.text.as_str() {
         "log" => Some("was `ln` (natural) or `log10` meant?".to_owned()),
         "arcsin" | "arccos" | "arctan" => Some(format!("was `a{}` meant?", &name.text[3..])),
@@ -86,13 +87,11 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
 }
 
 pub fn reserved(name: &Name) -> Diagnostic {
-    let what = match name.text.as_str() {
-        "t" => "time",
-        "pi" | "tau" => "a constant",
-        "ground" => "the body that does not move",
-        n if Unit::named(n).is_some() => "a unit",
-        n if QUANTITIES.contains(&n) => "a kinematic quantity",
-        _ => "a function of the language",
+    let what = match Constant::named(&name.text) {
+        Some(constant) => constant.stands_for.noun(),
+        None if Unit::named(&name.text).is_some() => "a unit",
+        None if QuantityWord::named(&name.text).is_some() => "a kinematic quantity",
+        None => "a function of the language",
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
@@ -137,41 +136,11 @@ pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>) -> Diagn
 
 // ---- kinds and arguments
 
-pub fn argument_count(what: &str, span: Span, wanted: &str, found: usize) -> Diagnostic {
+/// The word is there if it is one of the language.
+pub fn argument_count(what: &str, word: Option<&Word>, span: Span, wanted: &str, found: usize) -> Diagnostic {
     Diagnostic::new(Code::E0301, format!("`{what}` takes {wanted}, found {found}"))
         .at(span, format!("found {found}"))
-        .help_if(signature(what).map(|form| format!("it is written {}", form.replace("MOTION", what))))
-}
-
-/// How a joint, quantity or function is called.
-pub fn signature(what: &str) -> Option<&'static str> {
-    Some(match what {
-        "revolute" => "`revolute(P, Q)`",
-        "translational" => "`translational(a, b)`, a and b axes",
-        "weld" => "`weld(P, Q)` or `weld(P, Q, angle)`",
-        "revolute_revolute" => "`revolute_revolute(P, Q, length)`",
-        "revolute_translational" => "`revolute_translational(P, a)` or `revolute_translational(P, a, offset)`",
-        "gear" => "`gear(c, d)` or `gear(c, d, phase)`, c and d circles",
-        "internal_gear" => "`internal_gear(c, d)` or `internal_gear(c, d, phase)`, c and d circles",
-        "rack_pinion" => {
-            "`rack_pinion(c, a)`, `rack_pinion(c, a, phase)` or `rack_pinion(c, a, phase, left)`, c a circle and a an axis"
-        }
-        "point_follower" => "`point_follower(P, k)`, k a curve or circle",
-        "cam" => "`cam(k, m)`, k and m curves or circles",
-        "flat_follower" => "`flat_follower(k, a)`, k a curve or circle and a an axis",
-        "x" | "y" => "`x(P)` or `x(P, Q)`",
-        "angle" => "`angle(b)`, `angle(b, c)`, `angle(b.u)` or `angle(b.u, c.v)`",
-        "distance" => "`distance(P, Q)`",
-        "rotation" => "`rotation(joint)` or `rotation(joint, b.u, c.v)`",
-        "displacement" => "`displacement(joint)`",
-        "step" | "step5" | "step7" | "harmonic" | "cycloidal" | "modsine" => "`MOTION(u, u0, v0, u1, v1)`",
-        "poly" => "`poly(u, u0, c0, c1, …)`",
-        "point" => "`point P = (x, y)`",
-        "curve" => "`curve k(u) = (x, y)`",
-        "at" => "`at (x, y, phi)`",
-        "along" => "`along (dx, dy)`",
-        _ => return None,
-    })
+        .help_if(word.map(|word| format!("it is written {}", word.written())))
 }
 
 pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
@@ -279,7 +248,6 @@ pub struct Part {
 
 /// The text of a part is told where it is a bare number.
 pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2]) -> Diagnostic {
-    const RATE: Dimension = Dimension { length: 0.0, time: -1.0 };
     let bare = |text: &str| text.parse::<f64>().is_ok();
     let help = [(first, second, texts[0]), (second, first, texts[1])].into_iter().find_map(|(one, other, text)| {
         if !one.dimension.is(Dimension::PURE) {
@@ -288,7 +256,10 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2]) -> Diagno
         if bare(text) {
             return Some(format!("a unit is missing: `{text} {}`", usual_unit(other.dimension)));
         }
-        other.dimension.is(RATE).then(|| "a rate times a time is a pure number, as an angle is: `… * t`".to_owned())
+        other
+            .dimension
+            .is(Dimension::RATE)
+            .then(|| "a rate times a time is a pure number, as an angle is: `… * t`".to_owned())
     });
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
         .at(second.span, second.dimension.in_words())

@@ -7,6 +7,7 @@ use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
+use crate::vocabulary::Keyword;
 
 /// What a name of a body's space stands for; `None` where it is broken, which has been said.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -138,7 +139,13 @@ impl Checker<'_> {
             return None;
         };
         let [dx, dy] = parts.as_slice() else {
-            self.report(errors::argument_count("along", e.span, "two numbers", parts.len()));
+            self.report(errors::argument_count(
+                "along",
+                Keyword::named("along").map(|keyword| &keyword.word),
+                e.span,
+                "two numbers",
+                parts.len(),
+            ));
             return None;
         };
         let context = self.pair_context([dx, dy], "a direction");
@@ -185,7 +192,13 @@ impl Checker<'_> {
         };
         let [x, y, phi] = parts else {
             let found = if parts.is_empty() { 1 } else { parts.len() };
-            self.report(errors::argument_count("at", e.span, "two lengths and an angle", found));
+            self.report(errors::argument_count(
+                "at",
+                Keyword::named("at").map(|keyword| &keyword.word),
+                e.span,
+                "two lengths and an angle",
+                found,
+            ));
             return;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");

@@ -3,14 +3,14 @@
 //! A formula that holds a unit is *judged*: its dimensions are worked out and compared. Any other is *plain*, and is
 //! taken in the SI unit of what is expected (`language.md`, "Units").
 
+use super::Checker;
 use super::errors::{self, Part};
 use super::names::Entity;
-use super::units::Unit;
-use super::{Checker, names};
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
 use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// Parts that one formula may have, written out.
 const LARGEST: usize = 1_000_000;
@@ -96,7 +96,7 @@ impl Checker<'_> {
                 ExprKind::Literal { unit: Some((name, _)), .. } | ExprKind::Name(name) => {
                     self.is_dimensional_name(name)
                 }
-                ExprKind::Call { name, .. } if !names::is_builtin(&name.text) => self.is_dimensional_name(name),
+                ExprKind::Call { name, .. } if !is_called(&name.text) => self.is_dimensional_name(name),
                 // a literal point says nothing about the formula around it
                 ExprKind::Tuple(_) => continue,
                 _ => false,
@@ -208,7 +208,7 @@ impl Checker<'_> {
         let Some(unit) = Unit::named(&name.text) else {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
             let is_a_name =
-                is_argument || matches!(name.text.as_str(), "t" | "pi" | "tau") || self.space.get(&name.text).is_some();
+                is_argument || Constant::named(&name.text).is_some() || self.space.get(&name.text).is_some();
             self.report(errors::not_a_unit(
                 name,
                 self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end(),
@@ -230,18 +230,17 @@ impl Checker<'_> {
         {
             return Some(value);
         }
-        match name.text.as_str() {
-            "t" if context.time => {
+        match Constant::named(&name.text).map(|constant| constant.stands_for) {
+            Some(StandsFor::Time) if context.time => {
                 let id = self.model.graph.symbol(Symbol::Time);
                 return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
             }
-            "t" => {
+            Some(StandsFor::Time) => {
                 self.report(errors::time_in(context.place, name.span, None));
                 return None;
             }
-            "pi" => return Some(self.pure(std::f64::consts::PI)),
-            "tau" => return Some(self.pure(std::f64::consts::TAU)),
-            _ => {}
+            Some(StandsFor::Number(number)) => return Some(self.pure(number)),
+            Some(StandsFor::Ground) | None => {}
         }
         if let Some(unit) = Unit::named(&name.text) {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));
@@ -278,12 +277,12 @@ impl Checker<'_> {
             self.report(errors::not_a_unit(name, "", false));
             return;
         }
-        let is_quantity = names::QUANTITIES.contains(&name.text.as_str());
-        if !context.names && (is_quantity || !names::is_builtin(&name.text)) {
+        let is_quantity = QuantityWord::named(&name.text).is_some();
+        if !context.names && (is_quantity || !is_called(&name.text)) {
             self.report(if context.time { errors::names_in_formula(name) } else { errors::names_in_option(name) });
             return;
         }
-        if names::is_builtin(&name.text) {
+        if is_called(&name.text) {
             let help = format!("call it: `{}(…)`", name.text);
             self.report(errors::wrong_kind(name.span, "a number", "a function").help(help));
             return;
@@ -294,7 +293,9 @@ impl Checker<'_> {
             _ => false,
         });
         known.extend(context.argument.map(|(argument, _)| argument));
-        known.extend(["t", "pi", "tau"]);
+        for constant in Constant::in_formulas() {
+            known.push(constant);
+        }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown(what, name, &known);
         self.report(diagnostic);
@@ -520,7 +521,7 @@ impl Checker<'_> {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             if let ExprKind::Call { name, .. } = &e.kind
-                && names::QUANTITIES.contains(&name.text.as_str())
+                && QuantityWord::named(&name.text).is_some()
             {
                 return true;
             }

@@ -5,21 +5,7 @@ use crate::expr::ExprId;
 use crate::model::{CircleId, Dimension, Frame, Joint, JointKind, PointId, Side};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
-
-/// The joints of the language, each with what it is called with.
-const JOINTS: &[(&str, &str)] = &[
-    ("revolute", "two points"),
-    ("translational", "two axes"),
-    ("weld", "two points, and an angle if it is not 0"),
-    ("revolute_revolute", "two points and a length"),
-    ("revolute_translational", "a point and an axis, and an offset if it is not 0"),
-    ("gear", "two circles, and a phase if the drawing does not give it"),
-    ("internal_gear", "two circles, and a phase if the drawing does not give it"),
-    ("rack_pinion", "a circle and an axis, and a phase and a side if the drawing does not give them"),
-    ("point_follower", "a point and a curve"),
-    ("cam", "two curves"),
-    ("flat_follower", "a curve and an axis"),
-];
+use crate::vocabulary::{JOINTS, JointWord};
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
@@ -51,7 +37,7 @@ impl Checker<'_> {
     }
 
     fn unknown_joint(&mut self, kind: &Name) -> Option<JointKind> {
-        let known: Vec<&str> = JOINTS.iter().map(|&(word, _)| word).collect();
+        let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
         let listed = format!("the joints are {}", errors::list(&known));
         let mut diagnostic = errors::unknown("kind of joint", kind, &known);
         if diagnostic.help.is_empty() {
@@ -62,8 +48,9 @@ impl Checker<'_> {
     }
 
     fn wrong_count(&mut self, kind: &Name, span: Span, found: usize) -> Option<JointKind> {
-        let wanted = JOINTS.iter().find(|&&(word, _)| word == kind.text).map_or("", |&(_, wanted)| wanted);
-        self.report(errors::argument_count(&kind.text, span, wanted, found));
+        if let Some(joint) = JointWord::named(&kind.text) {
+            self.report(errors::argument_count(&kind.text, Some(&joint.word), span, joint.takes, found));
+        }
         None
     }
 

@@ -16,7 +16,6 @@ mod profiles;
 mod quantities;
 mod table_file;
 mod tables;
-mod units;
 
 pub use tables::TableFiles;
 

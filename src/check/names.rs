@@ -1,44 +1,10 @@
 //! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
 
-use super::units::Unit;
 use super::{Checker, errors};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
+use crate::vocabulary::{is_called, is_taken};
 use rustc_hash::FxHashMap;
-
-/// The functions of the language that are called with numbers, with the fewest and the most arguments.
-pub(super) const FUNCTIONS: &[(&str, usize, usize)] = &[
-    ("sin", 1, 1),
-    ("cos", 1, 1),
-    ("tan", 1, 1),
-    ("asin", 1, 1),
-    ("acos", 1, 1),
-    ("atan", 1, 1),
-    ("atan2", 2, 2),
-    ("sinh", 1, 1),
-    ("cosh", 1, 1),
-    ("tanh", 1, 1),
-    ("exp", 1, 1),
-    ("ln", 1, 1),
-    ("log10", 1, 1),
-    ("sqrt", 1, 1),
-    ("hypot", 2, 2),
-    ("abs", 1, 1),
-    ("sign", 1, 1),
-    ("min", 2, usize::MAX),
-    ("max", 2, usize::MAX),
-    ("mod", 2, 2),
-    ("step", 5, 5),
-    ("step5", 5, 5),
-    ("step7", 5, 5),
-    ("harmonic", 5, 5),
-    ("cycloidal", 5, 5),
-    ("modsine", 5, 5),
-    ("poly", 3, usize::MAX),
-];
-
-/// The kinematic quantities.
-pub(super) const QUANTITIES: &[&str] = &["x", "y", "angle", "distance", "rotation", "displacement"];
 
 /// What a name of the mechanism's space stands for, with its position among its kind in the text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -110,16 +76,6 @@ impl<T: Copy> Space<T> {
     }
 }
 
-/// Whether a name is taken in the mechanism's space.
-fn is_taken(name: &str) -> bool {
-    matches!(name, "t" | "pi" | "tau" | "ground") || Unit::named(name).is_some()
-}
-
-/// Whether a name is that of a function or quantity.
-pub(super) fn is_builtin(name: &str) -> bool {
-    name == "der" || QUANTITIES.contains(&name) || FUNCTIONS.iter().any(|&(f, ..)| f == name)
-}
-
 impl Checker<'_> {
     /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
@@ -141,7 +97,7 @@ impl Checker<'_> {
                 ItemKind::Ground { .. } | ItemKind::Analysis { .. } | ItemKind::Broken { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
-            if is_taken(&name.text) || callable && is_builtin(&name.text) {
+            if is_taken(&name.text) || callable && is_called(&name.text) {
                 self.report(errors::reserved(name));
             }
             // declared all the same, so that its uses are not reported too
@@ -254,7 +210,7 @@ pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {
-            ExprKind::Call { name, .. } if is_builtin(&name.text) => {}
+            ExprKind::Call { name, .. } if is_called(&name.text) => {}
             ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
             _ => {}
         }

@@ -7,6 +7,7 @@ use crate::expr::Dependence;
 use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
+use crate::vocabulary::Keyword;
 
 impl Checker<'_> {
     pub(super) fn profiles_of(&mut self, frame: Frame, features: &[ast::Feature]) {
@@ -125,12 +126,24 @@ impl Checker<'_> {
                     let context = Context { argument, ..self.pair_context([x, y], place) };
                     self.lengths_in([x, y], &context)
                 } else {
-                    self.report(errors::argument_count(what, e.span, "two lengths", parts.len()));
+                    self.report(errors::argument_count(
+                        what,
+                        Keyword::named(what).map(|keyword| &keyword.word),
+                        e.span,
+                        "two lengths",
+                        parts.len(),
+                    ));
                     None
                 }
             }
             ExprKind::Paren(_) => {
-                self.report(errors::argument_count(what, e.span, "two lengths", 1));
+                self.report(errors::argument_count(
+                    what,
+                    Keyword::named(what).map(|keyword| &keyword.word),
+                    e.span,
+                    "two lengths",
+                    1,
+                ));
                 None
             }
             _ => {

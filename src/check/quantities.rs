@@ -6,6 +6,7 @@ use super::{Checker, errors};
 use crate::model::{AxisId, Direction, Frame, JointId, JointKind, Named, PointId, Quantity};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Name};
+use crate::vocabulary::QuantityWord;
 
 impl Checker<'_> {
     /// `x(P)`, `angle(b, c)`, `rotation(J)` …
@@ -50,14 +51,9 @@ impl Checker<'_> {
                 }
             }
             (what, _) => {
-                let wanted = match what {
-                    "displacement" => "one argument, a joint",
-                    "rotation" => "a joint, or a joint and two axes",
-                    "distance" => "two points",
-                    "angle" => "one body or axis, or two",
-                    _ => "one point, or two",
-                };
-                self.report(errors::argument_count(what, e.span, wanted, arguments.len()));
+                let quantity = QuantityWord::named(what)?;
+                let found = arguments.len();
+                self.report(errors::argument_count(what, Some(&quantity.word), e.span, quantity.takes, found));
                 return None;
             }
         };

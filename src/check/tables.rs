@@ -1,13 +1,13 @@
 //! Tables: their rows from a list or a file, and their calls.
 
 use super::formula::{Context, Dim, Value};
-use super::units::Unit;
 use super::{Checker, errors, table_file};
 use crate::diag::Diagnostic;
 use crate::expr::{ExprId, TableId};
 use crate::model::{Condition, ConditionKind, Dimension};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Expr, ExprKind, Name, TableRows};
+use crate::vocabulary::Unit;
 use rustc_hash::FxHashMap;
 
 /// How far beyond its range an argument may lie and still count as the end, as a part of the range: rounding.
@@ -228,7 +228,7 @@ impl<'a> Checker<'a> {
     ) -> Option<Value> {
         let name = self.tables[k].name;
         let [written] = arguments else {
-            self.report(errors::argument_count(&name.text, e.span, "one argument", arguments.len()));
+            self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));
             return None;
         };
         let argument = self.number(written, context)?;

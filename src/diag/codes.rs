@@ -55,7 +55,6 @@ catalogue! {
         E0102 Error "the file is not UTF-8"
         E0103 Error "formulas are nested too deep"
         E0104 Error "the file holds no mechanism"
-        E0105 Error "a name is too long"
     }
     "names" {
         E0201 Error "an unknown name"

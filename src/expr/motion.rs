@@ -23,6 +23,30 @@ pub enum Motion {
     ModifiedSine,
 }
 
+impl Motion {
+    const ALL: [Motion; 6] =
+        [Motion::Step, Motion::Step5, Motion::Step7, Motion::Harmonic, Motion::Cycloidal, Motion::ModifiedSine];
+
+    /// As in the language.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Motion::Step => "step",
+            Motion::Step5 => "step5",
+            Motion::Step7 => "step7",
+            Motion::Harmonic => "harmonic",
+            Motion::Cycloidal => "cycloidal",
+            Motion::ModifiedSine => "modsine",
+        }
+    }
+
+    /// The law of a word.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Motion> {
+        Self::ALL.into_iter().find(|motion| motion.word() == word)
+    }
+}
+
 impl Graph {
     /// A motion from `v0` at `u0` to `v1` at `u1`.
     pub fn motion(&mut self, motion: Motion, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {

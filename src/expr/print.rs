@@ -25,6 +25,31 @@ enum Tightness {
 }
 
 impl Unary {
+    const ALL: [Unary; 16] = [
+        Unary::Sin,
+        Unary::Cos,
+        Unary::Tan,
+        Unary::Asin,
+        Unary::Acos,
+        Unary::Atan,
+        Unary::Sinh,
+        Unary::Cosh,
+        Unary::Tanh,
+        Unary::Exp,
+        Unary::Ln,
+        Unary::Log10,
+        Unary::Sqrt,
+        Unary::Abs,
+        Unary::Sign,
+        Unary::Floor,
+    ];
+
+    /// The function of a word.
+    #[must_use]
+    pub fn named(word: &str) -> Option<Unary> {
+        Self::ALL.into_iter().find(|function| function.word() == word)
+    }
+
     /// As in the language, which has no `floor`: `x - mod(x, 1)`.
     #[must_use]
     pub fn word(self) -> &'static str {

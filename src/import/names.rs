@@ -4,11 +4,9 @@ use super::errors;
 use super::json::Quoted;
 use crate::diag::Diagnostics;
 use crate::source::Span;
-use crate::syntax::{self, format};
+use crate::syntax;
+use crate::vocabulary::{Constant, Unit};
 use rustc_hash::{FxHashMap, FxHashSet};
-
-/// Words that mean something in every formula.
-const TAKEN: &[&str] = &["t", "pi", "tau", "ground"];
 
 /// One space of names.
 #[derive(Default)]
@@ -97,13 +95,11 @@ pub(super) fn of_the_mechanism(name: Option<&Quoted>, place: Span, file: &str, s
 
 /// Why a text cannot be a name in the mechanism's space, if it cannot.
 fn why_not(name: &str) -> Option<&'static str> {
-    // the Greek letter serves for the micro sign
-    let as_unit = name.replace('μ', "µ");
     if name.is_empty() {
         Some("the name is empty")
-    } else if TAKEN.contains(&name) {
+    } else if Constant::named(name).is_some() {
         Some("this name has a meaning in the language")
-    } else if format::UNITS.contains(&as_unit.as_str()) {
+    } else if Unit::named(name).is_some() {
         Some("this is a unit")
     } else if syntax::is_name(name) {
         None

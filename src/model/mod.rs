@@ -3,10 +3,9 @@
 //! Pure data, without meaning for mechanics yet: that a joint has equations is the business of `lower`. What stands
 //! here has been found sound; nothing after `check` fails on it.
 
-mod dimension;
 mod print;
 
-pub use dimension::Dimension;
+pub use crate::vocabulary::Dimension;
 
 use crate::expr::{ExprId, Graph, TableId};
 use crate::source::Span;

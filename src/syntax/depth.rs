@@ -4,10 +4,11 @@
 //! and each `if` that stands inside another one. (Prefix operators and chains of `^` cost the parser no stack; the
 //! tree builder counts them in.)
 
+use super::errors;
 use super::tokens::next_token;
-use super::{DECLARATIONS, errors};
 use crate::diag::Diagnostic;
 use crate::source::{FileId, Span};
+use crate::vocabulary::is_declaration;
 
 /// The deepest nesting that is read.
 pub const DEEPEST: usize = 200;
@@ -42,7 +43,7 @@ pub fn measure(text: &str, file: FileId, base: usize) -> Result<(), Box<Diagnost
             }
             "," | "=" | "}" => ifs -= std::mem::take(level).len(),
             // `ground.O` is a point
-            word if DECLARATIONS.contains(&word) && !rest.trim_start().starts_with('.') => {
+            word if is_declaration(word) && !rest.trim_start().starts_with('.') => {
                 levels = vec![Vec::new()];
                 ifs = 0;
             }

@@ -52,7 +52,7 @@ pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
 
 /// A name that no message could hold.
 pub fn long_name(span: Span, longest: usize) -> Diagnostic {
-    Diagnostic::new(Code::E0105, format!("a name has at most {longest} characters"))
+    Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))
         .at(span, "this one is longer")
         .help("choose a shorter name, and say the rest in a `///` comment")
 }

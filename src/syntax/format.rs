@@ -9,7 +9,7 @@
 mod expression;
 
 use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
-pub use expression::{UNITS, expression};
+pub use expression::expression;
 
 /// One level of indentation.
 const INDENT: &str = "    ";

@@ -2,12 +2,8 @@
 
 use super::grammar::Rule;
 use super::tokens::next_token;
-use super::{DECLARATIONS, FEATURES};
 use crate::diag::nearest;
-
-/// Functions that are often written without parentheses.
-const FUNCTIONS: [&str; 12] =
-    ["sin", "cos", "tan", "asin", "acos", "atan", "exp", "ln", "sqrt", "abs", "floor", "angle"];
+use crate::vocabulary::{KEYWORDS, Keyword, is_declaration, is_feature, is_one_argument_function};
 
 /// A fault: where it is, and what would have fitted there.
 pub(super) struct Fault<'a> {
@@ -52,7 +48,7 @@ impl Fault<'_> {
                 "(" | "[" | "{" => opened.push((start, token)),
                 ")" | "]" | "}" => drop(opened.pop()),
                 // no parenthesis reaches into the next declaration, and `ground.O` is a point
-                word if DECLARATIONS.contains(&word) && !rest.starts_with('.') => {
+                word if is_declaration(word) && !rest.starts_with('.') => {
                     opened.retain(|(_, token)| *token == "{");
                 }
                 _ => {}
@@ -63,8 +59,7 @@ impl Fault<'_> {
 
     /// Another place that explains a fault which shows only behind it, and what to say there.
     pub fn reason(&self) -> Option<(usize, &'static str)> {
-        let ends =
-            self.found.is_empty() || self.found == "}" || self.found == "{" || DECLARATIONS.contains(&self.found);
+        let ends = self.found.is_empty() || self.found == "}" || self.found == "{" || is_declaration(self.found);
         let before = self.before();
         match self.opened().last() {
             _ if !ends => None,
@@ -82,7 +77,7 @@ impl Fault<'_> {
     /// Whether a declaration of the mechanism stands where a body's `}` should.
     fn ends_a_body(&self) -> bool {
         let in_a_body = self.expects(Rule::kw_point) || self.expects(Rule::point);
-        in_a_body && DECLARATIONS.contains(&self.found) && !FEATURES.contains(&self.found)
+        in_a_body && is_declaration(self.found) && !is_feature(self.found)
     }
 
     /// What to write instead.
@@ -141,7 +136,7 @@ impl Fault<'_> {
     }
 
     fn of_a_keyword(&self) -> Option<String> {
-        if !DECLARATIONS.contains(&self.found) {
+        if !is_declaration(self.found) {
             return None;
         }
         if self.expects(Rule::name) {
@@ -151,14 +146,14 @@ impl Fault<'_> {
     }
 
     fn of_a_word(&self) -> Option<String> {
-        if DECLARATIONS.contains(&self.found) || self.found.is_empty() {
+        if is_declaration(self.found) || self.found.is_empty() {
             return None;
         }
         if self.found == "if" && self.expects(Rule::number) {
             return Some("inside an operator an `if` needs parentheses".to_owned());
         }
         let connecting = self.connecting_words();
-        let declarations = DECLARATIONS.iter().copied();
+        let declarations = KEYWORDS.iter().filter(|word| word.begins_declaration()).map(|word| word.word.name);
         // `1 evry 0.1`: the word before was taken for a unit
         let meant = nearest(self.found, connecting.iter().copied())
             .or_else(|| nearest(self.word_before(), connecting.iter().copied()))
@@ -170,7 +165,7 @@ impl Fault<'_> {
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
             return None;
         }
-        if FUNCTIONS.contains(&self.word_before()) {
+        if is_one_argument_function(self.word_before()) {
             return Some(format!(
                 "what a function is of stands in parentheses: `{}({})`",
                 self.word_before(),
@@ -191,18 +186,12 @@ impl Fault<'_> {
 
     /// The words that would have gone on.
     fn connecting_words(&self) -> Vec<&'static str> {
-        let words = [
-            (Rule::to, "to"),
-            (Rule::every, "every"),
-            (Rule::from, "from"),
-            (Rule::along, "along"),
-            (Rule::radius, "radius"),
-            (Rule::at, "at"),
-            (Rule::spline, "spline"),
-            (Rule::periodic, "periodic"),
-            (Rule::kw_then, "then"),
-            (Rule::kw_else, "else"),
-        ];
-        words.into_iter().filter(|(rule, _)| self.expects(*rule)).map(|(_, word)| word).collect()
+        let expected = |word: &&Keyword| self.expected.iter().any(|rule| is_rule_of(*rule, word.word.name));
+        KEYWORDS.iter().filter(|word| word.is_joining()).filter(expected).map(|word| word.word.name).collect()
     }
+}
+
+/// Whether a rule of the grammar is that of a word: `to`, or `kw_then`.
+fn is_rule_of(rule: Rule, word: &str) -> bool {
+    format!("{rule:?}").trim_start_matches("kw_") == word
 }

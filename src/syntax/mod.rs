@@ -1,7 +1,7 @@
 //! Text to tree: what was written, with its places, and no meaning. And back: [`format()`].
 //!
-//! The grammar is `grammar/mech.pest`. This room knows words and precedences; it does not know which names exist,
-//! which units there are, or what a joint is.
+//! The grammar is `grammar/mech.pest`; the words in it are those of `vocabulary`. This room knows words and precedences; it
+//! does not know which names exist, or what a joint is.
 
 pub mod ast;
 mod build;
@@ -21,25 +21,3 @@ pub use depth::DEEPEST;
 pub use format::format;
 pub use parse::{Parsed, parse, parse_expression};
 pub use trivia::{Comment, Trivia};
-
-/// Words that begin a declaration, where every formula before them has ended.
-const DECLARATIONS: &[&str] = &[
-    "mechanism",
-    "param",
-    "fn",
-    "table",
-    "ground",
-    "body",
-    "point",
-    "axis",
-    "circle",
-    "curve",
-    "joint",
-    "driver",
-    "constraint",
-    "measure",
-    "analysis",
-];
-
-/// Those of them that stand in a body or the ground.
-const FEATURES: &[&str] = &["point", "axis", "circle", "curve"];

@@ -1,7 +1,7 @@
 //! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
 
 use super::tokens::{Token, tokens};
-use super::{DECLARATIONS, FEATURES};
+use crate::vocabulary::{Keyword, is_declaration, is_feature};
 use rustc_hash::FxHashSet;
 
 /// The words of a text with what they may be the beginning of.
@@ -12,17 +12,13 @@ pub(super) struct Outline<'a> {
     names: Vec<bool>,
 }
 
-/// Words of the language that begin no declaration.
-const WORDS: &[&str] =
-    &["at", "along", "to", "from", "every", "radius", "if", "then", "else", "and", "or", "not", "periodic", "spline"];
-
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
 impl<'a> Outline<'a> {
     pub fn new(text: &'a str) -> Outline<'a> {
         let tokens = tokens(text);
-        let takes_name = |word: &str| DECLARATIONS.contains(&word) && !["ground", "analysis"].contains(&word);
+        let takes_name = |word: &str| is_declaration(word) && !["ground", "analysis"].contains(&word);
         let (mut names, mut is_name) = (Vec::with_capacity(tokens.len()), false);
         let mut before = "";
         for token in &tokens {
@@ -106,7 +102,7 @@ impl<'a> Outline<'a> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
         let head = self.tokens.get(k..end.min(k + 2)).unwrap_or_default();
         // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
-        head.iter().filter(is_name).filter(|token| !DECLARATIONS.contains(&token.text)).copied()
+        head.iter().filter(is_name).filter(|token| !is_declaration(token.text)).copied()
     }
 
     /// Whether a token stands where the name of the declaration before it does.
@@ -116,7 +112,7 @@ impl<'a> Outline<'a> {
 
     /// Whether a token is a keyword that begins a declaration wherever the grammar holds.
     fn is_keyword(&self, k: usize) -> bool {
-        DECLARATIONS.contains(&self.word(k)) && self.word(k + 1) != "."
+        is_declaration(self.word(k)) && self.word(k + 1) != "."
     }
 
     /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
@@ -152,13 +148,13 @@ impl<'a> Outline<'a> {
         if self.word(k + 1) == "." {
             return false;
         }
-        if DECLARATIONS.contains(&self.word(k)) {
+        if is_declaration(self.word(k)) {
             return !self.is_inside(k);
         }
         if self.is_name_of(k) {
             return false;
         }
-        let is_word = |word: &str| word.starts_with(char::is_alphabetic) && !WORDS.contains(&word);
+        let is_word = |word: &str| word.starts_with(char::is_alphabetic) && !is_joining(word);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
         if !is_word(self.word(k)) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
@@ -174,7 +170,7 @@ impl<'a> Outline<'a> {
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.
     pub fn begins_large_declaration(&self, k: usize) -> bool {
         let word = self.word(k);
-        self.begins_declaration(k) && DECLARATIONS.contains(&word) && !FEATURES.contains(&word)
+        self.begins_declaration(k) && is_declaration(word) && !is_feature(word)
     }
 
     /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
@@ -186,6 +182,11 @@ impl<'a> Outline<'a> {
     /// The keyword that stands at a place where a name should.
     pub fn bad_name(&self, byte: usize) -> Option<&'a str> {
         let k = self.index_at(byte);
-        (self.start(k) == byte && DECLARATIONS.contains(&self.word(k)) && self.is_name_of(k)).then(|| self.word(k))
+        (self.start(k) == byte && is_declaration(self.word(k)) && self.is_name_of(k)).then(|| self.word(k))
     }
+}
+
+/// Whether a word of the language stands between the parts of a declaration or formula.
+fn is_joining(word: &str) -> bool {
+    Keyword::named(word).is_some_and(Keyword::is_joining)
 }

@@ -12,6 +12,7 @@ use super::outline::Outline;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
+use crate::vocabulary::is_feature;
 use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
@@ -208,7 +209,7 @@ impl Reading<'_> {
     }
 
     fn is_feature(&self, k: usize) -> bool {
-        super::FEATURES.contains(&self.outline.word(k))
+        is_feature(self.outline.word(k))
     }
 
     /// The features up to the brace that closes their block, or to where it is missing.

@@ -4,11 +4,7 @@
 //! those of the tree itself count for nothing, so that a tree which was never written down prints right as well.
 
 use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
-
-/// The units, which are written behind a number without spaces: `9.81 m/s^2`. A unit that is missing here costs two
-/// spaces in the text, and nothing of its meaning.
-pub const UNITS: &[&str] =
-    &["m", "mm", "cm", "um", "µm", "km", "in", "ft", "rad", "deg", "rev", "s", "ms", "us", "µs", "rpm"];
+use crate::vocabulary::Unit;
 
 /// What binds how tightly, loosest first.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -196,10 +192,10 @@ fn is_quantity(e: &Expr) -> bool {
     matches!(e.bare().kind, ExprKind::Literal { unit: Some(_), .. })
 }
 
-/// `s`, or `s^2`.
+/// `s`, or `s^2`: written behind a number without spaces, as in `9.81 m/s^2`.
 fn is_unit(e: &Expr) -> bool {
     match &e.bare().kind {
-        ExprKind::Name(name) => UNITS.contains(&name.text.as_str()),
+        ExprKind::Name(name) => Unit::named(&name.text).is_some(),
         ExprKind::Power(base, exponent) => {
             matches!(base.bare().kind, ExprKind::Name(_)) && is_unit(base) && exponent.bare_number().is_some()
         }

@@ -1,0 +1,102 @@
+//! The names that stand for the same in every mechanism.
+
+use super::{Category, Example, Word};
+use std::f64::consts::{PI, TAU};
+
+/// A name that is always there.
+#[derive(Debug)]
+pub struct Constant {
+    /// What is told of it.
+    pub word: Word,
+    /// What it stands for.
+    pub stands_for: StandsFor,
+}
+
+/// What a constant stands for.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum StandsFor {
+    /// Time, in seconds.
+    Time,
+    /// A pure number.
+    Number(f64),
+    /// The body that does not move.
+    Ground,
+}
+
+impl StandsFor {
+    /// As a noun.
+    #[must_use]
+    pub fn noun(self) -> &'static str {
+        match self {
+            StandsFor::Time => "time",
+            StandsFor::Number(_) => "a constant",
+            StandsFor::Ground => "the body that does not move",
+        }
+    }
+}
+
+impl Constant {
+    /// The constant of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Constant> {
+        CONSTANTS.iter().find(|constant| constant.word.name == name)
+    }
+
+    /// The names of those that stand in formulas.
+    pub fn in_formulas() -> impl Iterator<Item = &'static str> {
+        CONSTANTS.iter().filter(|one| one.stands_for != StandsFor::Ground).map(|one| one.word.name)
+    }
+}
+
+const fn constant(
+    name: &'static str,
+    stands_for: StandsFor,
+    form: &'static [&'static str],
+    meaning: &'static str,
+    more: &'static str,
+    example: &'static str,
+) -> Constant {
+    let example = Example::Arm(example);
+    Constant {
+        word: Word { name, category: Category::Constant, forms: form, letters: "", meaning, more, example },
+        stands_for,
+    }
+}
+
+/// All of them.
+pub const CONSTANTS: &[Constant] = &[
+    constant(
+        "t",
+        StandsFor::Time,
+        &["t"],
+        "time, in seconds",
+        "It may stand in drivers and measures, and in a `fn` that is used there; a constraint, a place and a length cannot depend \
+         on it.",
+        "driver motor: rotation(main) = 30 deg + 90 deg/s * t",
+    ),
+    constant(
+        "pi",
+        StandsFor::Number(PI),
+        &["pi"],
+        "half a turn, 3.141592653589793",
+        "",
+        "driver motor: rotation(main) = pi / 3 * sin(t)",
+    ),
+    constant(
+        "tau",
+        StandsFor::Number(TAU),
+        &["tau"],
+        "a whole turn, 2π = 6.283185307179586",
+        "",
+        "driver motor: rotation(main) = tau / 4 * sin(t)",
+    ),
+    constant(
+        "ground",
+        StandsFor::Ground,
+        &["ground.P"],
+        "the body that does not move",
+        "It has no coordinates. Its points, axes, circles and curves are declared in `ground { … }`; a literal point `(x, y)` in a \
+         quantity is on it too.",
+        "measure reach = distance(ground.O, arm.tip)",
+    ),
+];

@@ -1,0 +1,344 @@
+//! Keywords, and the words that are such only in their places.
+
+use super::{Category, Example, Word};
+
+/// A word that makes a declaration or a formula.
+#[derive(Debug)]
+pub struct Keyword {
+    /// What is told of it.
+    pub word: Word,
+    /// Where it stands.
+    pub role: Role,
+}
+
+/// Where a keyword stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Role {
+    /// Begins a declaration of a file or mechanism; cannot be a name.
+    Declaration,
+    /// Begins a declaration in a body or the ground; cannot be a name.
+    Feature,
+    /// Joins parts of a formula; cannot be a name.
+    Formula,
+    /// Joins parts of a declaration, where a number may stand before it, whose unit it cannot be; a name elsewhere.
+    Separator,
+    /// Joins parts of a declaration; a name elsewhere.
+    Place,
+    /// An argument of a joint; a name elsewhere.
+    Side,
+}
+
+impl Keyword {
+    /// The keyword of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Keyword> {
+        KEYWORDS.iter().find(|keyword| keyword.word.name == name)
+    }
+
+    /// Whether nothing can have this name.
+    #[must_use]
+    pub fn is_reserved(&self) -> bool {
+        matches!(self.role, Role::Declaration | Role::Feature | Role::Formula)
+    }
+
+    /// Whether it stands between the parts of a declaration or formula.
+    #[must_use]
+    pub fn is_joining(&self) -> bool {
+        matches!(self.role, Role::Formula | Role::Separator | Role::Place)
+    }
+
+    /// Whether it begins a declaration, where every formula before it has ended.
+    #[must_use]
+    pub fn begins_declaration(&self) -> bool {
+        matches!(self.role, Role::Declaration | Role::Feature)
+    }
+}
+
+/// Whether a word begins a declaration.
+#[must_use]
+pub fn is_declaration(word: &str) -> bool {
+    Keyword::named(word).is_some_and(Keyword::begins_declaration)
+}
+
+/// Whether a word begins a declaration in a body or the ground.
+#[must_use]
+pub fn is_feature(word: &str) -> bool {
+    Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Feature)
+}
+
+const fn keyword(
+    role: Role,
+    name: &'static str,
+    form: &'static [&'static str],
+    meaning: &'static str,
+    more: &'static str,
+    example: &'static str,
+) -> Keyword {
+    let word = Word {
+        name,
+        category: Category::Keyword,
+        forms: form,
+        letters: "",
+        meaning,
+        more,
+        example: Example::Arm(example),
+    };
+    Keyword { word, role }
+}
+
+/// All of them, in the order of the grammar.
+pub const KEYWORDS: &[Keyword] = &[
+    keyword(
+        Role::Declaration,
+        "mechanism",
+        &["mechanism NAME { … }"],
+        "a mechanism: bodies, joints, drivers and what is to be known of them",
+        "A file holds one or more, of different names. The declarations inside may stand in any order.",
+        "",
+    ),
+    keyword(
+        Role::Declaration,
+        "param",
+        &["param NAME = FORMULA"],
+        "a constant that has a name",
+        "Over other params, functions and tables, without `t`. It may be set from outside: `--set reach=60mm`.",
+        "param reach = 80 mm\nmeasure beyond = x(arm.tip) - reach",
+    ),
+    keyword(
+        Role::Declaration,
+        "fn",
+        &["fn NAME(u) = FORMULA"],
+        "a function of one argument",
+        "Over its argument, `t`, params, other functions and tables, but not itself, and without kinematic quantities.",
+        "fn swing(u) = 30 deg * sin(u)^2\ndriver motor: rotation(main) = swing(2 rad/s * t)",
+    ),
+    keyword(
+        Role::Declaration,
+        "table",
+        &[
+            "table NAME = spline [(u0, v0), (u1, v1), …]",
+            "table NAME = periodic spline […]",
+            "table NAME = spline \"FILE.csv\" (UNIT, UNIT)",
+        ],
+        "a curve through points, called as a function is",
+        "The natural cubic spline; its arguments rise, and what lies outside of them is an error at the time when it happens. With \
+         `periodic` it repeats, and its last row has the value of the first, one period on.",
+        "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+    ),
+    keyword(
+        Role::Declaration,
+        "ground",
+        &["ground { … }"],
+        "the body that does not move, with its points, axes, circles and curves",
+        "It has no coordinates; a mechanism has one. Its features are `ground.P`.",
+        "measure reach = distance(ground.O, arm.tip)",
+    ),
+    keyword(
+        Role::Declaration,
+        "body",
+        &["body NAME { … }", "body NAME at (x, y, phi) { … }"],
+        "a rigid body, with its points, axes, circles and curves",
+        "It has three coordinates: the place of its frame's origin, and its angle. The pose behind `at` is where the assembly begins \
+         to look for it, `(0, 0, 0)` if it is not given; the features inside are in the body's own frame.",
+        "measure reach = x(arm.tip)",
+    ),
+    keyword(
+        Role::Feature,
+        "point",
+        &["point P = (x, y)"],
+        "a point of a body or the ground",
+        "Two lengths, in the frame of the body.",
+        "measure height = y(arm.tip)",
+    ),
+    keyword(
+        Role::Feature,
+        "axis",
+        &["axis a = P along (dx, dy)", "axis a = P to Q"],
+        "a directed line of a body or the ground",
+        "P and Q are points of the body, or literal; only the direction of `(dx, dy)` counts.",
+        "body slide at (200 mm, 0, 0) {\n    axis way = (0, 0) along (1, 0)\n}\njoint guide: translational(arm.way, slide.way)\n\
+         driver out: displacement(guide) = 200 mm + 10 mm/s * t",
+    ),
+    keyword(
+        Role::Feature,
+        "circle",
+        &["circle c = P radius r"],
+        "a circle of a body or the ground: a gear's pitch circle, a roller, an eccentric",
+        "P is a point of the body, or literal; the radius is positive.",
+        "",
+    ),
+    keyword(
+        Role::Feature,
+        "curve",
+        &["curve k(u) = (x, y)", "curve k(u) = (x, y) at ESTIMATE"],
+        "a profile of a body or the ground",
+        "x and y are lengths over the pure number u. The estimate is where on the curve the contact is looked for first; without it, \
+         the best of one turn, −π to π.",
+        "",
+    ),
+    keyword(
+        Role::Declaration,
+        "joint",
+        &["joint NAME: KIND(…)"],
+        "what two bodies are joined by",
+        "It brings equations, and its kind says which: `mechc explain joints`.",
+        "measure turned = rotation(main)",
+    ),
+    keyword(
+        Role::Declaration,
+        "driver",
+        &["driver NAME: FORMULA = FORMULA"],
+        "an equation that holds time: what a motor or actuator prescribes",
+        "Between kinematic quantities on one side, mostly, and a formula of `t` on the other. Each takes one degree of freedom.",
+        "driver motor: rotation(main) = 60 rpm * t + 30 deg",
+    ),
+    keyword(
+        Role::Declaration,
+        "constraint",
+        &["constraint NAME: FORMULA = FORMULA"],
+        "an equation between kinematic quantities that always holds",
+        "Time may not stand in it: that is a `driver`. Each takes one degree of freedom.",
+        "body hand at (100 mm, 0, 0) {\n    point O = (0, 0)\n}\njoint wrist: revolute(arm.tip, hand.O)\n\
+         constraint level: angle(hand) = 0",
+    ),
+    keyword(
+        Role::Declaration,
+        "measure",
+        &["measure NAME = FORMULA"],
+        "a number that is printed for every time, with its first two derivatives",
+        "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`.",
+        "measure height = y(arm.tip)\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))",
+    ),
+    keyword(
+        Role::Declaration,
+        "analysis",
+        &["analysis from A to B every H"],
+        "the times for which `mechc run` prints rows",
+        "Three times; `--from --to --every` on the command line stand over it.",
+        "analysis from 0 s to 2 s every 10 ms",
+    ),
+    keyword(
+        Role::Formula,
+        "if",
+        &["if CONDITION then A else B"],
+        "one formula or another",
+        "Both have the same dimension. Inside an operator it needs parentheses: `2 * (if t < 1 s then 0 else 1)`. Where a formula of \
+         time jumps there is no motion; where its slope jumps no acceleration.",
+        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+    ),
+    keyword(
+        Role::Formula,
+        "then",
+        &["if CONDITION then A else B"],
+        "stands before what counts if the condition holds",
+        "",
+        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+    ),
+    keyword(
+        Role::Formula,
+        "else",
+        &["if CONDITION then A else B", "if CONDITION then A else if CONDITION then B else C"],
+        "stands before what counts if the condition does not hold",
+        "",
+        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+    ),
+    keyword(
+        Role::Formula,
+        "and",
+        &["CONDITION and CONDITION"],
+        "whether both conditions hold",
+        "Between `if` and `then`. It binds tighter than `or`.",
+        "measure inside = if x(arm.tip) > 0 and y(arm.tip) > 0 then 1 else 0",
+    ),
+    keyword(
+        Role::Formula,
+        "or",
+        &["CONDITION or CONDITION"],
+        "whether one of two conditions holds",
+        "Between `if` and `then`.",
+        "measure outside = if x(arm.tip) < 0 or y(arm.tip) < 0 then 1 else 0",
+    ),
+    keyword(
+        Role::Formula,
+        "not",
+        &["not CONDITION"],
+        "whether a condition does not hold",
+        "Between `if` and `then`.",
+        "measure outside = if not (x(arm.tip) > 0 and y(arm.tip) > 0) then 1 else 0",
+    ),
+    keyword(
+        Role::Separator,
+        "to",
+        &["axis a = P to Q", "analysis from A to B every H"],
+        "stands before the second point of an axis, and the last time of an analysis",
+        "",
+        "analysis from 0 s to 2 s every 10 ms",
+    ),
+    keyword(
+        Role::Separator,
+        "every",
+        &["analysis from A to B every H"],
+        "stands before the time from one row to the next",
+        "It is positive.",
+        "analysis from 0 s to 2 s every 10 ms",
+    ),
+    keyword(
+        Role::Separator,
+        "along",
+        &["along (dx, dy)"],
+        "stands before the direction of an axis",
+        "Its length does not count.",
+        "",
+    ),
+    keyword(
+        Role::Separator,
+        "at",
+        &["at (x, y, phi)"],
+        "stands before the pose of a body, or the estimate of a curve's argument",
+        "The pose of `body NAME at (x, y, phi)` is two lengths and an angle: where the assembly begins to look for the body. Gears \
+         and racks mesh as they stand there.",
+        "",
+    ),
+    keyword(Role::Separator, "radius", &["circle c = P radius r"], "stands before the radius of a circle", "", ""),
+    keyword(
+        Role::Separator,
+        "from",
+        &["analysis from A to B every H"],
+        "stands before the first time of an analysis",
+        "",
+        "analysis from 0 s to 2 s every 10 ms",
+    ),
+    keyword(
+        Role::Place,
+        "spline",
+        &["table NAME = spline [(u0, v0), (u1, v1), …]", "table NAME = spline \"FILE.csv\" (UNIT, UNIT)"],
+        "stands before the rows or the file of a table",
+        "",
+        "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+    ),
+    keyword(
+        Role::Place,
+        "periodic",
+        &["table NAME = periodic spline [(u0, v0), (u1, v1), …]"],
+        "a table that repeats",
+        "Its last row has the value of the first, one period on.",
+        "table swing = periodic spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 0 deg)]\n\
+         driver motor: rotation(main) = swing(t)",
+    ),
+    keyword(
+        Role::Side,
+        "left",
+        &["rack_pinion(c, a, phase, left)"],
+        "the pinion lies to the left of the axis, seen along it",
+        "",
+        "",
+    ),
+    keyword(
+        Role::Side,
+        "right",
+        &["rack_pinion(c, a, phase, right)"],
+        "the pinion lies to the right of the axis, seen along it",
+        "",
+        "",
+    ),
+];

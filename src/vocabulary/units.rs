@@ -1,0 +1,160 @@
+//! The units of the language.
+
+use super::{Category, Dimension, Example, Word};
+use std::f64::consts::{PI, TAU};
+
+/// A unit: `numerator / denominator · factor` in SI, so that `50 mm` is 50/1000 m rounded once, and `90 deg` half of π.
+#[derive(Debug)]
+pub struct Unit {
+    /// What is told of it.
+    pub word: Word,
+    numerator: f64,
+    denominator: f64,
+    factor: f64,
+    /// Of a quantity in this unit.
+    pub dimension: Dimension,
+}
+
+const fn word(name: &'static str, form: &'static [&'static str], meaning: &'static str, example: &'static str) -> Word {
+    Word { name, category: Category::Unit, forms: form, letters: "", meaning, more: "", example: Example::Arm(example) }
+}
+
+const fn length(
+    name: &'static str,
+    form: &'static [&'static str],
+    meaning: &'static str,
+    numerator: f64,
+    denominator: f64,
+    example: &'static str,
+) -> Unit {
+    let dimension = Dimension::LENGTH;
+    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension }
+}
+
+const fn time(
+    name: &'static str,
+    form: &'static [&'static str],
+    meaning: &'static str,
+    denominator: f64,
+    example: &'static str,
+) -> Unit {
+    let dimension = Dimension::TIME;
+    Unit { word: word(name, form, meaning, example), numerator: 1.0, denominator, factor: 1.0, dimension }
+}
+
+/// A unit of angle or rate: so many of `factor` in each `denominator`.
+const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
+    Unit { word, numerator: 1.0, denominator, factor, dimension }
+}
+
+/// All of them.
+pub const UNITS: &[Unit] = &[
+    length("m", &["1.5 m"], "the metre", 1.0, 1.0, "measure beyond = x(arm.tip) - 0.05 m"),
+    length("mm", &["50 mm"], "the millimetre", 1.0, 1e3, "measure beyond = x(arm.tip) - 50 mm"),
+    length("cm", &["5 cm"], "the centimetre", 1.0, 1e2, "measure beyond = x(arm.tip) - 5 cm"),
+    length("um", &["20 um"], "the micrometre", 1.0, 1e6, "measure beyond = x(arm.tip) - 500 um"),
+    length(
+        "µm",
+        &["20 µm"],
+        "the micrometre; with the Greek letter or the micro sign, and also `um`",
+        1.0,
+        1e6,
+        "measure beyond = x(arm.tip) - 500 µm",
+    ),
+    length("km", &["2 km"], "the kilometre", 1e3, 1.0, "measure beyond = x(arm.tip) - 0.001 km"),
+    length("in", &["2 in"], "the inch, 25.4 mm", 254.0, 1e4, "measure beyond = x(arm.tip) - 2 in"),
+    length("ft", &["3 ft"], "the foot, 12 inches", 3048.0, 1e4, "measure beyond = x(arm.tip) - 0.1 ft"),
+    turning(
+        word("rad", &["2 rad"], "the radian, which is the pure number 1", "driver motor: rotation(main) = 2 rad/s * t"),
+        1.0,
+        1.0,
+        Dimension::PURE,
+    ),
+    turning(
+        word(
+            "deg",
+            &["30 deg"],
+            "the degree, π/180: an angle is a pure number",
+            "driver motor: rotation(main) = 30 deg + 90 deg/s * t",
+        ),
+        PI,
+        180.0,
+        Dimension::PURE,
+    ),
+    turning(
+        word(
+            "rev",
+            &["0.5 rev"],
+            "the revolution, 2π: an angle is a pure number",
+            "driver motor: rotation(main) = 0.5 rev/s * t",
+        ),
+        TAU,
+        1.0,
+        Dimension::PURE,
+    ),
+    time("s", &["2 s"], "the second", 1.0, "analysis from 0 s to 2 s every 0.01 s"),
+    time("ms", &["10 ms"], "the millisecond", 1e3, "analysis from 0 s to 2 s every 10 ms"),
+    time("us", &["200 us"], "the microsecond", 1e6, "analysis from 0 s to 2 s every 200 us"),
+    time(
+        "µs",
+        &["200 µs"],
+        "the microsecond; with the Greek letter or the micro sign, and also `us`",
+        1e6,
+        "analysis from 0 s to 2 s every 200 µs",
+    ),
+    turning(
+        word(
+            "rpm",
+            &["60 rpm"],
+            "the revolution per minute, 2π/60 per second",
+            "driver motor: rotation(main) = 60 rpm * t",
+        ),
+        TAU,
+        60.0,
+        Dimension::RATE,
+    ),
+];
+
+impl Unit {
+    /// The unit of a name; the Greek letter mu serves for the micro sign.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static Unit> {
+        let name = name.replace('μ', "µ");
+        UNITS.iter().find(|unit| unit.word.name == name)
+    }
+
+    /// All names.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        UNITS.iter().map(|unit| unit.word.name)
+    }
+
+    /// `value` in this unit to a power, in SI.
+    #[must_use]
+    pub fn to_si(&self, value: f64, power: i32) -> f64 {
+        (0..power.abs()).fold(value, |v, _| {
+            if power > 0 {
+                v * self.numerator / self.denominator * self.factor
+            } else {
+                v * self.denominator / self.numerator / self.factor
+            }
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Unit;
+
+    #[test]
+    #[allow(clippy::float_cmp)] // to the bit
+    fn conversions_round_once() {
+        let si = |value, unit: &str, power| Unit::named(unit).unwrap().to_si(value, power);
+        assert_eq!(si(50.0, "mm", 1), 0.05);
+        assert_eq!(si(50.0, "mm", 2), 50e-6);
+        assert_eq!(si(1.0, "in", 1), 0.0254);
+        assert_eq!(si(180.0, "deg", 1), std::f64::consts::PI);
+        assert_eq!(si(60.0, "rpm", 1), std::f64::consts::TAU);
+        assert_eq!(si(30.0, "s", -1), 30.0);
+        assert_eq!(si(7.0, "μm", 1), 7e-6, "the Greek letter serves too");
+    }
+}
