@@ -26,7 +26,7 @@ impl Checker<'_> {
         if is_called(&name.text) {
             return self.builtin(e, name, arguments, context);
         }
-        match self.space.get(&name.text).filter(|_| context.names) {
+        match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {
                     self.report(errors::argument_count(&name.text, None, e.span, "one argument", arguments.len()));

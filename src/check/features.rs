@@ -16,6 +16,8 @@ pub(super) enum Feature {
     Axis(Option<AxisId>),
     Circle(Option<CircleId>),
     Curve(Option<CurveId>),
+    /// Its declaration does not follow the grammar, which has been said.
+    Broken,
 }
 
 impl Feature {
@@ -25,6 +27,7 @@ impl Feature {
             Feature::Axis(_) => "an axis",
             Feature::Circle(_) => "a circle",
             Feature::Curve(_) => "a curve",
+            Feature::Broken => "a feature that cannot be read",
         }
     }
 }
@@ -76,7 +79,13 @@ impl Checker<'_> {
                 FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
                 FeatureKind::Circle { .. } => Feature::Circle(None),
                 FeatureKind::Curve { .. } => Feature::Curve(None),
-                FeatureKind::Broken => continue,
+                FeatureKind::Broken if feature.name.text.is_empty() => {
+                    if let Some(space) = self.features.get_mut(&frame) {
+                        space.declare_nameless();
+                    }
+                    continue;
+                }
+                FeatureKind::Broken => Feature::Broken,
             };
             let first = self.features.get_mut(&frame).and_then(|space| space.declare(&feature.name, entity).err());
             if let Some(first) = first {
@@ -289,13 +298,14 @@ impl Checker<'_> {
 
     /// A name alone where `body.feature` is wanted.
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
+        let Ok(entity) = self.resolve(name) else { return };
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
         let owners: Vec<String> = std::iter::once(Frame::Ground)
             .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
             .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
             .collect();
-        let help = match (owners.is_empty(), self.space.get(&name.text)) {
+        let help = match (owners.is_empty(), entity) {
             (false, _) => format!("was {} meant?", owners.join(" or ")),
             (true, Some(Entity::Body(_))) => format!("name one of its features: `{}.…`", name.text),
             _ => format!("outside a body {wanted} is written `body.{}`", name.text),
@@ -315,8 +325,11 @@ impl Checker<'_> {
         wanted: impl Fn(Feature) -> bool,
     ) -> Option<Feature> {
         let space = self.features.get(&frame)?;
-        if let Some(feature) = space.get(&name.text) {
-            return Some(feature);
+        match space.get(&name.text) {
+            Some(Feature::Broken) => return None,
+            None if space.is_incomplete() => return None,
+            None => {}
+            known => return known,
         }
         let known = self.suggestions_in(space, wanted);
         let diagnostic = errors::unknown_feature(what, self.model.frame_name(frame), name, &known);
@@ -326,7 +339,7 @@ impl Checker<'_> {
 
     /// What `owner.feature` is, for a message.
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
-        let frame = match self.space.get(&owner.text) {
+        let frame = match self.entity(owner) {
             _ if owner.text == "ground" => Frame::Ground,
             Some(Entity::Body(k)) if k < self.bodies.len() => Frame::Body(self.bodies[k]),
             _ => return "a feature of a body".to_owned(),

@@ -113,7 +113,7 @@ impl Checker<'_> {
         if let Some(unit) = Unit::named(&name.text) {
             return !unit.dimension.is(Dimension::PURE);
         }
-        match self.space.get(&name.text) {
+        match self.entity(name) {
             Some(Entity::Param(k)) => {
                 matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
             }
@@ -129,7 +129,7 @@ impl Checker<'_> {
         match &formula.bare().kind {
             ExprKind::Literal { value, unit: None } => *value == 0.0,
             ExprKind::Negate(e) => self.is_zero(e),
-            ExprKind::Name(name) => match self.space.get(&name.text) {
+            ExprKind::Name(name) => match self.entity(name) {
                 Some(Entity::Param(k)) => {
                     matches!(self.params[k], Some(Value { dim: Dim::Any, .. }))
                 }
@@ -207,8 +207,7 @@ impl Checker<'_> {
         };
         let Some(unit) = Unit::named(&name.text) else {
             let is_argument = context.argument.is_some_and(|(argument, _)| argument == name.text);
-            let is_a_name =
-                is_argument || Constant::named(&name.text).is_some() || self.space.get(&name.text).is_some();
+            let is_a_name = is_argument || Constant::named(&name.text).is_some() || self.entity(name).is_some();
             self.report(errors::not_a_unit(
                 name,
                 self.sources.text(e.span).trim_end_matches(name.text.as_str()).trim_end(),
@@ -246,7 +245,7 @@ impl Checker<'_> {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));
             return Some(Value { id, dim: Dim::Of(unit.dimension) });
         }
-        match self.space.get(&name.text).filter(|_| context.names) {
+        match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(k)) => self.params[k],
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) => {

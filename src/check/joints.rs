@@ -156,7 +156,7 @@ impl Checker<'_> {
     fn phase(&mut self, e: &Expr) -> Option<ExprId> {
         if let ExprKind::Name(name) = &e.bare().kind
             && side_named(&name.text).is_some()
-            && self.space.get(&name.text).is_none()
+            && self.entity(name).is_none()
         {
             self.report(errors::side_without_phase(&name.text, e.span));
             return None;

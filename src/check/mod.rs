@@ -76,8 +76,19 @@ pub fn check(
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.sort_by_place();
-    let sound = !diagnostics.has_errors();
+    let sound = !diagnostics.has_errors() && !has_broken(tree);
     (sound.then_some(model), diagnostics)
+}
+
+/// Whether a declaration of a mechanism, or of its bodies, does not follow the grammar.
+fn has_broken(tree: &ast::Mechanism) -> bool {
+    tree.items.iter().any(|item| match &item.kind {
+        ItemKind::Broken { .. } => true,
+        ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
+            features.iter().any(|feature| feature.kind == ast::FeatureKind::Broken)
+        }
+        _ => false,
+    })
 }
 
 /// The value in SI of a formula that names nothing of any file: a time of the command line.
@@ -226,7 +237,7 @@ impl<'a> Checker<'a> {
         self.measures(&measures);
         self.equations();
         self.analysis();
-        if self.bodies.is_empty() {
+        if self.bodies.is_empty() && !has_broken(self.tree) {
             self.report(errors::empty(&self.tree.name));
         }
     }
@@ -256,8 +267,7 @@ impl<'a> Checker<'a> {
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
     /// and functions looked over; returns the measures' order.
     fn definitions(&mut self) -> Vec<usize> {
-        let mut definitions = Vec::new();
-        let mut entities = Vec::new();
+        let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
             match &item.kind {
                 ItemKind::Param { name, value } => {
@@ -287,15 +297,18 @@ impl<'a> Checker<'a> {
                     let periodic = *periodic;
                     self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
                 }
-                _ => {}
+                _ => continue,
             }
+            docs.push(&item.docs);
         }
         let uses = self.uses(&definitions, &entities);
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
-                Entity::Param(k) => self.params[k] = formulas.first().and_then(|value| self.param(name, value)),
+                Entity::Param(k) => {
+                    self.params[k] = formulas.first().and_then(|value| self.param(name, docs[at], value));
+                }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
                 Entity::Measure(k) => {
@@ -330,7 +343,7 @@ impl<'a> Checker<'a> {
                 for formula in formulas {
                     mentioned(formula, |used| {
                         let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                        let entity = self.space.get(&used.text).filter(|_| !hidden);
+                        let entity = self.entity(used).filter(|_| !hidden);
                         if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                             uses.push((at, used.span));
                         }
@@ -342,7 +355,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A parameter: one that depends on no other becomes a symbol, another one its formula.
-    fn param(&mut self, name: &Name, formula: &Expr) -> Option<Value> {
+    fn param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Value> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
         let settings = self.settings;
@@ -370,7 +383,7 @@ impl<'a> Checker<'a> {
         let index = self.model.params.len() as u32;
         self.model.params.push(Param {
             declared: declared(name),
-            docs: self.docs_of(name),
+            docs: docs.to_vec(),
             value: number,
             dimension: match value.dim {
                 Dim::Of(dimension) => dimension,
@@ -389,13 +402,6 @@ impl<'a> Checker<'a> {
             _ => Dim::Of(Dimension::PURE),
         };
         Some(Value { dim, ..value })
-    }
-
-    fn docs_of(&self, name: &Name) -> Vec<String> {
-        self.items()
-            .iter()
-            .find(|item| item.span.start <= name.span.start && name.span.end <= item.span.end)
-            .map_or_else(Vec::new, |item| item.docs.clone())
     }
 
     /// Reads a function's formula once on its own, so that its mistakes are found even if nobody calls it.
@@ -422,7 +428,7 @@ impl<'a> Checker<'a> {
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
         mentioned(formula, |name| {
-            let through_a_call = match self.space.get(&name.text) {
+            let through_a_call = match self.entity(name) {
                 Some(Entity::Function(k)) => self.functions[k].time.is_some(),
                 _ => false,
             };

@@ -16,6 +16,8 @@ pub(super) enum Entity {
     Joint(usize),
     Equation,
     Measure(usize),
+    /// Its declaration does not follow the grammar, which has been said.
+    Broken,
 }
 
 impl Entity {
@@ -29,20 +31,27 @@ impl Entity {
             Entity::Joint(_) => "a joint",
             Entity::Equation => "a constraint or driver",
             Entity::Measure(_) => "a measure",
+            Entity::Broken => "a declaration that cannot be read",
         }
     }
 }
+
+/// The name may be that of a declaration that cannot be read, which has been said.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Unread;
 
 /// One space of names.
 #[derive(Clone, Debug)]
 pub(super) struct Space<T> {
     entries: FxHashMap<String, (T, Span)>,
     order: Vec<String>,
+    /// Whether something is declared in it whose name cannot be told.
+    is_incomplete: bool,
 }
 
 impl<T: Copy> Space<T> {
     pub fn new() -> Space<T> {
-        Space { entries: FxHashMap::default(), order: Vec::new() }
+        Space { entries: FxHashMap::default(), order: Vec::new(), is_incomplete: false }
     }
 
     /// Declares a name, or gives the place where it already is.
@@ -55,6 +64,16 @@ impl<T: Copy> Space<T> {
         Ok(())
     }
 
+    /// Takes in that something is declared whose name cannot be told.
+    pub fn declare_nameless(&mut self) {
+        self.is_incomplete = true;
+    }
+
+    /// Whether a name that is not declared may be the one that cannot be told.
+    pub fn is_incomplete(&self) -> bool {
+        self.is_incomplete
+    }
+
     /// Gives a declared name another meaning.
     pub fn replace(&mut self, name: &str, entity: T) {
         if let Some(entry) = self.entries.get_mut(name) {
@@ -62,6 +81,7 @@ impl<T: Copy> Space<T> {
         }
     }
 
+    /// What a name stands for, if it is declared.
     pub fn get(&self, name: &str) -> Option<T> {
         self.entries.get(name).map(|&(entity, _)| entity)
     }
@@ -94,7 +114,11 @@ impl Checker<'_> {
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
-                ItemKind::Ground { .. } | ItemKind::Analysis { .. } | ItemKind::Broken { .. } => continue,
+                ItemKind::Broken { names, .. } => {
+                    self.collect_broken(names);
+                    continue;
+                }
+                ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             if is_taken(&name.text) || callable && is_called(&name.text) {
@@ -119,6 +143,33 @@ impl Checker<'_> {
             }
         }
         self.only_once(mechanism);
+    }
+
+    /// What cannot be read has its names all the same, so that nobody asks where they are.
+    fn collect_broken(&mut self, names: &[Name]) {
+        if names.is_empty() {
+            self.space.declare_nameless();
+        }
+        for name in names {
+            // a name that is taken twice keeps its first meaning
+            let _ = self.space.declare(name, Entity::Broken);
+        }
+    }
+
+    /// What a name of the mechanism's space stands for; `None` where nothing of that name is declared.
+    ///
+    /// Every name of a formula or reference that is told of goes through here.
+    pub(super) fn resolve(&self, name: &Name) -> Result<Option<Entity>, Unread> {
+        match self.space.get(&name.text) {
+            Some(Entity::Broken) => Err(Unread),
+            None if self.space.is_incomplete() => Err(Unread),
+            known => Ok(known),
+        }
+    }
+
+    /// As [`Checker::resolve`], where nothing is said of a name that is not declared.
+    pub(super) fn entity(&self, name: &Name) -> Option<Entity> {
+        self.resolve(name).ok().flatten()
     }
 
     /// The argument of a function or curve may not be a name of the mechanism's space.

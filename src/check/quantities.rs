@@ -106,7 +106,7 @@ impl Checker<'_> {
             self.report(errors::wrong_kind(e.span, "a joint", found));
             return None;
         };
-        let joint = match self.space.get(&name.text) {
+        let joint = match self.resolve(name).ok()? {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
                 self.report(errors::wrong_kind(name.span, "a joint", entity.noun()));
@@ -134,8 +134,10 @@ impl Checker<'_> {
 
     /// A body of that name, or the ground.
     pub(super) fn body(&mut self, name: &Name) -> Option<Frame> {
-        match self.space.get(&name.text) {
-            _ if name.text == "ground" => Some(Frame::Ground),
+        if name.text == "ground" {
+            return Some(Frame::Ground);
+        }
+        match self.resolve(name).ok()? {
             Some(Entity::Body(k)) => Some(Frame::Body(self.bodies[k])),
             Some(entity) => {
                 self.report(errors::wrong_kind(name.span, "a body", entity.noun()));
@@ -165,7 +167,7 @@ impl Checker<'_> {
 
     /// What a name in the place of a feature stands for.
     pub(super) fn describe_name(&self, name: &Name) -> &'static str {
-        self.space.get(&name.text).map_or("a name", Entity::noun)
+        self.entity(name).map_or("a name", Entity::noun)
     }
 
     /// Every frame that a quantity speaks of.

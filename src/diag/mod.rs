@@ -5,10 +5,12 @@
 //! mechanisms.
 
 mod codes;
+mod fix;
 mod nearest;
 mod render;
 
 pub use codes::Code;
+pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use render::{Color, Format, render};
 
@@ -51,6 +53,8 @@ pub struct Diagnostic {
     pub notes: Vec<String>,
     /// What to write instead.
     pub help: Vec<String>,
+    /// The changes of the text that the help proposes.
+    pub fixes: Vec<Fix>,
     /// The numbers of the message, for other programs.
     pub data: Map<String, Value>,
 }
@@ -65,6 +69,7 @@ impl Diagnostic {
             labels: Vec::new(),
             notes: Vec::new(),
             help: Vec::new(),
+            fixes: Vec::new(),
             data: Map::new(),
         }
     }
@@ -112,6 +117,23 @@ impl Diagnostic {
     pub fn help_if(self, text: Option<String>) -> Diagnostic {
         match text {
             Some(text) => self.help(text),
+            None => self,
+        }
+    }
+
+    /// What to write instead, in words and as the change of the text that they propose.
+    #[must_use]
+    pub fn fix(mut self, fix: Fix) -> Diagnostic {
+        self.help.push(fix.message.clone());
+        self.fixes.push(fix);
+        self
+    }
+
+    /// The fix, where there is one.
+    #[must_use]
+    pub fn fix_if(self, fix: Option<Fix>) -> Diagnostic {
+        match fix {
+            Some(fix) => self.fix(fix),
             None => self,
         }
     }

@@ -2,7 +2,7 @@
 //!
 //! The only file that knows the rendering library.
 
-use super::{Diagnostic, Label, Severity};
+use super::{Diagnostic, Fix, Label, Severity};
 use crate::source::{FileId, Source, Sources, Span};
 use codespan_reporting::diagnostic as rich;
 use codespan_reporting::files::{Error, Files};
@@ -147,6 +147,7 @@ fn as_json(diagnostic: &Diagnostic, sources: &Sources) -> Value {
             })
         })
         .collect();
+    let fixes: Vec<Value> = diagnostic.fixes.iter().map(|fix| fix_as_json(fix, sources)).collect();
     json!({
         "code": diagnostic.code.as_str(),
         "severity": diagnostic.severity().as_str(),
@@ -154,8 +155,26 @@ fn as_json(diagnostic: &Diagnostic, sources: &Sources) -> Value {
         "labels": labels,
         "notes": diagnostic.notes,
         "help": diagnostic.help,
+        "fixes": fixes,
         "data": diagnostic.data,
     })
+}
+
+fn fix_as_json(fix: &Fix, sources: &Sources) -> Value {
+    let edits: Vec<Value> = fix
+        .edits
+        .iter()
+        .map(|edit| {
+            let source = sources.get(edit.span.file);
+            json!({
+                "file": source.name,
+                "start": json_position(source, edit.span.start),
+                "end": json_position(source, edit.span.end),
+                "text": edit.text,
+            })
+        })
+        .collect();
+    json!({ "message": fix.message, "applies": fix.applies.as_str(), "edits": edits })
 }
 
 fn json_position(source: &Source, offset: u32) -> Value {

@@ -117,8 +117,6 @@ pub enum ItemKind {
     Broken {
         /// The names that it may have declared.
         names: Vec<Name>,
-        /// The features in its block, where it is that of a body or of the ground.
-        features: Vec<Feature>,
     },
     /// `analysis from A to B every H`
     Analysis {

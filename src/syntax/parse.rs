@@ -4,6 +4,8 @@
 //! ([`Outline`]). So a text that follows the grammar is read as the grammar has it, and of any other one everything is read that
 //! does.
 
+#![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
+
 use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name};
 use super::build::{Built, Piece, Reader, docs_above, normalized};
 use super::errors;
@@ -190,7 +192,7 @@ impl Reading<'_> {
                 }
                 None => {
                     self.at = self.outline.resumption(first).max(first + 1);
-                    items.push(self.broken(first, Vec::new()));
+                    items.push(self.broken(first));
                     return;
                 }
             }
@@ -199,11 +201,20 @@ impl Reading<'_> {
         let mut misplaced = Vec::new();
         let features = self.features(&mut misplaced);
         let span = self.span(start..self.outline.end_before(self.at));
-        let kind = match head {
-            Ok(None) => ItemKind::Ground { features },
-            Ok(Some((name, pose))) => ItemKind::Body { name, pose, features },
-            Err(_) => ItemKind::Broken { names: self.names_of(first, behind_head), features },
+        // a body whose head is at fault is a body all the same, if it has a name
+        let named = |(name, pose)| ItemKind::Body { name, pose, features: Vec::new() };
+        let mut kind = match head {
+            Ok(Some(head)) => named(head),
+            Ok(None) => ItemKind::Ground { features: Vec::new() },
+            Err(_) if rule == Rule::ground_head => ItemKind::Ground { features: Vec::new() },
+            Err(_) => match self.names_of(first, behind_head).pop() {
+                Some(name) => named((name, None)),
+                None => ItemKind::Broken { names: Vec::new() },
+            },
         };
+        if let ItemKind::Body { features: own, .. } | ItemKind::Ground { features: own } = &mut kind {
+            *own = features;
+        }
         items.push(Item { docs: docs_above(&self.source.text, start), span, kind });
         items.append(&mut misplaced);
     }
@@ -267,7 +278,7 @@ impl Reading<'_> {
             }
             Err(fault) => {
                 self.skip(fault);
-                self.broken(first, Vec::new())
+                self.broken(first)
             }
         }
     }
@@ -373,10 +384,10 @@ impl Reading<'_> {
     }
 
     /// What was read from a token up to here, as broken.
-    fn broken(&self, first: usize, features: Vec<Feature>) -> Item {
+    fn broken(&self, first: usize) -> Item {
         let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
         let docs = docs_above(&self.source.text, span.start as usize);
-        Item { docs, span, kind: ItemKind::Broken { names: self.names_of(first, self.at), features } }
+        Item { docs, span, kind: ItemKind::Broken { names: self.names_of(first, self.at) } }
     }
 
     fn names_of(&self, first: usize, end: usize) -> Vec<Name> {
@@ -398,12 +409,12 @@ fn fault_at(fault: &Diagnostic) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::super::grammar::{Grammar, Rule};
-    use super::super::tokens::tokens;
     use super::parse;
     use crate::diag::Code;
     use crate::source::Sources;
     use crate::syntax::ast::{FeatureKind, ItemKind};
+    use crate::syntax::grammar::{Grammar, Rule};
+    use crate::syntax::tokens::tokens;
     use pest::Parser;
 
     fn parsed(text: &str) -> super::Parsed {
@@ -461,7 +472,9 @@ mod tests {
         assert!(matches!(&items[1].kind, ItemKind::Broken { names, .. } if names[0].text == "r"));
         assert!(matches!(&items[2].kind, ItemKind::Param { name, .. } if name.text == "s"));
         assert!(matches!(&items[3].kind, ItemKind::Broken { names, .. } if names[0].text == "j"));
-        assert!(matches!(&items[4].kind, ItemKind::Broken { features, .. } if features.len() == 1));
+        assert!(
+            matches!(&items[4].kind, ItemKind::Body { name, pose: None, features } if name.text == "c" && features.len() == 1)
+        );
     }
 
     #[test]
