@@ -46,6 +46,8 @@ pub mod output;
 
 pub mod import;
 
+pub mod world;
+
 pub mod cli;
 
 use analysis::Times;

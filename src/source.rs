@@ -2,6 +2,39 @@
 //!
 //! Knows nobody: a span is a file and two byte offsets, and everything that speaks of the user's text holds one.
 
+use std::sync::Arc;
+
+/// What the columns of a line count.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Encoding {
+    /// Bytes.
+    Utf8,
+    /// Units of UTF-16, as most editors do between each other.
+    Utf16,
+    /// Unicode characters, as messages do.
+    Characters,
+}
+
+impl Encoding {
+    /// How long a text is.
+    #[must_use]
+    pub fn length(self, text: &str) -> usize {
+        match self {
+            Encoding::Utf8 => text.len(),
+            Encoding::Utf16 => text.encode_utf16().count(),
+            Encoding::Characters => text.chars().count(),
+        }
+    }
+
+    fn width(self, c: char) -> usize {
+        match self {
+            Encoding::Utf8 => c.len_utf8(),
+            Encoding::Utf16 => c.len_utf16(),
+            Encoding::Characters => 1,
+        }
+    }
+}
+
 /// Which of the [`Sources`] a span lies in.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
 pub struct FileId(u32);
@@ -46,10 +79,33 @@ impl Source {
     /// Line and column of a byte offset, both from 1, the column in characters.
     #[must_use]
     pub fn position(&self, offset: u32) -> (usize, usize) {
+        let (line, column) = self.position_in(offset, Encoding::Characters);
+        (line + 1, column + 1)
+    }
+
+    /// Line and column of a byte offset, both from 0.
+    #[must_use]
+    pub fn position_in(&self, offset: u32, encoding: Encoding) -> (usize, usize) {
         let offset = (offset as usize).min(self.text.len());
         let line = self.line_index(offset);
         let before = self.text.get(self.line_starts[line]..offset).unwrap_or("");
-        (line + 1, before.chars().count() + 1)
+        (line, encoding.length(before))
+    }
+
+    /// The byte offset of a line and column, both from 0; what lies beyond the end of a line is that end, and what lies within a
+    /// character its beginning.
+    #[must_use]
+    pub fn offset_of(&self, line: usize, column: usize, encoding: Encoding) -> u32 {
+        let Some(range) = self.line_range(line) else {
+            return self.text.len() as u32;
+        };
+        let text = self.text[range.clone()].trim_end_matches(['\n', '\r']);
+        let mut passed = 0;
+        let inside = text.char_indices().find(|&(_, c)| {
+            passed += encoding.width(c);
+            passed > column
+        });
+        (range.start + inside.map_or(text.len(), |(at, _)| at)) as u32
     }
 
     /// Index of the line (from 0) that holds a byte offset.
@@ -67,10 +123,10 @@ impl Source {
     }
 }
 
-/// All texts of one compilation: the file, and what the command line adds to it.
+/// All texts of one compilation: the file, and what the command line adds to it. A clone shares them.
 #[derive(Clone, Debug, Default)]
 pub struct Sources {
-    files: Vec<Source>,
+    files: Vec<Arc<Source>>,
 }
 
 impl Sources {
@@ -89,7 +145,7 @@ impl Sources {
     }
 
     fn push(&mut self, source: Source) -> FileId {
-        self.files.push(source);
+        self.files.push(Arc::new(source));
         FileId(self.files.len() as u32 - 1)
     }
 
@@ -126,5 +182,20 @@ mod tests {
         assert_eq!(source.position(3), (2, 1));
         assert_eq!(source.position(5), (2, 2), "µ is two bytes, one character");
         assert_eq!(source.position(7), (3, 1));
+    }
+
+    #[test]
+    fn columns_count_what_an_editor_counts() {
+        let mut sources = Sources::default();
+        let file = sources.add("a", "a\nµ𝛼x\r\n");
+        let source = sources.get(file);
+        let x = 2 + "µ𝛼".len() as u32;
+        for (encoding, column) in [(Encoding::Utf8, 6), (Encoding::Utf16, 3), (Encoding::Characters, 2)] {
+            assert_eq!(source.position_in(x, encoding), (1, column));
+            assert_eq!(source.offset_of(1, column, encoding), x);
+            assert_eq!(source.offset_of(1, 99, encoding), x + 1, "the end of the line, before its line end");
+            assert_eq!(source.offset_of(9, 0, encoding), source.text.len() as u32);
+        }
+        assert_eq!(source.offset_of(1, 2, Encoding::Utf16), 4, "within a character: its beginning");
     }
 }

@@ -14,9 +14,11 @@ mod joints;
 mod names;
 mod profiles;
 mod quantities;
+mod symbols;
 mod table_file;
 mod tables;
 
+pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};

@@ -20,4 +20,5 @@ pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::format;
 pub use parse::{Parsed, parse, parse_expression};
+pub use tokens::keywords_in;
 pub use trivia::{Comment, Trivia};

@@ -2,6 +2,8 @@
 //!
 //! This is coarser than the grammar, and never fails: it serves where a text does not follow the grammar, or is not read yet.
 
+use crate::vocabulary::Keyword;
+
 /// A word or character, by the byte where it begins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) struct Token<'a> {
@@ -52,4 +54,9 @@ pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
         *rest = after;
         return Some(token);
     }
+}
+
+/// The words of a text that are keywords in some place, each with the byte where it begins.
+pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)> {
+    tokens(text).into_iter().filter_map(|token| Keyword::named(token.text).map(|keyword| (token.start, keyword)))
 }

@@ -1,6 +1,12 @@
 //! Keywords, and the words that are such only in their places.
 
 use super::{Category, Example, Word};
+use rustc_hash::FxHashMap;
+use std::sync::LazyLock;
+
+/// Every word of a text is looked up here.
+static BY_NAME: LazyLock<FxHashMap<&str, &Keyword>> =
+    LazyLock::new(|| KEYWORDS.iter().map(|keyword| (keyword.word.name, keyword)).collect());
 
 /// A word that makes a declaration or a formula.
 #[derive(Debug)]
@@ -32,7 +38,7 @@ impl Keyword {
     /// The keyword of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Keyword> {
-        KEYWORDS.iter().find(|keyword| keyword.word.name == name)
+        BY_NAME.get(name).copied()
     }
 
     /// Whether nothing can have this name.

@@ -1,0 +1,108 @@
+//! Where the files are that a text names: on a disk, in an editor's open buffers, in a browser, in a test.
+//!
+//! The only way in which a pure room reaches a file.
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::{FileId, Sources, Span};
+use rustc_hash::FxHashMap;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// What a file holds, as of a version.
+#[derive(Clone, Debug)]
+pub struct Contents {
+    /// As stored.
+    pub bytes: Arc<[u8]>,
+    /// Another one whenever the bytes are; 0 where nobody counts.
+    pub version: u64,
+}
+
+/// Gives files by their paths.
+pub trait World: Send + Sync {
+    /// The contents of a file.
+    ///
+    /// # Errors
+    /// It is not there, or cannot be read.
+    fn read(&self, path: &Path) -> io::Result<Contents>;
+}
+
+/// A world without files, or with those that were put into it.
+#[derive(Clone, Debug, Default)]
+pub struct Memory {
+    files: FxHashMap<PathBuf, Contents>,
+}
+
+impl Memory {
+    /// Puts a file in its place, over one that is there.
+    #[must_use]
+    pub fn with(mut self, path: impl Into<PathBuf>, text: impl AsRef<[u8]>) -> Memory {
+        let path = path.into();
+        let version = self.files.get(&path).map_or(0, |old| old.version + 1);
+        self.files.insert(path, Contents { bytes: text.as_ref().into(), version });
+        self
+    }
+}
+
+impl World for Memory {
+    fn read(&self, path: &Path) -> io::Result<Contents> {
+        self.files.get(path).cloned().ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+}
+
+/// Takes the text of a file in.
+///
+/// # Errors
+/// It cannot be read, or is no text.
+pub(crate) fn text_of(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+    let shown = path.to_string_lossy().into_owned();
+    let contents = world.read(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
+    take_in(&shown, &contents.bytes, sources)
+}
+
+/// Takes bytes in as a text, under a name.
+///
+/// # Errors
+/// They are too many, or not UTF-8.
+pub(crate) fn take_in(shown: &str, bytes: &[u8], sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+    if bytes.len() > u32::MAX as usize {
+        return Err(Box::new(cannot_read(shown, &io::Error::other("it is larger than 4 GB"))));
+    }
+    match std::str::from_utf8(bytes) {
+        Ok(text) => Ok(sources.add(shown, text)),
+        Err(error) => Err(Box::new(not_utf8(shown, bytes, error.valid_up_to(), sources))),
+    }
+}
+
+/// A file that is named, beside the file that names it.
+#[must_use]
+pub fn beside(path: &str, named: &str) -> PathBuf {
+    match Path::new(path).parent() {
+        Some(folder) => folder.join(named),
+        None => PathBuf::from(named),
+    }
+}
+
+pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
+    Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error)))
+}
+
+/// The system's words, without its number.
+pub(crate) fn reason(error: &io::Error) -> String {
+    let text = error.to_string();
+    let text = text.split(" (os error").next().unwrap_or(&text);
+    let mut chars = text.chars();
+    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
+}
+
+/// Shows the text up to the byte that is not UTF-8.
+fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagnostic {
+    let valid = String::from_utf8_lossy(&bytes[..at]).into_owned();
+    let file = sources.add(name, valid);
+    let end = sources.get(file).text.len() as u32;
+    let span = Span { file, start: end, end };
+    let byte = bytes.get(at).copied().unwrap_or_default();
+    Diagnostic::new(Code::E0102, format!("`{name}` is not UTF-8"))
+        .at(span, format!("the byte {byte:#04x} follows here"))
+        .help("save the file as UTF-8 in your editor")
+}
