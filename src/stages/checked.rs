@@ -1,0 +1,191 @@
+//! The second stage: a mechanism whose names, units and values are known.
+
+use super::{Compiled, Parsed, Redundant};
+use crate::cancel::Cancel;
+use crate::check::{self, Setting, Surroundings, Symbols, TableFiles};
+use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
+use crate::lower;
+use crate::model::Mechanism;
+use crate::source::Sources;
+use crate::syntax::{self, ast};
+use crate::world::{self, World};
+use std::sync::{Arc, OnceLock};
+
+/// Which mechanism of a file is meant, and what is set in it from outside.
+#[derive(Clone, Debug, Default)]
+pub struct Choice {
+    /// Its name; needed where there are several.
+    pub mechanism: Option<String>,
+    /// `NAME=FORMULA`; the last of one name counts.
+    pub set: Vec<String>,
+}
+
+/// A mechanism that was checked, whatever is wrong with it.
+#[derive(Clone, Debug)]
+pub struct Checked {
+    parsed: Parsed,
+    /// Its number in the file.
+    number: Option<usize>,
+    model: Option<Arc<Mechanism>>,
+    diagnostics: Arc<Diagnostics>,
+    symbols: Arc<OnceLock<Symbols>>,
+}
+
+impl Checked {
+    pub(super) fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+        let mut sources = parsed.sources().clone();
+        let mut diagnostics = parsed.faults().clone();
+        let is_read = diagnostics.is_empty();
+        diagnostics.extend(check::check_file(parsed.tree()));
+        let mut model = None;
+        let number = match chosen(parsed, choice.mechanism.as_deref()) {
+            Ok(number) => Some(number),
+            // a mechanism that cannot be read may be the one
+            Err(why) => {
+                diagnostics.extend(is_read.then_some(*why));
+                None
+            }
+        };
+        if let Some(number) = number {
+            let tree = &parsed.tree().mechanisms[number];
+            let settings = settings(&choice.set, tree, &mut sources);
+            let files = table_files(parsed, tree, world, &mut sources);
+            match settings {
+                Err(why) => diagnostics.extend(why),
+                Ok(settings) => {
+                    let (found, said) = check::check(tree, &Surroundings { settings, files }, &sources);
+                    diagnostics.extend(said);
+                    model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
+                }
+            }
+        }
+        diagnostics.sort_by_place();
+        let (parsed, diagnostics) = (parsed.with_sources(sources), Arc::new(diagnostics));
+        Checked { parsed, number, model, diagnostics, symbols: Arc::default() }
+    }
+
+    /// The texts that its diagnostics speak of.
+    #[must_use]
+    pub fn sources(&self) -> &Sources {
+        self.parsed.sources()
+    }
+
+    /// All that is to be said of the text up to here, its faults included.
+    #[must_use]
+    pub fn diagnostics(&self) -> &Diagnostics {
+        &self.diagnostics
+    }
+
+    /// Whether it can be compiled.
+    #[must_use]
+    pub fn is_sound(&self) -> bool {
+        self.model.is_some()
+    }
+
+    /// Its names, each with its declaration and its uses.
+    #[must_use]
+    pub fn symbols(&self) -> &Symbols {
+        self.symbols.get_or_init(|| match self.number {
+            None => Symbols::default(),
+            Some(number) => {
+                Symbols::of(&self.parsed.tree().mechanisms[number], &self.sources().get(self.parsed.file()).text)
+            }
+        })
+    }
+
+    /// The mechanism with its names resolved, as a text; nothing where it is not sound.
+    #[must_use]
+    pub fn model_text(&self) -> Option<String> {
+        self.model.as_ref().map(ToString::to_string)
+    }
+
+    /// Every equation with its derivatives, as a text, be they too many or too few; nothing where it is not sound.
+    #[must_use]
+    pub fn equations_text(&self) -> Option<String> {
+        self.model.as_ref().map(|model| lower::lower(model).to_string())
+    }
+
+    /// Proves that it is determined, and compiles it; with what is to be said of that. Nothing where it is not sound, or not
+    /// determined, or cancelled.
+    #[must_use]
+    pub fn compile(&self, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
+        match &self.model {
+            None => (None, Diagnostics::default()),
+            Some(model) => Compiled::of(self.sources().clone(), lower::lower(model), redundant, cancel),
+        }
+    }
+}
+
+fn chosen(parsed: &Parsed, wanted: Option<&str>) -> Result<usize, Box<Diagnostic>> {
+    let names: Vec<&str> = parsed.mechanisms().collect();
+    let listed = format!("the mechanisms are {}", names.join(", "));
+    let file = &parsed.sources().get(parsed.file()).name;
+    match wanted.map(syntax::normalized) {
+        None if names.len() == 1 => Ok(0),
+        None => Err(Box::new(
+            Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()))
+                .help(format!("choose one with `--mechanism NAME`; {listed}")),
+        )),
+        Some(name) => names.iter().position(|known| *known == name).ok_or_else(|| {
+            let meant = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
+            let said = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
+            Box::new(said.help(meant.unwrap_or(listed)))
+        }),
+    }
+}
+
+/// The files that a mechanism's tables name.
+fn table_files(parsed: &Parsed, tree: &ast::Mechanism, world: &dyn World, sources: &mut Sources) -> TableFiles {
+    let mut files = TableFiles::default();
+    for item in &tree.items {
+        if let ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } = &item.kind
+            && !files.contains_key(&path.text)
+        {
+            files.insert(path.text.clone(), world::text_of(world, &parsed.beside(&path.text), sources));
+        }
+    }
+    files
+}
+
+fn settings(given: &[String], tree: &ast::Mechanism, sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
+    let params: Vec<&str> = tree
+        .items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ast::ItemKind::Param { name, .. } => Some(name.text.as_str()),
+            _ => None,
+        })
+        .collect();
+    let mut diagnostics = Diagnostics::default();
+    let mut settings = Vec::new();
+    for text in given {
+        let Some((name, value)) = text.split_once('=') else {
+            diagnostics.push(
+                Diagnostic::new(Code::E0706, format!("`--set {text}` sets nothing"))
+                    .help("write `--set NAME=VALUE`, as in `--set crank_length=60mm`"),
+            );
+            continue;
+        };
+        let name = syntax::normalized(name.trim());
+        if !params.contains(&name.as_str()) {
+            diagnostics.push(no_such_param(&tree.name.text, &name, &params));
+            continue;
+        }
+        let file = sources.add_option(format!("--set {name}"), value);
+        match syntax::parse_expression(sources, file) {
+            Ok(value) => settings.push(Setting { name, value }),
+            Err(faults) => diagnostics.extend(faults),
+        }
+    }
+    if diagnostics.is_empty() { Ok(settings) } else { Err(diagnostics) }
+}
+
+fn no_such_param(mechanism: &str, name: &str, params: &[&str]) -> Diagnostic {
+    let meant = nearest(name, params.iter().copied()).map(|name| format!("was `{name}` meant?"));
+    let listed = match params {
+        [] => "it has no parameters".to_owned(),
+        _ => format!("its parameters are {}", params.join(", ")),
+    };
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no parameter `{name}`"))
+        .help(meant.unwrap_or(listed))
+}

@@ -1,0 +1,142 @@
+//! The third stage: a mechanism that is determined, with the operations that evaluate it.
+
+use super::{Run, RunOptions};
+use crate::analysis::{self, Times};
+use crate::cancel::Cancel;
+use crate::diag::Diagnostics;
+use crate::emit::{self, File, Motion, Reference, Unit};
+use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::program::Program;
+use crate::solver::BlockTables;
+use crate::source::Sources;
+use crate::structure::{self, Determined};
+use std::sync::{Arc, OnceLock};
+
+/// What becomes of equations that follow from others.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Redundant {
+    /// They are an error.
+    #[default]
+    Refused,
+    /// They are left out, and checked at every time.
+    LeftOut,
+}
+
+/// A mechanism that is shown to be determined.
+#[derive(Clone)]
+pub struct Compiled {
+    sources: Sources,
+    determined: Arc<Determined>,
+    program: Arc<OnceLock<Arc<Program>>>,
+}
+
+impl Compiled {
+    pub(super) fn of(
+        sources: Sources,
+        system: ConstraintSystem,
+        redundant: Redundant,
+        cancel: &Cancel,
+    ) -> (Option<Compiled>, Diagnostics) {
+        if cancel.is_cancelled() {
+            return (None, Diagnostics::default());
+        }
+        match analysis::determine(system, redundant == Redundant::LeftOut) {
+            _ if cancel.is_cancelled() => (None, Diagnostics::default()),
+            Err(why) => (None, why),
+            Ok((determined, said)) => {
+                let determined = Arc::new(determined);
+                (Some(Compiled { sources, determined, program: Arc::default() }), said)
+            }
+        }
+    }
+
+    /// The texts that its diagnostics speak of.
+    #[must_use]
+    pub fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// The name of the mechanism.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.system().name
+    }
+
+    /// First time, last time and step of the file's analysis (s), if it has one.
+    #[must_use]
+    pub fn analysis(&self) -> Option<[f64; 3]> {
+        self.system().analysis
+    }
+
+    /// The output times of the file's analysis, if it has one.
+    #[must_use]
+    pub fn times(&self) -> Option<Times> {
+        self.analysis().and_then(|[from, to, every]| Times::grid(from, to, every))
+    }
+
+    /// The names of the columns of its rows: `t`; coordinates and measures; their first and second derivatives.
+    #[must_use]
+    pub fn columns(&self) -> Vec<String> {
+        analysis::columns(self.system())
+    }
+
+    /// How many coordinates and equations there are, by body and declaration, as a table.
+    #[must_use]
+    pub fn counts(&self) -> String {
+        structure::table(self.system())
+    }
+
+    /// The coordinates in the order in which they are solved for, with what each comes from; a line each.
+    #[must_use]
+    pub fn order_of_solution(&self) -> String {
+        structure::order_of_solution(&self.determined)
+    }
+
+    /// Each driver with its equation as it is written.
+    #[must_use]
+    pub fn drivers(&self) -> Vec<(String, String)> {
+        let written = |text: &str| text.split_whitespace().collect::<Vec<&str>>().join(" ");
+        self.system()
+            .declarations
+            .iter()
+            .filter(|declaration| declaration.kind == DeclarationKind::Driver)
+            .filter_map(|driver| Some((driver.name.clone(), written(self.sources.text(driver.written?)))))
+            .collect()
+    }
+
+    /// Lays out the operations, which the first run would do.
+    pub fn prepare(&self) {
+        self.program();
+    }
+
+    /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
+    /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
+    #[must_use]
+    pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+        Run::of(self, times, options)
+    }
+
+    /// The equations typeset for a report; the file is named in it.
+    #[must_use]
+    pub fn latex(&self, file: &str) -> String {
+        emit::latex(self.system(), file)
+    }
+
+    /// The whole constraint system as data for other programs; the file is named in it.
+    #[must_use]
+    pub fn json(&self, file: &str) -> String {
+        emit::json(self.system(), &self.sources, file)
+    }
+
+    pub(crate) fn system(&self) -> &ConstraintSystem {
+        self.determined.system()
+    }
+
+    pub(crate) fn determined(&self) -> &Arc<Determined> {
+        &self.determined
+    }
+
+    pub(crate) fn program(&self) -> &Arc<Program> {
+        self.program.get_or_init(|| Arc::new(Program::new(self.system())))
+    }
+}

@@ -1,0 +1,15 @@
+//! The way of a text in owned stages: each can be kept, cloned for little, sent to another thread, and gives the next one.
+//!
+//! ```text
+//! Sources ──▶ Parsed ──check──▶ Checked ──compile──▶ Compiled ──run──▶ Run ──▶ rows
+//! ```
+//!
+//! None stops the ones after it from speaking of what is whole. What is to be said of a stage is on it, or comes beside it.
+
+mod checked;
+mod compiled;
+mod parsed;
+
+pub use checked::{Checked, Choice};
+pub use compiled::{Compiled, Redundant};
+pub use parsed::Parsed;

@@ -1,0 +1,103 @@
+//! The first stage: a text with its tree.
+
+use super::{Checked, Choice};
+use crate::diag::Diagnostics;
+use crate::source::{FileId, Sources};
+use crate::syntax::{self, Trivia, ast};
+use crate::world::{self, World};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A file that was read, whatever its faults.
+#[derive(Clone, Debug)]
+pub struct Parsed {
+    sources: Sources,
+    file: FileId,
+    /// Beside which the files are that it names.
+    path: Arc<Path>,
+    read: Arc<syntax::Parsed>,
+}
+
+impl Parsed {
+    /// Reads a text under the name that messages are to have for it; the files that it names are beside that.
+    #[must_use]
+    pub fn of(name: &str, text: &str) -> Parsed {
+        let mut sources = Sources::default();
+        let file = sources.add(name, text);
+        Parsed::of_source(sources, file, Path::new(name))
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// It is not there, or no text; with the sources that the diagnostics speak of.
+    pub fn read(path: &Path, world: &dyn World) -> Result<Parsed, (Sources, Diagnostics)> {
+        let mut sources = Sources::default();
+        match world::text_of(world, path, &mut sources) {
+            Ok(file) => Ok(Parsed::of_source(sources, file, path)),
+            Err(why) => Err((sources, (*why).into())),
+        }
+    }
+
+    /// Reads one of some texts; the files that it names are beside a path.
+    #[must_use]
+    pub fn of_source(sources: Sources, file: FileId, path: &Path) -> Parsed {
+        let read = Arc::new(syntax::parse(&sources, file));
+        Parsed { sources, file, path: path.into(), read }
+    }
+
+    /// The texts that its diagnostics speak of.
+    #[must_use]
+    pub fn sources(&self) -> &Sources {
+        &self.sources
+    }
+
+    /// Its own text among them.
+    #[must_use]
+    pub fn file(&self) -> FileId {
+        self.file
+    }
+
+    /// What of it does not follow the grammar.
+    #[must_use]
+    pub fn faults(&self) -> &Diagnostics {
+        &self.read.faults
+    }
+
+    /// Its comments and blank lines.
+    #[must_use]
+    pub fn trivia(&self) -> &Trivia {
+        &self.read.trivia
+    }
+
+    /// The names of its mechanisms, in order.
+    pub fn mechanisms(&self) -> impl ExactSizeIterator<Item = &str> {
+        self.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str())
+    }
+
+    /// The text as it would be written; that of what cannot be read is left out.
+    #[must_use]
+    pub fn formatted(&self) -> String {
+        syntax::format(&self.read.tree)
+    }
+
+    /// Checks one of its mechanisms.
+    #[must_use]
+    pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
+        Checked::of(self, choice, world)
+    }
+
+    pub(super) fn tree(&self) -> &ast::File {
+        &self.read.tree
+    }
+
+    /// The same, with more texts beside it.
+    pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
+        Parsed { sources, ..self.clone() }
+    }
+
+    /// A file that its text names.
+    pub(super) fn beside(&self, named: &str) -> PathBuf {
+        world::beside(&self.path.to_string_lossy(), named)
+    }
+}

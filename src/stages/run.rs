@@ -1,0 +1,120 @@
+//! The last stage: a motion in progress, row by row.
+
+use super::Compiled;
+use crate::analysis::{self, Motion, Times};
+use crate::cancel::Cancel;
+use crate::diag::{Diagnostic, Diagnostics};
+use std::sync::Arc;
+
+/// How a motion is followed.
+#[derive(Clone, Debug)]
+pub struct RunOptions {
+    /// Bounds each row of Φ, scaled.
+    pub tolerance: f64,
+    /// Go on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
+    pub pass_bifurcations: bool,
+    /// Ends it.
+    pub cancel: Cancel,
+}
+
+impl Default for RunOptions {
+    fn default() -> RunOptions {
+        RunOptions { tolerance: analysis::TOLERANCE, pass_bifurcations: false, cancel: Cancel::default() }
+    }
+}
+
+/// The position in which a mechanism was assembled.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Assembly {
+    /// When (s).
+    pub t: f64,
+    /// Each coordinate: its name, its value (SI), its unit.
+    pub coordinates: Vec<(String, f64, &'static str)>,
+    /// How far the bodies moved from their estimates, in words.
+    pub moved: String,
+    /// The distance to a singular position: 1 is far, 0 is singular.
+    pub conditioning: f64,
+}
+
+/// A motion, which owns all it needs: an iterator over its rows.
+pub struct Run {
+    motion: Motion,
+    columns: Arc<[String]>,
+    assembly: Assembly,
+    times: Times,
+    number: u64,
+    has_ended: bool,
+}
+
+impl Run {
+    pub(super) fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+        let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
+        let started = analysis::start(determined, program, times.from(), options.tolerance, &options.cancel);
+        let mut started = match started {
+            _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
+            Ok(started) => started,
+            Err(why) => return (None, (*why).into()),
+        };
+        let remarks = started.remarks();
+        let assembly = assembly(compiled, &mut started, times.from());
+        let mut motion = started.into_motion(times);
+        if options.pass_bifurcations {
+            motion.pass_bifurcations();
+        }
+        let columns = compiled.columns().into();
+        (Some(Run { motion, columns, assembly, times: times.clone(), number: 0, has_ended: false }), remarks)
+    }
+
+    /// The names of the numbers of a row.
+    #[must_use]
+    pub fn columns(&self) -> &[String] {
+        &self.columns
+    }
+
+    /// The position at the first time.
+    #[must_use]
+    pub fn assembly(&self) -> &Assembly {
+        &self.assembly
+    }
+
+    /// The output times.
+    #[must_use]
+    pub fn times(&self) -> &Times {
+        &self.times
+    }
+
+    /// The next row, in the order of [`Run::columns`], without a copy; `None` behind the last one, and when it was cancelled.
+    ///
+    /// # Errors
+    /// Why the motion cannot go on; nothing comes behind that.
+    pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
+        if self.has_ended {
+            return None;
+        }
+        let row = self.motion.next_row();
+        self.number += 1;
+        self.has_ended = !matches!(row, Some(Ok(_)));
+        row
+    }
+
+    /// What there is to say beside the rows so far, each thing once.
+    pub fn take_remarks(&mut self) -> Diagnostics {
+        self.motion.take_remarks()
+    }
+}
+
+impl Iterator for Run {
+    type Item = Result<Vec<f64>, Box<Diagnostic>>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        self.next_row().map(|row| row.map(<[f64]>::to_vec))
+    }
+}
+
+fn assembly(compiled: &Compiled, started: &mut analysis::Started, t: f64) -> Assembly {
+    let system = compiled.system();
+    let conditioning = started.conditioning();
+    let coordinates = system.coordinates.iter().zip(started.q());
+    let coordinates = coordinates.map(|(c, &q)| (c.name.clone(), q, c.kind.unit())).collect();
+    Assembly { t, coordinates, moved: started.moved().in_words(system), conditioning }
+}
