@@ -24,6 +24,8 @@ const LARGEST_CORRECTION: f64 = 0.05;
 /// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
 /// branches leaves more, be it that both touch each other.
 const LARGEST_BETWEEN: f64 = 1e-4;
+/// The time of a singular position is certain to this part of the bridge.
+const CERTAIN: f64 = 1e-6;
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Times at which the minimum of an even contact is looked for.
 const LOOKS: usize = 80;
@@ -50,7 +52,7 @@ impl Bridge {
     }
 
     /// The state at a time between, by the quintic with value, slope and curvature of both ends.
-    fn state_at(&self, t: f64) -> State {
+    pub fn state_at(&self, t: f64) -> State {
         let h = self.to.t - self.from.t;
         let x = (t - self.from.t) / h;
         let mut state = self.from.clone();
@@ -76,10 +78,21 @@ impl Bridge {
             state.q[k] = derivative(0);
             state.qd[k] = derivative(1) / h;
             state.qdd[k] = derivative(2) / (h * h);
-            state.qddd[k] = derivative(3) / (h * h * h);
+            state.qddd[k] = (derivative(3) + third_beside(h, [a.qddd[k], b.qddd[k]], c, x)) / (h * h * h);
         }
         state
     }
+}
+
+/// What the third derivative gains over that of a quintic, `c`, where it is known at both ends too: the quintic leaves only a
+/// few digits of it. What is added is x³ (1 − x)³ (α + β x), which changes neither value, slope nor curvature there.
+fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
+    let cube = h * h * h;
+    let at_start = (cube * third[0] - 6.0 * c[3]) / 6.0;
+    let at_end = -(cube * third[1] - 6.0 * c[3] - 24.0 * c[4] - 60.0 * c[5]) / 6.0;
+    let constant = 6.0 - x * (72.0 - x * (180.0 - x * 120.0));
+    let linear = x * (24.0 - x * (180.0 - x * (360.0 - x * 210.0)));
+    at_start * constant + (at_end - at_start) * linear
 }
 
 impl Motion<'_, '_> {
@@ -101,16 +114,22 @@ impl Motion<'_, '_> {
     /// Why and where the motion cannot go on.
     pub(super) fn pass_or_explain(&mut self, fault: Fault, h: f64, target: f64) -> Result<(), Box<Diagnostic>> {
         let is_singular = matches!(fault, Fault::Singular | Fault::TooFar | Fault::Watch { .. });
+        self.fold = None;
         let bridge = if is_singular { self.bridge_ahead() } else { None };
         let Some(bridge) = bridge else {
-            return Err(Box::new(singular::explain(self.kinematics, self.state, fault, h, target)));
+            return Err(Box::new(singular::explain_fold(self.kinematics, self.state, fault, [h, target], self.fold)));
         };
         let middle = bridge.state_at(bridge.at);
         let diagnostic = singular::explain_contact(self.kinematics, &middle, self.pass);
         if !self.pass {
+            // rows before the singular position may lie on it
+            self.bridge = Some(bridge);
             return Err(Box::new(diagnostic));
         }
-        self.remarks.push(diagnostic);
+        // what comes behind the last row is not passed
+        if bridge.at <= self.last + CERTAIN * (bridge.to.t - bridge.from.t) {
+            self.remarks.push(diagnostic);
+        }
         self.state.copy_from(&bridge.to);
         self.clear.copy_from(&bridge.to);
         self.kinematics.restore(self.state);
@@ -169,6 +188,10 @@ impl Motion<'_, '_> {
             return None;
         }
         bridge.at = self.singular_time(&bridge);
+        if let Some(fold) = self.end_of_reach(&bridge) {
+            self.fold = Some(fold);
+            return None;
+        }
         Some(bridge)
     }
 
@@ -262,20 +285,27 @@ impl Motion<'_, '_> {
         self.kinematics.restore(state);
     }
 
-    /// The row of a time on a bridge, if it is on one.
+    /// The row of a time on a bridge, if it is on one; where the bridge is not passed, on its way up to the singular position.
     pub(super) fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
-        let bridge = self.bridge.as_ref().filter(|bridge| t > bridge.from.t && t < bridge.to.t)?;
+        let is_on = |bridge: &&Bridge| {
+            let end = if self.pass { bridge.to.t } else { bridge.at - CERTAIN * (bridge.to.t - bridge.from.t) };
+            t > bridge.from.t && t < end
+        };
+        let bridge = self.bridge.as_ref().filter(is_on)?;
         let state = bridge.state_at(t);
         self.kinematics.restore(&state);
-        if self.kinematics.violated().is_some() {
-            return Some(if self.solved_row(&state) {
-                Ok(())
-            } else {
-                Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t)))
-            });
+        if self.kinematics.violated().is_none() {
+            self.kinematics.write_given_row(&state, &mut self.row);
+            return Some(Ok(()));
         }
-        self.kinematics.write_given_row(&state, &mut self.row);
-        Some(Ok(()))
+        if self.solved_row(&state) {
+            return Some(Ok(()));
+        }
+        // it may be certain as it is found without the bridge
+        if !self.pass {
+            return None;
+        }
+        Some(Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t))))
     }
 
     /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it; whether nine digits are left.

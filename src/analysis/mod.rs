@@ -23,6 +23,7 @@ mod least_squares;
 mod linear;
 mod march;
 mod open_loop;
+mod reach;
 mod redundancy;
 mod rows;
 mod signals;

@@ -19,6 +19,17 @@ const TAKES_PART: f64 = 1e-3;
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
 pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
+    explain_fold(kinematics, state, fault, [h, target], None)
+}
+
+/// The same, where it may be known when the mechanism comes to the end of its reach, `fold` (s).
+pub(super) fn explain_fold(
+    kinematics: &mut Kinematics<'_>,
+    state: &State,
+    fault: Fault,
+    [h, target]: [f64; 2],
+    fold: Option<f64>,
+) -> Diagnostic {
     let system = kinematics.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
         return errors::no_value(system, fault, state.t + h);
@@ -45,8 +56,8 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         return errors::no_contact(system, index, state.t);
     }
     let diagnostic = if singular.sigma < NEAR {
-        let named =
-            name_singular(system, &singular.left, &singular.right, time_of_fold(system, state, &singular.right));
+        let t = fold.unwrap_or_else(|| time_of_fold(system, state, &singular.right));
+        let named = name_singular(system, &singular.left, &singular.right, t);
         match flat_contact(kinematics) {
             Some(joint) => errors::equal_curvatures(named, system, joint),
             None => named,
