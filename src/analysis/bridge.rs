@@ -6,6 +6,7 @@
 
 use super::GOLDEN;
 use super::errors;
+use super::finer::Finer;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
 use super::singular;
@@ -17,6 +18,8 @@ use crate::diag::Diagnostic;
 const CLEAR: f64 = 8e-3;
 /// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
 const SOLVABLE: f64 = 1e-3;
+/// Solving beside a singular position leaves more than eight digits of accelerations down to here.
+const EXACT: f64 = 4e-3;
 /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
 const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
 /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
@@ -43,12 +46,14 @@ pub(super) struct Bridge {
     pub to: State,
     /// When the singular position is reached (s).
     pub at: f64,
+    /// A curve for rows that the quintic is not exact enough for, once it has been looked for.
+    finer: Option<Option<Finer>>,
 }
 
 impl Bridge {
     /// A row of its own: bridges are rare.
     fn new(from: &State, to: &State) -> Bridge {
-        Bridge { from: from.clone(), to: to.clone(), at: from.t }
+        Bridge { from: from.clone(), to: to.clone(), at: from.t, finer: None }
     }
 
     /// The state at a time between, by the quintic with value, slope and curvature of both ends.
@@ -298,7 +303,7 @@ impl Motion<'_, '_> {
             self.kinematics.write_given_row(&state, &mut self.row);
             return Some(Ok(()));
         }
-        if self.solved_row(&state) {
+        if self.solved_row(&state, EXACT) || self.finer_row(t) || self.solved_row(&state, SOLVABLE) {
             return Some(Ok(()));
         }
         // it may be certain as it is found without the bridge
@@ -308,15 +313,37 @@ impl Motion<'_, '_> {
         Some(Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t))))
     }
 
-    /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it; whether nine digits are left.
-    fn solved_row(&mut self, state: &State) -> bool {
+    /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it, if it is at least so far from
+    /// the singular position.
+    fn solved_row(&mut self, state: &State, nearest: f64) -> bool {
         self.trial.copy_from(state);
         let is_solved = self.correct().is_ok()
-            && self.kinematics.nearness(SOLVABLE) >= SOLVABLE
+            && self.kinematics.nearness(nearest) >= nearest
             && self.kinematics.derivatives(&mut self.trial).is_ok();
         if is_solved {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         is_solved
+    }
+
+    /// Writes the row of a time on a long bridge by its finer curve, if that is exact there.
+    fn finer_row(&mut self, t: f64) -> bool {
+        let Some(mut bridge) = self.bridge.take() else {
+            return false;
+        };
+        if bridge.finer.is_none() {
+            bridge.finer = Some(self.finer_curve(&bridge));
+        }
+        let state = bridge.finer.as_ref().and_then(Option::as_ref).map(|finer| finer.state_at(t));
+        self.bridge = Some(bridge);
+        let Some(state) = state else {
+            return false;
+        };
+        self.kinematics.restore(&state);
+        let is_exact = self.kinematics.violated().is_none();
+        if is_exact {
+            self.kinematics.write_given_row(&state, &mut self.row);
+        }
+        is_exact
     }
 }

@@ -17,6 +17,7 @@ mod determine;
 mod edges;
 mod errors;
 mod evaluator;
+mod finer;
 mod freedom;
 mod kinematics;
 mod least_squares;

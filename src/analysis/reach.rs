@@ -83,7 +83,7 @@ impl Motion<'_, '_> {
 
     /// When the lack of reach is largest, about the time of the singular position.
     fn time_of_worst_lack(&mut self, fold: &Fold<'_>) -> f64 {
-        let Bridge { from, to, at } = fold.bridge;
+        let Bridge { from, to, at, .. } = fold.bridge;
         let side = f64::min(at - from.t, to.t - at);
         let extremum = extremum(*at, 0.25 * side, side, |t| self.lack(fold, t));
         // one that is least there is largest at the ends, where positions are known
@@ -159,8 +159,8 @@ fn extremum(near: f64, reach: f64, farthest: f64, mut value: impl FnMut(f64) -> 
         }
         let step = -0.25 * reach * (after - before) / bend;
         place += step;
-        // not a number where the function is flat
-        if !((place - near).abs() <= farthest) {
+        // where the function is flat it is not a number
+        if place.is_nan() || (place - near).abs() > farthest {
             return None;
         }
         reach *= NARROWER;

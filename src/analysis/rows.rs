@@ -581,6 +581,8 @@ impl Motion<'_, '_> {
     fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         let ahead = t + self.span / FEWEST_STEPS_NEAR;
         let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
+        // a run that passes nothing prints it too, if nothing has been passed before
+        let is_plain = is_certain && self.bridge.as_ref().is_none_or(|bridge| bridge.at > t);
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
                 // what comes behind the row does not concern it
@@ -591,8 +593,11 @@ impl Motion<'_, '_> {
             }
             match self.row_on_bridge(t) {
                 // the curve over the bridge is not exact enough, but the row is
-                Some(Err(_)) if is_certain => return Ok(self.keep_plain(here, row)),
-                Some(on_bridge) => return on_bridge.map(|()| false),
+                Some(Err(_)) if is_plain => return Ok(self.keep_plain(here, row)),
+                Some(on_bridge) => {
+                    self.plain = is_plain.then_some(here);
+                    return on_bridge.map(|()| false);
+                }
                 None => {}
             }
             // a step that failed leaves the factors of where it failed
@@ -638,14 +643,7 @@ impl Motion<'_, '_> {
         let (beyond, bridge, pass) = (self.bookmark(), self.bridge.take(), self.pass);
         self.pass = false;
         self.go_back(&plain);
-        let is_found = loop {
-            if self.state.t >= t {
-                break self.is_certain;
-            }
-            if self.count_step(t).is_err() || self.step_towards(t).is_err() {
-                break false;
-            }
-        };
+        let is_found = self.steps_to(t) && self.is_certain;
         let here = self.bookmark();
         (self.pass, self.bridge) = (pass, bridge);
         self.go_back(&beyond);
@@ -654,6 +652,17 @@ impl Motion<'_, '_> {
             self.keep_plain(here, row);
             true
         }
+    }
+
+    /// Steps to the time of the next row by way of all output times before; says whether it comes there.
+    fn steps_to(&mut self, t: f64) -> bool {
+        while self.state.t < t {
+            let upcoming = self.output.times.first_after(self.state.t, 0).min(self.output.next);
+            if self.count_step(t).is_err() || self.step_towards(self.output.times.at(upcoming)).is_err() {
+                return false;
+            }
+        }
+        true
     }
 
     fn explain_uncertain(&mut self, t: f64) -> Box<Diagnostic> {
