@@ -46,14 +46,15 @@ pub(super) struct Bridge {
     pub to: State,
     /// When the singular position is reached (s).
     pub at: f64,
-    /// A curve for rows that the quintic is not exact enough for, once it has been looked for.
-    finer: Option<Option<Finer>>,
+    /// A curve for rows that the quintic is not exact enough for, and whether it has been looked for.
+    finer: Option<Finer>,
+    is_searched: bool,
 }
 
 impl Bridge {
     /// A row of its own: bridges are rare.
     fn new(from: &State, to: &State) -> Bridge {
-        Bridge { from: from.clone(), to: to.clone(), at: from.t, finer: None }
+        Bridge { from: from.clone(), to: to.clone(), at: from.t, finer: None, is_searched: false }
     }
 
     /// The state at a time between, by the quintic with value, slope and curvature of both ends.
@@ -331,10 +332,11 @@ impl Motion<'_, '_> {
         let Some(mut bridge) = self.bridge.take() else {
             return false;
         };
-        if bridge.finer.is_none() {
-            bridge.finer = Some(self.finer_curve(&bridge));
+        if !bridge.is_searched {
+            bridge.is_searched = true;
+            bridge.finer = self.finer_curve(&bridge);
         }
-        let state = bridge.finer.as_ref().and_then(Option::as_ref).map(|finer| finer.state_at(t));
+        let state = bridge.finer.as_ref().map(|finer| finer.state_at(t));
         self.bridge = Some(bridge);
         let Some(state) = state else {
             return false;

@@ -71,7 +71,7 @@ impl Finer {
 fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
     let mut column: [f64; CONDITIONS] = std::array::from_fn(|place| at(place)[0]);
     let mut coefficients = [column[0]; CONDITIONS];
-    for order in 1..CONDITIONS {
+    for (order, coefficient) in coefficients.iter_mut().enumerate().skip(1) {
         for place in 0..CONDITIONS - order {
             let (first, last) = (place / 3, (place + order) / 3);
             column[place] = if first == last {
@@ -80,7 +80,7 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
                 (column[place + 1] - column[place]) / (Finer::NODES[last] - Finer::NODES[first])
             };
         }
-        coefficients[order] = column[0];
+        *coefficient = column[0];
     }
     coefficients
 }

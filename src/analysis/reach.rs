@@ -16,9 +16,11 @@ const CONTRACTS: f64 = 0.7;
 const SETTLED: f64 = 1e-13;
 /// Times within the bridge at which the free motion's way is taken.
 const SAMPLES: usize = 9;
-/// An extremum is looked for by parabolas, each over this part of the way of the one before.
-const PARABOLAS: usize = 4;
-const NARROWER: f64 = 0.1;
+/// An extremum is looked for by parabolas, each over this part of the way of the one before: in time, where it is near to the
+/// singular position's, and on the free motion's way.
+const PARABOLAS_IN_TIME: usize = 2;
+const PARABOLAS: usize = 3;
+const NARROWER: f64 = 0.05;
 /// Rows take part in a dependency from this part of the largest on.
 const TAKES_PART: f64 = 0.1;
 /// So many times what may be left of the equations is not told from nothing.
@@ -85,7 +87,7 @@ impl Motion<'_, '_> {
     fn time_of_worst_lack(&mut self, fold: &Fold<'_>) -> f64 {
         let Bridge { from, to, at, .. } = fold.bridge;
         let side = f64::min(at - from.t, to.t - at);
-        let extremum = extremum(*at, 0.25 * side, side, |t| self.lack(fold, t));
+        let extremum = extremum(PARABOLAS_IN_TIME, *at, [0.25 * side, side], |t| self.lack(fold, t));
         // one that is least there is largest at the ends, where positions are known
         extremum.filter(|extremum| extremum.bend < 0.0).map_or(*at, |extremum| extremum.place)
     }
@@ -94,9 +96,8 @@ impl Motion<'_, '_> {
     /// the equations have no fold beside the bridge.
     fn lack(&mut self, fold: &Fold<'_>, t: f64) -> Option<f64> {
         let state = fold.bridge.state_at(t);
-        let found = extremum(fold.middle, 0.5 * fold.extent, 4.0 * fold.extent, |way| {
-            self.open_across(fold, &state.q, t, way)
-        })?;
+        let around = [0.5 * fold.extent, 4.0 * fold.extent];
+        let found = extremum(PARABOLAS, fold.middle, around, |way| self.open_across(fold, &state.q, t, way))?;
         Some(if found.bend > 0.0 { found.value } else { -found.value })
     }
 
@@ -150,9 +151,14 @@ impl Fold<'_> {
 
 /// The extremum near a place by parabolas, the first one over `reach` to both sides; none where it is further off than
 /// `farthest`, or where the function has none.
-fn extremum(near: f64, reach: f64, farthest: f64, mut value: impl FnMut(f64) -> Option<f64>) -> Option<Extremum> {
+fn extremum(
+    parabolas: usize,
+    near: f64,
+    [reach, farthest]: [f64; 2],
+    mut value: impl FnMut(f64) -> Option<f64>,
+) -> Option<Extremum> {
     let (mut place, mut reach, mut bend) = (near, reach, 0.0);
-    for parabola in 0..PARABOLAS {
+    for parabola in 0..parabolas {
         let (before, after) = (value(place - reach)?, value(place + reach)?);
         if parabola == 0 {
             bend = 0.5 * (before + after) - value(place)?;
