@@ -155,7 +155,14 @@ impl Motion<'_, '_> {
         }
         self.come_closer();
         let (near, way) = (self.state.t, self.state.t - self.clear.t);
-        BEYOND.into_iter().find_map(|part| self.bridge_to(near + part * way))
+        for part in BEYOND {
+            let bridge = self.bridge_to(near + part * way);
+            // what is beyond the end of its reach is not come to by going further
+            if bridge.is_some() || self.fold.is_some() {
+                return bridge;
+            }
+        }
+        None
     }
 
     /// Brings the clear state as near to the singular position as it may be: the shorter the bridge, the better its middle.
