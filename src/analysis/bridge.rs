@@ -6,6 +6,7 @@
 
 use super::GOLDEN;
 use super::errors;
+use super::finer::Finer;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
 use super::singular;
@@ -17,6 +18,8 @@ use crate::diag::Diagnostic;
 const CLEAR: f64 = 8e-3;
 /// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
 const SOLVABLE: f64 = 1e-3;
+/// Solving beside a singular position leaves more than eight digits of accelerations down to here.
+const EXACT: f64 = 4e-3;
 /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
 const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
 /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
@@ -24,6 +27,8 @@ const LARGEST_CORRECTION: f64 = 0.05;
 /// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
 /// branches leaves more, be it that both touch each other.
 const LARGEST_BETWEEN: f64 = 1e-4;
+/// The time of a singular position is certain to this part of the bridge.
+const CERTAIN: f64 = 1e-6;
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
 /// Times at which the minimum of an even contact is looked for.
 const LOOKS: usize = 80;
@@ -41,16 +46,19 @@ pub(super) struct Bridge {
     pub to: State,
     /// When the singular position is reached (s).
     pub at: f64,
+    /// A curve for rows that the quintic is not exact enough for, and whether it has been looked for.
+    finer: Option<Finer>,
+    is_searched: bool,
 }
 
 impl Bridge {
     /// A row of its own: bridges are rare.
     fn new(from: &State, to: &State) -> Bridge {
-        Bridge { from: from.clone(), to: to.clone(), at: from.t }
+        Bridge { from: from.clone(), to: to.clone(), at: from.t, finer: None, is_searched: false }
     }
 
     /// The state at a time between, by the quintic with value, slope and curvature of both ends.
-    fn state_at(&self, t: f64) -> State {
+    pub fn state_at(&self, t: f64) -> State {
         let h = self.to.t - self.from.t;
         let x = (t - self.from.t) / h;
         let mut state = self.from.clone();
@@ -76,10 +84,21 @@ impl Bridge {
             state.q[k] = derivative(0);
             state.qd[k] = derivative(1) / h;
             state.qdd[k] = derivative(2) / (h * h);
-            state.qddd[k] = derivative(3) / (h * h * h);
+            state.qddd[k] = (derivative(3) + third_beside(h, [a.qddd[k], b.qddd[k]], c, x)) / (h * h * h);
         }
         state
     }
+}
+
+/// What the third derivative gains over that of a quintic, `c`, where it is known at both ends too: the quintic leaves only a
+/// few digits of it. What is added is x³ (1 − x)³ (α + β x), which changes neither value, slope nor curvature there.
+fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
+    let cube = h * h * h;
+    let at_start = (cube * third[0] - 6.0 * c[3]) / 6.0;
+    let at_end = -(cube * third[1] - 6.0 * c[3] - 24.0 * c[4] - 60.0 * c[5]) / 6.0;
+    let constant = 6.0 - x * (72.0 - x * (180.0 - x * 120.0));
+    let linear = x * (24.0 - x * (180.0 - x * (360.0 - x * 210.0)));
+    at_start * constant + (at_end - at_start) * linear
 }
 
 impl Motion<'_, '_> {
@@ -101,16 +120,22 @@ impl Motion<'_, '_> {
     /// Why and where the motion cannot go on.
     pub(super) fn pass_or_explain(&mut self, fault: Fault, h: f64, target: f64) -> Result<(), Box<Diagnostic>> {
         let is_singular = matches!(fault, Fault::Singular | Fault::TooFar | Fault::Watch { .. });
+        self.fold = None;
         let bridge = if is_singular { self.bridge_ahead() } else { None };
         let Some(bridge) = bridge else {
-            return Err(Box::new(singular::explain(self.kinematics, self.state, fault, h, target)));
+            return Err(Box::new(singular::explain_fold(self.kinematics, self.state, fault, [h, target], self.fold)));
         };
         let middle = bridge.state_at(bridge.at);
         let diagnostic = singular::explain_contact(self.kinematics, &middle, self.pass);
         if !self.pass {
+            // rows before the singular position may lie on it
+            self.bridge = Some(bridge);
             return Err(Box::new(diagnostic));
         }
-        self.remarks.push(diagnostic);
+        // what comes behind the last row is not passed
+        if bridge.at <= self.last + CERTAIN * (bridge.to.t - bridge.from.t) {
+            self.remarks.push(diagnostic);
+        }
         self.state.copy_from(&bridge.to);
         self.clear.copy_from(&bridge.to);
         self.kinematics.restore(self.state);
@@ -130,7 +155,14 @@ impl Motion<'_, '_> {
         }
         self.come_closer();
         let (near, way) = (self.state.t, self.state.t - self.clear.t);
-        BEYOND.into_iter().find_map(|part| self.bridge_to(near + part * way))
+        for part in BEYOND {
+            let bridge = self.bridge_to(near + part * way);
+            // what is beyond the end of its reach is not come to by going further
+            if bridge.is_some() || self.fold.is_some() {
+                return bridge;
+            }
+        }
+        None
     }
 
     /// Brings the clear state as near to the singular position as it may be: the shorter the bridge, the better its middle.
@@ -169,6 +201,10 @@ impl Motion<'_, '_> {
             return None;
         }
         bridge.at = self.singular_time(&bridge);
+        if let Some(fold) = self.end_of_reach(&bridge) {
+            self.fold = Some(fold);
+            return None;
+        }
         Some(bridge)
     }
 
@@ -262,31 +298,61 @@ impl Motion<'_, '_> {
         self.kinematics.restore(state);
     }
 
-    /// The row of a time on a bridge, if it is on one.
+    /// The row of a time on a bridge, if it is on one; where the bridge is not passed, on its way up to the singular position.
     pub(super) fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
-        let bridge = self.bridge.as_ref().filter(|bridge| t > bridge.from.t && t < bridge.to.t)?;
+        let is_on = |bridge: &&Bridge| {
+            let end = if self.pass { bridge.to.t } else { bridge.at - CERTAIN * (bridge.to.t - bridge.from.t) };
+            t > bridge.from.t && t < end
+        };
+        let bridge = self.bridge.as_ref().filter(is_on)?;
         let state = bridge.state_at(t);
         self.kinematics.restore(&state);
-        if self.kinematics.violated().is_some() {
-            return Some(if self.solved_row(&state) {
-                Ok(())
-            } else {
-                Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t)))
-            });
+        if self.kinematics.violated().is_none() {
+            self.kinematics.write_given_row(&state, &mut self.row);
+            return Some(Ok(()));
         }
-        self.kinematics.write_given_row(&state, &mut self.row);
-        Some(Ok(()))
+        if self.solved_row(&state, EXACT) || self.finer_row(t) || self.solved_row(&state, SOLVABLE) {
+            return Some(Ok(()));
+        }
+        // it may be certain as it is found without the bridge
+        if !self.pass {
+            return None;
+        }
+        Some(Err(Box::new(errors::uncertain(self.kinematics.system(), &[], t))))
     }
 
-    /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it; whether nine digits are left.
-    fn solved_row(&mut self, state: &State) -> bool {
+    /// Writes the row of a time on a bridge whose curve is not exact enough, by solving from it, if it is at least so far from
+    /// the singular position.
+    fn solved_row(&mut self, state: &State, nearest: f64) -> bool {
         self.trial.copy_from(state);
         let is_solved = self.correct().is_ok()
-            && self.kinematics.nearness(SOLVABLE) >= SOLVABLE
+            && self.kinematics.nearness(nearest) >= nearest
             && self.kinematics.derivatives(&mut self.trial).is_ok();
         if is_solved {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
         is_solved
+    }
+
+    /// Writes the row of a time on a long bridge by its finer curve, if that is exact there.
+    fn finer_row(&mut self, t: f64) -> bool {
+        let Some(mut bridge) = self.bridge.take() else {
+            return false;
+        };
+        if !bridge.is_searched {
+            bridge.is_searched = true;
+            bridge.finer = self.finer_curve(&bridge);
+        }
+        let state = bridge.finer.as_ref().map(|finer| finer.state_at(t));
+        self.bridge = Some(bridge);
+        let Some(state) = state else {
+            return false;
+        };
+        self.kinematics.restore(&state);
+        let is_exact = self.kinematics.violated().is_none();
+        if is_exact {
+            self.kinematics.write_given_row(&state, &mut self.row);
+        }
+        is_exact
     }
 }

@@ -392,6 +392,11 @@ impl<'d> Kinematics<'d> {
         self.linear.solve(|row| -registers.get(outputs.phi[row]), delta)
     }
 
+    /// Solves `Φ_q x = right` with the factors there are.
+    pub fn solve(&mut self, right: &[f64], x: &mut [f64]) {
+        self.linear.solve(|row| right[row], x);
+    }
+
     /// The correction of those coordinates that follow without iteration from the others, and its largest scaled entry.
     pub fn explicit_correction(&mut self, delta: &mut [f64]) -> f64 {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
@@ -548,12 +553,17 @@ impl<'d> Kinematics<'d> {
         is_finite
     }
 
-    /// Writes a result row of a state whose derivatives were found otherwise than by solving.
+    /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
-        let [_, qd, qdd, qddd] = self.program.inputs.coordinates;
-        self.registers.set_all(qd, &state.qd);
-        self.registers.set_all(qdd, &state.qdd);
-        self.registers.set_all(qddd, &state.qddd);
+        let (program, registers) = (self.program, &mut self.registers);
+        let [_, qd, qdd, qddd] = program.inputs.coordinates;
+        // what measures share with the right sides is computed there, and has to be of these derivatives
+        program.run(Stage::Velocity, registers);
+        registers.set_all(qd, &state.qd);
+        program.run(Stage::Acceleration, registers);
+        registers.set_all(qdd, &state.qdd);
+        program.run(Stage::Jerk, registers);
+        registers.set_all(qddd, &state.qddd);
         self.write_row(state, row);
     }
 

@@ -9,7 +9,7 @@ use super::bridge::Bridge;
 use super::determinant::Determinant;
 use super::edges::{Edge, Restless, behind_start};
 use super::kinematics::{Fault, Kinematics, State};
-use super::rows::Output;
+use super::rows::{Bookmark, Output};
 use super::signals::Signals;
 use super::singular;
 use super::times::Times;
@@ -97,6 +97,10 @@ pub struct Motion<'m, 'd> {
     pub(super) clear: State,
     /// The way over the last singular position.
     pub(super) bridge: Option<Bridge>,
+    /// When the mechanism comes to the end of its reach, where that is nearly far enough for what is asked for (s).
+    pub(super) fold: Option<f64>,
+    /// The last row on that way which was found without it.
+    pub(super) plain: Option<Bookmark>,
     /// The step that the error allows (s).
     pub(super) h: f64,
     smallest: f64,
@@ -157,6 +161,8 @@ impl<'m, 'd> Motion<'m, 'd> {
             pass: false,
             clear: state.clone(),
             bridge: None,
+            fold: None,
+            plain: None,
             delta: vec![0.0; n],
             middle: vec![0.0; n],
             determinants: vec![Determinant::ONE; blocks],

@@ -110,7 +110,7 @@ enum Place {
 
 /// What a motion goes back to where it was only looked ahead.
 #[derive(Clone)]
-struct Bookmark {
+pub(super) struct Bookmark {
     state: State,
     clear: State,
     determinants: Vec<Determinant>,
@@ -226,6 +226,9 @@ impl Motion<'_, '_> {
                 self.cross(edge)?;
             }
             if let Some(row) = self.row_on_bridge(t) {
+                if row.is_err() && self.plain_row(t) {
+                    return Ok(Place::Own);
+                }
                 return row.map(|()| Place::Own);
             }
             if t <= self.state.t {
@@ -573,19 +576,29 @@ impl Motion<'_, '_> {
         }
     }
 
-    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation
-    /// that is passed, and then the row lies on the way over it. Says whether it does not.
+    /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation,
+    /// and then the row may lie on the way over it. Says whether it does not.
     fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         let ahead = t + self.span / FEWEST_STEPS_NEAR;
         let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
+        // a run that passes nothing prints it too, if nothing has been passed before
+        let is_plain = is_certain && self.bridge.as_ref().is_none_or(|bridge| bridge.at > t);
         for _ in 0..STEPS_AHEAD {
-            match self.step_towards(ahead) {
+            if let Err(why) = self.step_towards(ahead) {
                 // what comes behind the row does not concern it
-                Err(_) if is_certain => break,
-                stepped => stepped?,
+                if is_certain {
+                    break;
+                }
+                return self.row_before(t, &here, why).map(|()| false);
             }
-            if let Some(row) = self.row_on_bridge(t) {
-                return row.map(|()| false);
+            match self.row_on_bridge(t) {
+                // the curve over the bridge is not exact enough, but the row is
+                Some(Err(_)) if is_plain => return Ok(self.keep_plain(here, row)),
+                Some(on_bridge) => {
+                    self.plain = is_plain.then_some(here);
+                    return on_bridge.map(|()| false);
+                }
+                None => {}
             }
             // a step that failed leaves the factors of where it failed
             self.kinematics.restore(self.state);
@@ -599,8 +612,62 @@ impl Motion<'_, '_> {
             self.row = row;
             return Ok(true);
         }
+        Err(self.explain_uncertain(t))
+    }
+
+    /// The row of a time `t`, which is not certain as it was found, where the motion behind it cannot go on.
+    fn row_before(&mut self, t: f64, here: &Bookmark, why: Box<Diagnostic>) -> Result<(), Box<Diagnostic>> {
+        let on_bridge = self.row_on_bridge(t);
+        self.go_back(here);
+        // nobody asked for what comes behind the last row
+        let is_behind = why.data.get("t").and_then(serde_json::Value::as_f64).is_some_and(|at| at > self.last);
+        on_bridge.unwrap_or_else(|| Err(if is_behind { self.explain_uncertain(t) } else { why }))
+    }
+
+    /// Keeps a row that was found without a bridge, so that the next one on that bridge may be found in the same way.
+    fn keep_plain(&mut self, here: Bookmark, row: Vec<f64>) -> bool {
+        self.row = row;
+        self.kinematics.restore(&here.state);
+        self.refine(here.state.t);
+        self.kinematics.restore(self.state);
+        self.plain = Some(here);
+        false
+    }
+
+    /// Finds the row of a time on a bridge by steps from the row before, as if the bridge were not there; says whether that
+    /// is certain.
+    fn plain_row(&mut self, t: f64) -> bool {
+        let Some(plain) = self.plain.take().filter(|plain| plain.state.t < t) else {
+            return false;
+        };
+        let (beyond, bridge, pass) = (self.bookmark(), self.bridge.take(), self.pass);
+        self.pass = false;
+        self.go_back(&plain);
+        let is_found = self.steps_to(t) && self.is_certain;
+        let here = self.bookmark();
+        (self.pass, self.bridge) = (pass, bridge);
+        self.go_back(&beyond);
+        is_found && {
+            let row = self.row.clone();
+            self.keep_plain(here, row);
+            true
+        }
+    }
+
+    /// Steps to the time of the next row by way of all output times before; says whether it comes there.
+    fn steps_to(&mut self, t: f64) -> bool {
+        while self.state.t < t {
+            let upcoming = self.output.times.first_after(self.state.t, 0).min(self.output.next);
+            if self.count_step(t).is_err() || self.step_towards(self.output.times.at(upcoming)).is_err() {
+                return false;
+            }
+        }
+        true
+    }
+
+    fn explain_uncertain(&mut self, t: f64) -> Box<Diagnostic> {
         let singular = self.kinematics.worst();
-        Err(Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t)))
+        Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t))
     }
 
     /// What the next step begins from.

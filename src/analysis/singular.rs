@@ -19,6 +19,17 @@ const TAKES_PART: f64 = 1e-3;
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
 pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
+    explain_fold(kinematics, state, fault, [h, target], None)
+}
+
+/// The same, where it may be known when the mechanism comes to the end of its reach, `fold` (s).
+pub(super) fn explain_fold(
+    kinematics: &mut Kinematics<'_>,
+    state: &State,
+    fault: Fault,
+    [h, target]: [f64; 2],
+    fold: Option<f64>,
+) -> Diagnostic {
     let system = kinematics.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
         return errors::no_value(system, fault, state.t + h);
@@ -45,8 +56,13 @@ pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fau
         return errors::no_contact(system, index, state.t);
     }
     let diagnostic = if singular.sigma < NEAR {
-        let named =
-            name_singular(system, &singular.left, &singular.right, time_of_fold(system, state, &singular.right));
+        // beside a bifurcation that just fails to be one the driver's share is small
+        let named = if let Some((t, row)) = fold.zip(heaviest_driver(system, &singular.left)) {
+            errors::lock_up(system, row, &joints_in(system, &singular.left), &columns_in(&singular.right), t)
+        } else {
+            let t = time_of_fold(system, state, &singular.right);
+            name_singular(system, &singular.left, &singular.right, t)
+        };
         match flat_contact(kinematics) {
             Some(joint) => errors::equal_curvatures(named, system, joint),
             None => named,
@@ -218,9 +234,13 @@ fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -
 /// The driver's row that weighs most in a dependency, if one takes part.
 pub(super) fn driver_in(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
-    (0..left.len())
-        .filter(|&row| system.is_driver(row) && left[row].abs() > TAKES_PART * largest)
-        .max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
+    heaviest_driver(system, left).filter(|&row| left[row].abs() > TAKES_PART * largest)
+}
+
+/// The driver's row that weighs most in a dependency, however little that is.
+fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
+    let drivers = (0..left.len()).filter(|&row| system.is_driver(row) && left[row].abs() > 0.0);
+    drivers.max_by(|&a, &b| left[a].abs().total_cmp(&left[b].abs()))
 }
 
 /// The joints and constraints that the dependency is made of, those that weigh most first.
