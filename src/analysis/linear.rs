@@ -20,6 +20,9 @@ use std::ops::Range;
 /// overestimate it by little.
 const PIVOT_MARGIN: f64 = 100.0;
 
+/// Two scales of which one makes a singular value so many times that of the other are as good as each other.
+const ALIKE: f64 = 10.0;
+
 /// Coordinates of a block that is no chain yet.
 const A_FEW: f64 = 24.0;
 /// Larger blocks are never factored densely.
@@ -40,6 +43,7 @@ macro_rules! factors {
             row_norm: &$lu.row_norm,
             size: &$lu.column_scale,
             yardstick: &$lu.yardstick,
+            is_judging: $lu.yardstick.is_measured(),
         }
     };
 }
@@ -572,9 +576,6 @@ impl BlockLu {
         for (k, part) in self.parts.iter().enumerate() {
             let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
             let sigma = self.factors().singular(k, part, (&mut left, &mut right), &mut work);
-            // the right sides that the solves below carry over to the other blocks
-            self.factors().judge_by_columns(k, part, &mut right);
-            self.factors().judge_by_rows(part, &mut left);
             let found = Singular { sigma, left, right };
             if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
                 worst = Some((k, found));
@@ -583,6 +584,7 @@ impl BlockLu {
         let Some((k, block)) = worst else {
             return Singular { sigma: 1.0, left: Vec::new(), right: Vec::new() };
         };
+        let block = self.as_solved(k, block);
         let (at, size) = (self.parts[k].at, self.parts[k].size);
         let (mut left, mut right) = (vec![0.0; n], vec![0.0; n]);
         for place in 0..size {
@@ -604,6 +606,22 @@ impl BlockLu {
 }
 
 impl BlockLu {
+    /// The vectors of a block's smallest singular value as right sides that its factors turn into dependency and motion. Where
+    /// the scales that are solved with are no worse they give the vectors: of several, these are told that weigh most in them.
+    fn as_solved(&self, k: usize, mut judged: Singular) -> Singular {
+        let (part, factors) = (&self.parts[k], self.factors());
+        let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
+        let mut work = vec![0.0; self.rows.len()];
+        let plain = Factors { is_judging: false, ..factors };
+        let sigma = plain.singular(k, part, (&mut left, &mut right), &mut work);
+        if sigma <= ALIKE * judged.sigma && judged.sigma <= ALIKE * sigma {
+            return Singular { sigma: judged.sigma, left, right };
+        }
+        factors.judge_by_columns(k, part, &mut judged.right);
+        factors.judge_by_rows(part, &mut judged.left);
+        judged
+    }
+
     fn factors(&self) -> Factors<'_> {
         factors!(self)
     }
@@ -639,19 +657,21 @@ struct Factors<'l> {
     row_norm: &'l [f64],
     size: &'l [f64],
     yardstick: &'l Yardstick,
+    /// Whether nearness is measured by the yardstick, or by the scales that are solved with.
+    is_judging: bool,
 }
 
 impl Factors<'_> {
     /// What an entry of the scaled `Φ_q` is multiplied by for its row as nearness is judged; a row by its place in the block.
     fn row_scale(&self, part: &Part, place: usize) -> f64 {
         let row = self.rows[part.at + place] as usize;
-        if self.yardstick.is_measured() { self.row_norm[row] / self.yardstick.row(row) } else { 1.0 }
+        if self.is_judging { self.row_norm[row] / self.yardstick.row(row) } else { 1.0 }
     }
 
     /// As [`Factors::row_scale`] for its column.
     fn column_scale(&self, part: &Part, place: usize) -> f64 {
         let column = self.columns[part.at + place] as usize;
-        if self.yardstick.is_measured() { self.yardstick.column(column) / self.size[column] } else { 1.0 }
+        if self.is_judging { self.yardstick.column(column) / self.size[column] } else { 1.0 }
     }
 
     /// With A the scaled block and P A K that by which nearness is judged: multiplies by P⁻¹.
@@ -667,22 +687,24 @@ impl Factors<'_> {
             *b /= self.column_scale(part, place);
         }
         for centroid in self.centroids(k) {
-            let [x, y, phi] = centroid.places.map(|place| place as usize);
-            let [size_x, size_y, size_phi] = centroid.columns.map(|column| self.size[column as usize]);
             let [right, up] = centroid.from_origin;
-            b[phi] += size_phi * (right * b[y] / size_y - up * b[x] / size_x);
+            let ([column, turn], arms) = (centroid.turn, [-up, right]);
+            for ([moved, place], arm) in centroid.moves.into_iter().zip(arms).filter_map(|(at, arm)| Some((at?, arm))) {
+                let share = arm * b[place as usize] / self.size[moved as usize];
+                b[turn as usize] += share * self.size[column as usize];
+            }
         }
     }
 
     /// Multiplies by K⁻¹: motions of origins become those of centroids.
     fn judge_motion(&self, k: usize, part: &Part, x: &mut [f64]) {
         for centroid in self.centroids(k) {
-            let [at_x, at_y, phi] = centroid.places.map(|place| place as usize);
-            let [size_x, size_y, size_phi] = centroid.columns.map(|column| self.size[column as usize]);
             let [right, up] = centroid.from_origin;
-            let turn = x[phi] * size_phi;
-            x[at_x] -= up * turn / size_x;
-            x[at_y] += right * turn / size_y;
+            let ([column, turn], arms) = (centroid.turn, [-up, right]);
+            let turn = x[turn as usize] * self.size[column as usize];
+            for ([moved, place], arm) in centroid.moves.into_iter().zip(arms).filter_map(|(at, arm)| Some((at?, arm))) {
+                x[place as usize] += arm * turn / self.size[moved as usize];
+            }
         }
         for (place, x) in x.iter_mut().enumerate() {
             *x /= self.column_scale(part, place);
@@ -690,7 +712,7 @@ impl Factors<'_> {
     }
 
     fn centroids(&self, k: usize) -> &[Centroid] {
-        if self.yardstick.is_measured() { self.yardstick.centroids(k) } else { &[] }
+        if self.is_judging { self.yardstick.centroids(k) } else { &[] }
     }
 
     /// Solves within a block: `b` by its rows becomes the solution by its columns.

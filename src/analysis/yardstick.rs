@@ -16,7 +16,9 @@ use crate::structure::Block;
 use std::ops::Range;
 
 /// Sweeps over rows and columns: what is left after them is a factor that does not matter.
-const SWEEPS: usize = 8;
+const SWEEPS: usize = 12;
+/// The norm that rows come to: that of a joint's equation in the coordinates of one of its bodies, the other being given.
+pub(super) const ROW_NORM: f64 = 0.4;
 /// A centroid counts where it is so many times as far from the origin of the frame as features are from it.
 const FAR_FRAME: f64 = 4.0;
 /// The least lever of an axis, along which another body may come as near to this one's features as it likes, in sizes of the
@@ -53,13 +55,13 @@ enum EntryKind {
 /// A body of a block that moves and turns with it, whose frame lies far from its features.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Centroid {
-    /// The columns of x, y and φ.
-    pub columns: [u32; 3],
-    /// Their places within the block.
-    pub places: [u32; 3],
+    /// The column of φ, and its place within the block.
+    pub turn: [u32; 2],
+    /// The same of x and of y, as far as they are in the block.
+    pub moves: [Option<[u32; 2]>; 2],
     /// In the frame of the body (m).
     local: [f64; 2],
-    /// From the body's origin, in the global frame (m).
+    /// From the body's origin, in the global frame, as far as it moves with the block (m).
     pub from_origin: [f64; 2],
 }
 
@@ -87,7 +89,8 @@ pub(super) struct Yardstick {
     column_scale: Vec<f64>,
     /// By column: where no equation has a slope.
     size: Vec<f64>,
-    sums: Vec<f64>,
+    /// By row or by column: what has been gathered of its entries.
+    gathered: Vec<[f64; 2]>,
     is_measured: bool,
 }
 
@@ -106,7 +109,7 @@ impl Yardstick {
             row_scale: vec![1.0; n],
             column_scale: vec![1.0; n],
             size: system.coordinates.iter().map(|coordinate| coordinate.scale).collect(),
-            sums: vec![0.0; n],
+            gathered: vec![[0.0; 2]; n],
             is_measured: false,
         };
         let mut place_of = vec![NONE; n];
@@ -133,10 +136,10 @@ impl Yardstick {
         self.rows.extend_from_slice(&block.rows);
         self.columns.extend_from_slice(&block.columns);
         for (body, local) in features.far_centroids(system, block, place_of) {
-            let columns = [0, 1, 2].map(|part| 3 * body as u32 + part);
-            let places = columns.map(|column| place_of[column as usize]);
+            let [x, y, phi] = [0, 1, 2].map(|part| [(3 * body + part) as u32, place_of[3 * body + part]]);
+            let moves = [x, y].map(|[column, place]| (place != NONE).then_some([column, place]));
             centroid_of[body] = self.centroids.len() as u32;
-            self.centroids.push(Centroid { columns, places, local, from_origin: local });
+            self.centroids.push(Centroid { turn: phi, moves, local, from_origin: local });
         }
         for &row in &block.rows {
             for (position, &(column, _)) in system.phi_q.range(row as usize).zip(system.phi_q.row(row as usize)) {
@@ -158,7 +161,7 @@ impl Yardstick {
             }
         }
         for centroid in &self.centroids[centroids..] {
-            centroid_of[centroid.columns[0] as usize / 3] = NONE;
+            centroid_of[centroid.turn[0] as usize / 3] = NONE;
         }
         self.parts.push(Part {
             rows: rows..self.rows.len(),
@@ -194,9 +197,12 @@ impl Yardstick {
     /// Turns the centroids along; `angle` gives a coordinate (rad) by its column.
     pub fn turn(&mut self, angle: impl Fn(usize) -> f64) {
         for centroid in &mut self.centroids {
-            let (sin, cos) = math::sin_cos(angle(centroid.columns[2] as usize));
+            let (sin, cos) = math::sin_cos(angle(centroid.turn[0] as usize));
             let [x, y] = centroid.local;
-            centroid.from_origin = [x * cos - y * sin, x * sin + y * cos];
+            let [moves_right, moves_up] = centroid.moves.map(|moves| moves.is_some());
+            let [right, up] = [x * cos - y * sin, x * sin + y * cos];
+            // turning about the centroid moves the origin up by what lies to the right of it
+            centroid.from_origin = [if moves_up { right } else { 0.0 }, if moves_right { up } else { 0.0 }];
         }
     }
 
@@ -234,6 +240,8 @@ impl Yardstick {
         f64::max(magnitude, self.beside[entry.position as usize])
     }
 
+    /// Scales the rows and columns of a block in turn: first such that their largest and smallest entries are as far from 1, by
+    /// factors (D. R. Fulkerson, P. Wolfe, 1962), which soon brings together what is of very different size, then to their norm.
     fn equilibrate(&mut self, k: usize) {
         let part = &self.parts[k];
         let (rows, columns) = (&self.rows[part.rows.clone()], &self.columns[part.rows.clone()]);
@@ -242,34 +250,65 @@ impl Yardstick {
         for &column in columns {
             self.column_scale[column as usize] = self.size[column as usize];
         }
-        for sweep in 0..=SWEEPS {
-            rows.iter().for_each(|&row| self.sums[row as usize] = 0.0);
+        rows.iter().for_each(|&row| self.row_scale[row as usize] = 1.0);
+        let sweeps = if rows.len() == 1 { 0 } else { SWEEPS };
+        for sweep in 0..=sweeps {
+            let mean = if sweep < sweeps / 2 { Mean::OfExtremes } else { Mean::Norm };
+            let gathered = &mut self.gathered;
+            rows.iter().for_each(|&row| gathered[row as usize] = mean.of_none());
             for (entry, magnitude) in entries.iter().zip(magnitudes) {
                 let scaled = magnitude * self.column_scale[entry.column as usize];
-                self.sums[entry.row as usize] += scaled * scaled;
+                mean.gather(&mut gathered[entry.row as usize], scaled);
             }
             for &row in rows {
-                self.row_scale[row as usize] = norm_or(self.sums[row as usize], 1.0);
+                self.row_scale[row as usize] = mean.value_or_one(gathered[row as usize]) / ROW_NORM;
             }
-            if sweep == SWEEPS || rows.len() == 1 {
+            if sweep == sweeps {
                 break;
             }
-            columns.iter().for_each(|&column| self.sums[column as usize] = 0.0);
+            columns.iter().for_each(|&column| gathered[column as usize] = mean.of_none());
             for (entry, magnitude) in entries.iter().zip(magnitudes) {
-                let scaled = magnitude * self.column_scale[entry.column as usize] / self.row_scale[entry.row as usize];
-                self.sums[entry.column as usize] += scaled * scaled;
+                mean.gather(&mut gathered[entry.column as usize], magnitude / self.row_scale[entry.row as usize]);
             }
             for &column in columns {
-                self.column_scale[column as usize] /= norm_or(self.sums[column as usize], 1.0);
+                self.column_scale[column as usize] = ROW_NORM / mean.value_or_one(gathered[column as usize]);
             }
         }
     }
 }
 
-/// The root of a sum of squares; what there is else where it is none to divide by.
-fn norm_or(square: f64, otherwise: f64) -> f64 {
-    let norm = square.sqrt();
-    if norm > 0.0 && norm.is_finite() { norm } else { otherwise }
+/// What entries of a row or column come to.
+#[derive(Clone, Copy)]
+enum Mean {
+    /// The geometric one of the largest and the smallest.
+    OfExtremes,
+    Norm,
+}
+
+impl Mean {
+    fn of_none(self) -> [f64; 2] {
+        match self {
+            Mean::OfExtremes => [f64::INFINITY, 0.0],
+            Mean::Norm => [0.0; 2],
+        }
+    }
+
+    fn gather(self, [low, high]: &mut [f64; 2], value: f64) {
+        match self {
+            Mean::OfExtremes if value > 0.0 => (*low, *high) = (low.min(value), high.max(value)),
+            Mean::OfExtremes => {}
+            Mean::Norm => *high += value * value,
+        }
+    }
+
+    /// 1 where no entry says more.
+    fn value_or_one(self, [low, high]: [f64; 2]) -> f64 {
+        let value = match self {
+            Mean::OfExtremes => low.sqrt() * high.sqrt(),
+            Mean::Norm => high.sqrt(),
+        };
+        if value > 0.0 && value.is_finite() { value } else { 1.0 }
+    }
 }
 
 /// The position of a row's slope in a coordinate.
@@ -349,7 +388,7 @@ impl Features {
         let in_block = |column: usize| place_of[column] != NONE;
         let turning = block.columns.iter().filter_map(|&column| {
             let body = system.body_of(column as usize)?;
-            let whole = column as usize == 3 * body + 2 && in_block(3 * body) && in_block(3 * body + 1);
+            let whole = column as usize == 3 * body + 2 && (in_block(3 * body) || in_block(3 * body + 1));
             whole.then_some(body)
         });
         let mut places: Vec<(usize, [f64; 2])> = Vec::new();

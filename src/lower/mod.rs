@@ -165,14 +165,17 @@ impl Lowering<'_> {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
+        let from_frames = size::of_frames(model);
         for (k, body) in model.bodies.iter().enumerate() {
+            let is_far = from_frames[k] > size::FAR_FRAME * self.sizes[k];
+            let size = if is_far { from_frames[k] } else { self.sizes[k] };
             for ((part, kind), estimate) in PARTS.into_iter().zip(body.pose) {
                 let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
                     owner: Owner::Body(k),
                     kind,
                     estimate: self.formula(estimate),
-                    scale: if kind == CoordinateKind::Length { self.sizes[k] } else { 1.0 },
+                    scale: if kind == CoordinateKind::Length { size } else { 1.0 },
                 };
                 self.coordinates.push(coordinate);
             }

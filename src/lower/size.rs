@@ -14,6 +14,9 @@ const MANY_POINTS: usize = 500;
 /// A size that features say which no equation uses counts if it is that of the others to such a factor.
 const IN_PROPORTION: f64 = 10.0;
 
+/// A frame is far from a body that is so many of the body's sizes away.
+pub(super) const FAR_FRAME: f64 = 10.0;
+
 /// So many places stand for a whole curve.
 const PLACES_ON_CURVE: u32 = 16;
 
@@ -71,6 +74,26 @@ fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&
         }
     }
     Some(sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect())
+}
+
+/// How far each body's frame lies from the features that equations use (m): as far as that goes a body's origin moves when it
+/// turns a little, however small the body.
+pub(super) fn of_frames(model: &Mechanism) -> Vec<f64> {
+    let mut values = Vec::new();
+    model.graph.extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => model.params[k as usize].value,
+        _ => f64::NAN,
+    });
+    let points = places(model, &|id: ExprId| values[id.index()], Some(&Uses::of(model)));
+    let mut distances = vec![0.0; model.bodies.len()];
+    for (frame, points) in &points {
+        if let Frame::Body(body) = frame {
+            let all = points.iter().map(|[x, y]| crate::math::hypot(*x, *y)).filter(|way| way.is_finite());
+            let nearest = all.fold(f64::INFINITY, f64::min);
+            distances[body.index()] = if nearest.is_finite() { nearest } else { 0.0 };
+        }
+    }
+    distances
 }
 
 /// The places of features in each frame (m).
