@@ -20,7 +20,7 @@ use std::ops::Range;
 /// overestimate it by little.
 const PIVOT_MARGIN: f64 = 100.0;
 
-/// Two scales of which one makes a singular value so many times that of the other are as good as each other.
+/// What the scales that are solved with say of nearness holds as far as it is to such a factor what the yardstick says.
 const ALIKE: f64 = 10.0;
 
 /// Coordinates of a block that is no chain yet.
@@ -334,7 +334,7 @@ impl BlockLu {
     fn factor_part(&mut self, k: usize) {
         self.factor_as_it_is(k);
         if self.yardstick.is_measured() {
-            self.parts[k].smallest_pivot = self.judged_pivot(k);
+            self.parts[k].smallest_pivot = borne_out(self.parts[k].smallest_pivot, self.judged_pivot(k));
         }
     }
 
@@ -347,7 +347,7 @@ impl BlockLu {
             let (left, rest) = work.split_at_mut(self.rows.len());
             let (right, work) = rest.split_at_mut(self.rows.len());
             let vectors = (&mut left[..part.size], &mut right[..part.size]);
-            return factors.singular(k, part, vectors, work) * part.length_of_chain();
+            return factors.nearness(k, part, vectors, work) * part.length_of_chain();
         }
         // what is not a number must win
         let smaller = |least: f64, pivot: f64| if pivot.abs() >= least { least } else { pivot.abs() };
@@ -562,7 +562,7 @@ impl BlockLu {
         let is_near = |part: &Part| part.smallest_pivot < PIVOT_MARGIN * limit;
         for (k, part) in self.parts.iter().enumerate().filter(|(_, part)| is_near(part)) {
             let vectors = (&mut left[..part.size], &mut right[..part.size]);
-            nearest = nearest.min(factors.singular(k, part, vectors, work) * part.length_of_chain());
+            nearest = nearest.min(factors.nearness(k, part, vectors, work) * part.length_of_chain());
         }
         nearest
     }
@@ -575,7 +575,7 @@ impl BlockLu {
         let mut work = vec![0.0; n];
         for (k, part) in self.parts.iter().enumerate() {
             let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
-            let sigma = self.factors().singular(k, part, (&mut left, &mut right), &mut work);
+            let sigma = self.factors().nearness(k, part, (&mut left, &mut right), &mut work);
             let found = Singular { sigma, left, right };
             if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
                 worst = Some((k, found));
@@ -607,15 +607,14 @@ impl BlockLu {
 
 impl BlockLu {
     /// The vectors of a block's smallest singular value as right sides that its factors turn into dependency and motion. Where
-    /// the scales that are solved with are no worse they give the vectors: of several, these are told that weigh most in them.
+    /// the scales that are solved with are borne out they give the vectors: of several, these are told that weigh most in them.
     fn as_solved(&self, k: usize, mut judged: Singular) -> Singular {
         let (part, factors) = (&self.parts[k], self.factors());
         let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
         let mut work = vec![0.0; self.rows.len()];
-        let plain = Factors { is_judging: false, ..factors };
-        let sigma = plain.singular(k, part, (&mut left, &mut right), &mut work);
-        if sigma <= ALIKE * judged.sigma && judged.sigma <= ALIKE * sigma {
-            return Singular { sigma: judged.sigma, left, right };
+        let sigma = factors.as_solved().singular(k, part, (&mut left, &mut right), &mut work);
+        if sigma.total_cmp(&judged.sigma).is_eq() {
+            return Singular { sigma, left, right };
         }
         factors.judge_by_columns(k, part, &mut judged.right);
         factors.judge_by_rows(part, &mut judged.left);
@@ -742,6 +741,17 @@ impl Factors<'_> {
         &self.dense[part.matrix..part.matrix + part.size * part.size]
     }
 
+    /// As the scales that are solved with have it.
+    fn as_solved(self) -> Self {
+        Factors { is_judging: false, ..self }
+    }
+
+    /// How near a block is to a singular position, with the vectors of its smallest singular value by the yardstick.
+    fn nearness(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
+        let sigma = self.as_solved().singular(k, part, (left, right), work);
+        if self.is_judging { borne_out(sigma, self.singular(k, part, (left, right), work)) } else { sigma }
+    }
+
     /// The smallest singular value of a block as nearness is judged, with its left and right vectors, by inverse iteration.
     fn singular(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
         if part.form == Form::Single {
@@ -776,6 +786,13 @@ pub(super) struct Singular {
     pub left: Vec<f64>,
     /// By coordinates, scaled.
     pub right: Vec<f64>,
+}
+
+/// What the scales that are solved with say of nearness, if the yardstick bears it out, or else what that says: they serve where
+/// bodies are of a size, and frames near them.
+fn borne_out(solved: f64, judged: f64) -> f64 {
+    let is_borne_out = solved <= ALIKE * judged && judged <= ALIKE * solved;
+    if is_borne_out { solved } else { judged }
 }
 
 fn normalize(v: &mut [f64]) -> f64 {

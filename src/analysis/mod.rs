@@ -109,7 +109,7 @@ impl<'d> Started<'d> {
     #[must_use]
     pub fn conditioning(&mut self) -> f64 {
         self.kinematics.restore(&self.state);
-        self.kinematics.worst().sigma / yardstick::ROW_NORM
+        self.kinematics.worst().sigma
     }
 
     /// What solves for rows; none where it would be too large.

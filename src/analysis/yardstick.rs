@@ -18,7 +18,7 @@ use std::ops::Range;
 /// Sweeps over rows and columns: what is left after them is a factor that does not matter.
 const SWEEPS: usize = 12;
 /// The norm that rows come to: that of a joint's equation in the coordinates of one of its bodies, the other being given.
-pub(super) const ROW_NORM: f64 = 0.4;
+const ROW_NORM: f64 = 0.5;
 /// A centroid counts where it is so many times as far from the origin of the frame as features are from it.
 const FAR_FRAME: f64 = 4.0;
 /// The least lever of an axis, along which another body may come as near to this one's features as it likes, in sizes of the
