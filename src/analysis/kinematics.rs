@@ -2,6 +2,7 @@
 
 use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
+use super::yardstick::is_looked_at_beside;
 use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
@@ -71,6 +72,8 @@ pub(super) struct Kinematics<'d> {
     tolerance: f64,
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
+    /// Rows whose slopes are looked at beside a position, these among them.
+    looked_at_beside: Vec<usize>,
     beside: Vec<f64>,
 }
 
@@ -91,33 +94,62 @@ impl<'d> Kinematics<'d> {
             linear: BlockLu::new(system, determined.blocks()),
             tolerance,
             bent: (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect(),
+            looked_at_beside: (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect(),
             beside: vec![0.0; system.coordinates.len()],
         }
     }
 
-    /// Measures the slopes of rows that are bent on both sides of a position, at the time that was set: they are scaled by the
-    /// lesser one where it is more than their own, so that a slope that vanishes in between makes a singular position, and one
-    /// that grows beside a pole does not. The position must be set anew.
+    /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
+    /// some rows are looked at on both sides of it, too: a slope counts for no less than the lesser of these, so that one that
+    /// vanishes in between makes a singular position, and one that grows beside a pole does not. Rows that are bent are scaled
+    /// by that as well. The position must be set anew.
     pub fn measure_slopes(&mut self, q: &[f64]) {
-        for index in 0..self.bent.len() {
-            let row = self.bent[index];
-            let mut least = f64::INFINITY;
-            for way in [BESIDE, -BESIDE] {
-                self.beside.copy_from_slice(q);
-                for &(column, _) in self.system().phi_q.row(row) {
-                    let column = column as usize;
-                    self.beside[column] += way * aslant(column) * self.linear.column_scale(column);
-                }
-                self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
-                self.program.run(Stage::Position, &mut self.registers);
-                let norm = self.slope(row);
-                // where a formula has no value it has no slope
-                if norm.is_finite() {
-                    least = least.min(norm);
+        if self.linear.yardstick().is_measured() && !self.linear.yardstick().changes() {
+            return;
+        }
+        if !self.looked_at_beside.is_empty() {
+            self.look_beside(q);
+        }
+        self.evaluate(q);
+        let (registers, outputs) = (&self.registers, &self.program.outputs);
+        let coordinate = |column: usize| registers.get(self.program.inputs.coordinates[0] + column as u32);
+        let yardstick = self.linear.yardstick();
+        yardstick.turn(coordinate);
+        yardstick.measure(|position| registers.get(outputs.phi_q[position]));
+    }
+
+    fn look_beside(&mut self, q: &[f64]) {
+        let pattern = &self.system().phi_q;
+        // where a formula has no value it has no slope
+        let lesser = |known: f64, found: f64| if found.is_finite() { f64::min(known, found) } else { known };
+        let or_none = |least: f64| if least.is_finite() { least } else { 0.0 };
+        for way in [BESIDE, -BESIDE] {
+            for (column, beside) in self.beside.iter_mut().enumerate() {
+                *beside = q[column] + way * aslant(column) * self.linear.column_scale(column);
+            }
+            self.registers.set_all(self.program.inputs.coordinates[0], &self.beside);
+            self.program.run(Stage::Position, &mut self.registers);
+            let is_first = way > 0.0;
+            for index in 0..self.looked_at_beside.len() {
+                for position in pattern.range(self.looked_at_beside[index]) {
+                    let found = self.phi_q(position).abs();
+                    let slope = self.linear.yardstick().beside(position);
+                    *slope = lesser(if is_first { f64::INFINITY } else { *slope }, found);
+                    *slope = if is_first { *slope } else { or_none(*slope) };
                 }
             }
-            self.linear.set_least_norm(row, if least.is_finite() { least } else { 0.0 });
+            for index in 0..self.bent.len() {
+                let row = self.bent[index];
+                let known = if is_first { f64::INFINITY } else { self.linear.least_norm(row) };
+                let least = lesser(known, self.slope(row));
+                self.linear.set_least_norm(row, if is_first { least } else { or_none(least) });
+            }
         }
+    }
+
+    fn evaluate(&mut self, q: &[f64]) {
+        self.registers.set_all(self.program.inputs.coordinates[0], q);
+        self.program.run(Stage::Position, &mut self.registers);
     }
 
     /// The norm of a row of the scaled Φ_q where the position was set.
@@ -372,6 +404,8 @@ impl<'d> Kinematics<'d> {
     /// Factors Φ_q where the position was set.
     pub fn factor(&mut self) -> Result<(), Fault> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
+        let coordinates = self.program.inputs.coordinates[0];
+        self.linear.yardstick().turn(|column| registers.get(coordinates + column as u32));
         match self.linear.factor(|position| registers.get(outputs.phi_q[position])) {
             Factored::Regular => Ok(()),
             Factored::Singular => match self.not_finite_slope() {

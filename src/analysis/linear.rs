@@ -1,6 +1,7 @@
 //! The linear systems of one state: `Φ_q x = b`, block by block.
 //!
-//! Everything is scaled: lengths by the size of their body, rows to unit norm. Within a block the order of elimination is
+//! Everything is scaled: lengths by the size of their body, rows to unit norm; what nearness to a singular position is judged
+//! by are scales of their own (`yardstick`). Within a block the order of elimination is
 //! fixed (`sparse`); where that loses digits a small block is factored densely with partial pivoting, and a large one gets
 //! another order. Between blocks the solution is substituted forward, so that cost grows with the number of blocks.
 
@@ -8,6 +9,7 @@ use super::GOLDEN;
 use super::dense::{factor_dense, solve_dense, solve_dense_transposed};
 use super::determinant::Determinant;
 use super::sparse::Plan;
+use super::yardstick::{Centroid, Yardstick};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::solver::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT};
@@ -18,12 +20,33 @@ use std::ops::Range;
 /// overestimate it by little.
 const PIVOT_MARGIN: f64 = 100.0;
 
+/// What the scales that are solved with say of nearness holds as far as it is to such a factor what the yardstick says.
+const ALIKE: f64 = 10.0;
+
 /// Coordinates of a block that is no chain yet.
 const A_FEW: f64 = 24.0;
 /// Larger blocks are never factored densely.
 const LARGEST_DENSE: usize = 100;
 /// Orders of elimination to choose from, so that there is one for most of a motion.
 const PLANS: u32 = 4;
+
+/// The factors, beside which the workspace may be borrowed.
+macro_rules! factors {
+    ($lu:expr) => {
+        Factors {
+            values: &$lu.values,
+            inside: &$lu.inside,
+            dense: &$lu.dense,
+            pivots: &$lu.pivots,
+            rows: &$lu.rows,
+            columns: &$lu.columns,
+            row_norm: &$lu.row_norm,
+            size: &$lu.column_scale,
+            yardstick: &$lu.yardstick,
+            is_judging: $lu.yardstick.is_measured(),
+        }
+    };
+}
 
 /// One irreducible block with its place in the common storage.
 struct Part {
@@ -35,7 +58,7 @@ struct Part {
     matrix: usize,
     /// Its entries in `inside`.
     inside: Range<usize>,
-    /// Smallest pivot, relative to rows of unit norm.
+    /// Smallest pivot as nearness is judged.
     smallest_pivot: f64,
     /// Orders of elimination.
     plans: Vec<Plan>,
@@ -101,6 +124,8 @@ pub(super) struct BlockLu {
     dense: Vec<f64>,
     pivots: Vec<u32>,
     work: Vec<f64>,
+    /// What nearness to a singular position is judged by.
+    yardstick: Yardstick,
 }
 
 /// What a factorisation shows.
@@ -178,7 +203,13 @@ impl BlockLu {
             dense: vec![0.0; matrix],
             pivots: vec![0; n],
             work: vec![0.0; 3 * n],
+            yardstick: Yardstick::new(system, blocks),
         }
+    }
+
+    /// What nearness to a singular position is judged by.
+    pub fn yardstick(&mut self) -> &mut Yardstick {
+        &mut self.yardstick
     }
 
     pub fn column_scale(&self, column: usize) -> f64 {
@@ -188,6 +219,11 @@ impl BlockLu {
     /// From now on a row is divided by no less than this: a formula whose slope vanishes is to be seen.
     pub fn set_least_norm(&mut self, row: usize, norm: f64) {
         self.least_norm[row] = norm;
+    }
+
+    /// What was set so; 0 where nothing was.
+    pub fn least_norm(&self, row: usize) -> f64 {
+        self.least_norm[row]
     }
 
     /// A row whose slope, scaled, was less than this where `Φ_q` was factored.
@@ -296,6 +332,48 @@ impl BlockLu {
     }
 
     fn factor_part(&mut self, k: usize) {
+        self.factor_as_it_is(k);
+        if self.yardstick.is_measured() {
+            self.parts[k].smallest_pivot = borne_out(self.parts[k].smallest_pivot, self.judged_pivot(k));
+        }
+    }
+
+    /// The smallest pivot as nearness is judged: the factors of a scaled matrix are the scaled factors. Where bodies are taken by
+    /// their centroids, which pivots know nothing of, it is the smallest singular value.
+    fn judged_pivot(&mut self, k: usize) -> f64 {
+        let (work, part) = (&mut self.work, &self.parts[k]);
+        let factors = factors!(self);
+        if !self.yardstick.centroids(k).is_empty() {
+            let (left, rest) = work.split_at_mut(self.rows.len());
+            let (right, work) = rest.split_at_mut(self.rows.len());
+            let vectors = (&mut left[..part.size], &mut right[..part.size]);
+            return factors.nearness(k, part, vectors, work) * part.length_of_chain();
+        }
+        // what is not a number must win
+        let smaller = |least: f64, pivot: f64| if pivot.abs() >= least { least } else { pivot.abs() };
+        let judged = |row: usize, column: usize, pivot: f64| {
+            pivot * factors.row_scale(part, row) * factors.column_scale(part, column)
+        };
+        match part.form {
+            Form::Single => judged(0, 0, self.values[self.inside[part.inside.start] as usize]).abs(),
+            Form::Planned(plan) => {
+                let pivots = part.plans[plan].placed_pivots(&part.slots);
+                pivots.map(|(row, column, pivot)| judged(row, column, pivot)).fold(f64::INFINITY, smaller)
+            }
+            Form::Dense => {
+                let mut rows: [usize; LARGEST_DENSE] = std::array::from_fn(|row| row);
+                let mut least = f64::INFINITY;
+                for (place, &other) in self.pivots[part.at..part.at + part.size].iter().enumerate() {
+                    rows.swap(place, other as usize);
+                    let pivot = self.dense[part.matrix + place * (part.size + 1)];
+                    least = smaller(least, judged(rows[place], place, pivot));
+                }
+                least
+            }
+        }
+    }
+
+    fn factor_as_it_is(&mut self, k: usize) {
         if self.parts[k].form == Form::Single {
             let value = self.values[self.inside[self.parts[k].inside.start] as usize];
             self.parts[k].smallest_pivot = value.abs();
@@ -415,7 +493,7 @@ impl BlockLu {
         let n = self.rows.len();
         let (scaled, rest) = self.work.split_at_mut(n);
         let (block, work) = rest.split_at_mut(n);
-        let factors = Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots };
+        let factors = factors!(self);
         for part in &self.parts {
             if !wanted(part) {
                 for &column in &self.columns[part.at..part.at + part.size] {
@@ -480,10 +558,11 @@ impl BlockLu {
         let mut nearest = f64::INFINITY;
         let (left, rest) = self.work.split_at_mut(self.rows.len());
         let (right, work) = rest.split_at_mut(self.rows.len());
-        let factors = Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots };
-        for part in self.parts.iter().filter(|part| part.smallest_pivot < PIVOT_MARGIN * limit) {
+        let factors = factors!(self);
+        let is_near = |part: &Part| part.smallest_pivot < PIVOT_MARGIN * limit;
+        for (k, part) in self.parts.iter().enumerate().filter(|(_, part)| is_near(part)) {
             let vectors = (&mut left[..part.size], &mut right[..part.size]);
-            nearest = nearest.min(factors.singular(part, vectors, work) * part.length_of_chain());
+            nearest = nearest.min(factors.nearness(k, part, vectors, work) * part.length_of_chain());
         }
         nearest
     }
@@ -496,7 +575,7 @@ impl BlockLu {
         let mut work = vec![0.0; n];
         for (k, part) in self.parts.iter().enumerate() {
             let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
-            let sigma = self.factors().singular(part, (&mut left, &mut right), &mut work);
+            let sigma = self.factors().nearness(k, part, (&mut left, &mut right), &mut work);
             let found = Singular { sigma, left, right };
             if worst.as_ref().is_none_or(|(_, known)| found.sigma < known.sigma) {
                 worst = Some((k, found));
@@ -505,13 +584,13 @@ impl BlockLu {
         let Some((k, block)) = worst else {
             return Singular { sigma: 1.0, left: Vec::new(), right: Vec::new() };
         };
+        let block = self.as_solved(k, block);
         let (at, size) = (self.parts[k].at, self.parts[k].size);
         let (mut left, mut right) = (vec![0.0; n], vec![0.0; n]);
         for place in 0..size {
             left[self.rows[at + place] as usize] = block.left[place];
             right[self.columns[at + place] as usize] = block.right[place];
         }
-        // A v = σ u and Aᵀ u = σ v within the block; the solves carry both over to the other blocks
         let (u, v) = (left.clone(), right.clone());
         self.solve_transposed(&v, &mut left);
         let norms = self.row_norm.clone();
@@ -527,8 +606,23 @@ impl BlockLu {
 }
 
 impl BlockLu {
+    /// The vectors of a block's smallest singular value as right sides that its factors turn into dependency and motion. Where
+    /// the scales that are solved with are borne out they give the vectors: of several, these are told that weigh most in them.
+    fn as_solved(&self, k: usize, mut judged: Singular) -> Singular {
+        let (part, factors) = (&self.parts[k], self.factors());
+        let (mut left, mut right) = (vec![0.0; part.size], vec![0.0; part.size]);
+        let mut work = vec![0.0; self.rows.len()];
+        let sigma = factors.as_solved().singular(k, part, (&mut left, &mut right), &mut work);
+        if sigma.total_cmp(&judged.sigma).is_eq() {
+            return Singular { sigma, left, right };
+        }
+        factors.judge_by_columns(k, part, &mut judged.right);
+        factors.judge_by_rows(part, &mut judged.left);
+        judged
+    }
+
     fn factors(&self) -> Factors<'_> {
-        Factors { values: &self.values, inside: &self.inside, dense: &self.dense, pivots: &self.pivots }
+        factors!(self)
     }
 }
 
@@ -557,9 +651,69 @@ struct Factors<'l> {
     inside: &'l [u32],
     dense: &'l [f64],
     pivots: &'l [u32],
+    rows: &'l [u32],
+    columns: &'l [u32],
+    row_norm: &'l [f64],
+    size: &'l [f64],
+    yardstick: &'l Yardstick,
+    /// Whether nearness is measured by the yardstick, or by the scales that are solved with.
+    is_judging: bool,
 }
 
 impl Factors<'_> {
+    /// What an entry of the scaled `Φ_q` is multiplied by for its row as nearness is judged; a row by its place in the block.
+    fn row_scale(&self, part: &Part, place: usize) -> f64 {
+        let row = self.rows[part.at + place] as usize;
+        if self.is_judging { self.row_norm[row] / self.yardstick.row(row) } else { 1.0 }
+    }
+
+    /// As [`Factors::row_scale`] for its column.
+    fn column_scale(&self, part: &Part, place: usize) -> f64 {
+        let column = self.columns[part.at + place] as usize;
+        if self.is_judging { self.yardstick.column(column) / self.size[column] } else { 1.0 }
+    }
+
+    /// With A the scaled block and P A K that by which nearness is judged: multiplies by P⁻¹.
+    fn judge_by_rows(&self, part: &Part, b: &mut [f64]) {
+        for (place, b) in b.iter_mut().enumerate() {
+            *b /= self.row_scale(part, place);
+        }
+    }
+
+    /// Multiplies by K⁻ᵀ: what belongs to a body's turn about its centroid goes to that about its origin.
+    fn judge_by_columns(&self, k: usize, part: &Part, b: &mut [f64]) {
+        for (place, b) in b.iter_mut().enumerate() {
+            *b /= self.column_scale(part, place);
+        }
+        for centroid in self.centroids(k) {
+            let [right, up] = centroid.from_origin;
+            let ([column, turn], arms) = (centroid.turn, [-up, right]);
+            for ([moved, place], arm) in centroid.moves.into_iter().zip(arms).filter_map(|(at, arm)| Some((at?, arm))) {
+                let share = arm * b[place as usize] / self.size[moved as usize];
+                b[turn as usize] += share * self.size[column as usize];
+            }
+        }
+    }
+
+    /// Multiplies by K⁻¹: motions of origins become those of centroids.
+    fn judge_motion(&self, k: usize, part: &Part, x: &mut [f64]) {
+        for centroid in self.centroids(k) {
+            let [right, up] = centroid.from_origin;
+            let ([column, turn], arms) = (centroid.turn, [-up, right]);
+            let turn = x[turn as usize] * self.size[column as usize];
+            for ([moved, place], arm) in centroid.moves.into_iter().zip(arms).filter_map(|(at, arm)| Some((at?, arm))) {
+                x[place as usize] += arm * turn / self.size[moved as usize];
+            }
+        }
+        for (place, x) in x.iter_mut().enumerate() {
+            *x /= self.column_scale(part, place);
+        }
+    }
+
+    fn centroids(&self, k: usize) -> &[Centroid] {
+        if self.is_judging { self.yardstick.centroids(k) } else { &[] }
+    }
+
     /// Solves within a block: `b` by its rows becomes the solution by its columns.
     fn solve(self, part: &Part, b: &mut [f64], work: &mut [f64]) {
         match part.form {
@@ -587,11 +741,22 @@ impl Factors<'_> {
         &self.dense[part.matrix..part.matrix + part.size * part.size]
     }
 
-    /// The smallest singular value of a block, with its left and right vectors, by inverse iteration.
-    fn singular(self, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
+    /// As the scales that are solved with have it.
+    fn as_solved(self) -> Self {
+        Factors { is_judging: false, ..self }
+    }
+
+    /// How near a block is to a singular position, with the vectors of its smallest singular value by the yardstick.
+    fn nearness(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
+        let sigma = self.as_solved().singular(k, part, (left, right), work);
+        if self.is_judging { borne_out(sigma, self.singular(k, part, (left, right), work)) } else { sigma }
+    }
+
+    /// The smallest singular value of a block as nearness is judged, with its left and right vectors, by inverse iteration.
+    fn singular(self, k: usize, part: &Part, (left, right): (&mut [f64], &mut [f64]), work: &mut [f64]) -> f64 {
         if part.form == Form::Single {
             (left[0], right[0]) = (self.single(part).signum(), 1.0);
-            return self.single(part).abs();
+            return self.single(part).abs() * self.row_scale(part, 0) * self.column_scale(part, 0);
         }
         for (k, x) in right.iter_mut().enumerate() {
             *x = 1.0 + 0.1 * (k % 7) as f64;
@@ -600,10 +765,14 @@ impl Factors<'_> {
         for _ in 0..4 {
             normalize(right);
             left.copy_from_slice(right);
+            self.judge_by_columns(k, part, left);
             self.solve_transposed(part, left, work);
+            self.judge_by_rows(part, left);
             normalize(left);
             right.copy_from_slice(left);
+            self.judge_by_rows(part, right);
             self.solve(part, right, work);
+            self.judge_motion(k, part, right);
             sigma = 1.0 / normalize(right);
         }
         sigma
@@ -617,6 +786,13 @@ pub(super) struct Singular {
     pub left: Vec<f64>,
     /// By coordinates, scaled.
     pub right: Vec<f64>,
+}
+
+/// What the scales that are solved with say of nearness, if the yardstick bears it out, or else what that says: they serve where
+/// bodies are of a size, and frames near them.
+fn borne_out(solved: f64, judged: f64) -> f64 {
+    let is_borne_out = solved <= ALIKE * judged && judged <= ALIKE * solved;
+    if is_borne_out { solved } else { judged }
 }
 
 fn normalize(v: &mut [f64]) -> f64 {

@@ -32,6 +32,7 @@ mod singular;
 mod sparse;
 mod times;
 mod touch;
+mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::determine;

@@ -123,6 +123,15 @@ impl Plan {
         self.pivots.iter().enumerate().map(move |(k, &slot)| sign(k) * values[slot as usize])
     }
 
+    /// The pivots, each with its row and column.
+    pub fn placed_pivots<'v>(&'v self, values: &'v [f64]) -> impl Iterator<Item = (usize, usize, f64)> + 'v {
+        let places = self.rows.iter().zip(&self.columns);
+        self.pivots
+            .iter()
+            .zip(places)
+            .map(|(&slot, (&row, &column))| (row as usize, column as usize, values[slot as usize]))
+    }
+
     /// Solves for the right side `b`, by rows, which becomes the solution, by columns.
     pub fn solve(&self, values: &[f64], b: &mut [f64], work: &mut [f64]) {
         for (x, &row) in work.iter_mut().zip(&self.rows) {

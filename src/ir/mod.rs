@@ -184,6 +184,8 @@ pub struct Declaration {
     pub rows: usize,
     /// Where it takes hold: indices of points, one for each of its two bodies where there is one.
     pub points: Vec<usize>,
+    /// All points that its equations speak of, by their indices.
+    pub features: Vec<usize>,
     /// The axes that it joins, as they are written.
     pub axes: Vec<String>,
     /// Where the two sides of an equation are written.

@@ -9,6 +9,7 @@ mod gears;
 mod joints;
 mod quantities;
 mod size;
+mod uses;
 
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{
@@ -164,14 +165,17 @@ impl Lowering<'_> {
         const PARTS: [(&str, CoordinateKind); 3] =
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
+        let from_frames = size::of_frames(model);
         for (k, body) in model.bodies.iter().enumerate() {
+            let is_far = from_frames[k] > size::FAR_FRAME * self.sizes[k];
+            let size = if is_far { from_frames[k] } else { self.sizes[k] };
             for ((part, kind), estimate) in PARTS.into_iter().zip(body.pose) {
                 let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
                     owner: Owner::Body(k),
                     kind,
                     estimate: self.formula(estimate),
-                    scale: if kind == CoordinateKind::Length { self.sizes[k] } else { 1.0 },
+                    scale: if kind == CoordinateKind::Length { size } else { 1.0 },
                 };
                 self.coordinates.push(coordinate);
             }
@@ -204,7 +208,7 @@ impl Lowering<'_> {
     ) {
         let declaration = self.declarations.len();
         let (name, span) = (declared.name.clone(), declared.span);
-        let points = points.iter().map(|point| point.index()).collect();
+        let points: Vec<usize> = points.iter().map(|point| point.index()).collect();
         let written = |&axis: &AxisId| {
             let axis = &self.model[axis];
             format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
@@ -215,6 +219,7 @@ impl Lowering<'_> {
             span,
             kind,
             rows: phi.len(),
+            features: points.clone(),
             points,
             axes,
             written: None,
@@ -241,7 +246,7 @@ impl Lowering<'_> {
     fn equation_rows(&mut self) {
         let model = self.model;
         for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
-            for equation in model.equations.iter().filter(|equation| equation.driver == drivers) {
+            for (number, equation) in model.equations.iter().enumerate().filter(|(_, one)| one.driver == drivers) {
                 let (phi, points) = match equation.form {
                     EquationForm::Difference(left, right) => {
                         let (left, right) = (self.formula(left), self.formula(right));
@@ -255,6 +260,7 @@ impl Lowering<'_> {
                 self.declare(&equation.declared, kind, &[phi], &points, &[]);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
+                    declaration.features = uses::of_equation(model, number).iter().map(|point| point.index()).collect();
                 }
             }
         }

@@ -3,6 +3,7 @@
 //! A length for the whole mechanism would not do: where many small loops stand far apart, or a small linkage sits on a
 //! large machine, it would make good positions look singular.
 
+use super::uses::Uses;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Curve, Frame, JointKind, Mechanism, Named};
 use rustc_hash::FxHashMap;
@@ -10,14 +11,19 @@ use rustc_hash::FxHashMap;
 /// Frames with more points than this are measured by their bounding box, to stay linear.
 const MANY_POINTS: usize = 500;
 
+/// A size that features say which no equation uses counts if it is that of the others to such a factor.
+const IN_PROPORTION: f64 = 10.0;
+
+/// A frame is far from a body that is so many of the body's sizes away.
+pub(super) const FAR_FRAME: f64 = 10.0;
+
 /// So many places stand for a whole curve.
 const PLACES_ON_CURVE: u32 = 16;
 
 /// The size of each body (m): the largest distance between two of its features.
 ///
-/// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
-/// largest one at all. Where no body has a size, what else the file says of sizes serves for all: offsets from a body's
-/// origin, lengths of links, the extent of the ground, the bodies' places; 1 m if there is nothing.
+/// A point that no equation uses is drawn or measured: it may lie a little off, or far away, which is nothing to the motion.
+/// What such points say counts only as far as it is in proportion to what those say that are used.
 pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
@@ -25,18 +31,23 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
         _ => f64::NAN,
     });
     let value = |id: ExprId| values[id.index()];
-    let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
-    for point in &model.points {
-        points.entry(point.frame).or_default().push(point.at.map(value));
-    }
-    for circle in &model.circles {
-        let ([x, y], radius) = (model[circle.center].at.map(value), value(circle.radius));
-        let ends = [[x + radius, y], [x - radius, y], [x, y + radius], [x, y - radius]];
-        points.entry(circle.frame).or_default().extend(ends);
-    }
-    for curve in &model.curves {
-        points.entry(curve.frame).or_default().extend(places_on(model, curve));
-    }
+    let all = by_features(model, &value, None);
+    let Some(used) = by_features(model, &value, Some(&Uses::of(model))) else {
+        return all.unwrap_or_else(|| vec![other_size(model, value); model.bodies.len()]);
+    };
+    let Some(all) = all else {
+        return used;
+    };
+    let in_proportion = |all: f64, used: f64| all <= IN_PROPORTION * used && used <= IN_PROPORTION * all;
+    all.into_iter().zip(used).map(|(all, used)| if in_proportion(all, used) { all } else { used }).collect()
+}
+
+/// The sizes of bodies by all features, or by those that are used; none where no body has two apart.
+///
+/// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
+/// largest one at all.
+fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>) -> Option<Vec<f64>> {
+    let points = places(model, value, uses);
     let mut sizes = vec![0.0; model.bodies.len()];
     for (frame, points) in &points {
         if let Frame::Body(body) = frame {
@@ -45,8 +56,7 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     }
     let largest = sizes.iter().copied().fold(0.0, f64::max);
     if !is_size(largest) {
-        let ground = points.get(&Frame::Ground).map_or(0.0, |points| extent(points));
-        return vec![other_size(model, value, ground); sizes.len()];
+        return None;
     }
     let own = sizes.clone();
     let size_of = |frame: Frame| match frame {
@@ -63,7 +73,45 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
             }
         }
     }
-    sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect()
+    Some(sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect())
+}
+
+/// How far each body's frame lies from the features that equations use (m): as far as that goes a body's origin moves when it
+/// turns a little, however small the body.
+pub(super) fn of_frames(model: &Mechanism) -> Vec<f64> {
+    let mut values = Vec::new();
+    model.graph.extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => model.params[k as usize].value,
+        _ => f64::NAN,
+    });
+    let points = places(model, &|id: ExprId| values[id.index()], Some(&Uses::of(model)));
+    let mut distances = vec![0.0; model.bodies.len()];
+    for (frame, points) in &points {
+        if let Frame::Body(body) = frame {
+            let all = points.iter().map(|[x, y]| crate::math::hypot(*x, *y)).filter(|way| way.is_finite());
+            let nearest = all.fold(f64::INFINITY, f64::min);
+            distances[body.index()] = if nearest.is_finite() { nearest } else { 0.0 };
+        }
+    }
+    distances
+}
+
+/// The places of features in each frame (m).
+fn places(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>) -> FxHashMap<Frame, Vec<[f64; 2]>> {
+    let counts = |list: fn(&Uses) -> &[bool], k: usize| uses.is_none_or(|uses| list(uses)[k]);
+    let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
+    for (_, point) in model.points.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.points, *k)) {
+        points.entry(point.frame).or_default().push(point.at.map(value));
+    }
+    for (_, circle) in model.circles.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.circles, *k)) {
+        let ([x, y], radius) = (model[circle.center].at.map(value), value(circle.radius));
+        let ends = [[x + radius, y], [x - radius, y], [x, y + radius], [x, y - radius]];
+        points.entry(circle.frame).or_default().extend(ends);
+    }
+    for (_, curve) in model.curves.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.curves, *k)) {
+        points.entry(curve.frame).or_default().extend(places_on(model, curve));
+    }
+    points
 }
 
 /// Some places on a curve (m), over one turn of its argument.
@@ -81,8 +129,10 @@ fn places_on<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item =
     })
 }
 
-/// A size for all bodies where none has one of its own.
-fn other_size(model: &Mechanism, value: impl Fn(ExprId) -> f64, ground: f64) -> f64 {
+/// A size for all bodies where none has one of its own, by what else the file says of sizes: offsets from a body's origin,
+/// lengths of links, the extent of the ground, the bodies' places; 1 m if there is nothing.
+fn other_size(model: &Mechanism, value: impl Fn(ExprId) -> f64) -> f64 {
+    let ground = places(model, &value, None).get(&Frame::Ground).map_or(0.0, |points| extent(points));
     let of_a_body = model.points.iter().filter(|point| point.frame != Frame::Ground);
     let offsets = of_a_body.map(|point| crate::math::hypot(value(point.at[0]), value(point.at[1])));
     let links = model.joints.iter().filter_map(|joint| match joint.kind {
