@@ -116,6 +116,26 @@ fn a_reader_that_goes_away_is_no_error() {
 }
 
 #[test]
+fn redundant_equations_are_left_out_of_what_is_emitted() {
+    let door = "tests/ui/ndof/same_pin_twice.mech";
+    assert!(failure(&["emit", door], 1).contains("--allow-redundant"));
+    let emitted = |more: &[&str]| {
+        let output = mechc().args(["emit", door, "--allow-redundant"]).args(more).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("W0502"));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    for form in [&[][..], &["--with", "equations"]] {
+        let rust = emitted(form);
+        assert!(rust.contains("pub const LEFT_OUT: usize = 2;") && rust.contains("joint `lower`: 2"), "{rust}");
+        assert!(rust.contains("pub fn left_out("), "{rust}");
+    }
+    assert!(emitted(&["--format", "latex"]).contains("left out: 2 of \\textbf{lower}"));
+    let json: serde_json::Value = serde_json::from_str(&emitted(&["--format", "json"])).expect("JSON");
+    assert_eq!(json["left_out"].as_array().expect("a list").len(), 2);
+}
+
+#[test]
 fn standard_input_and_json() {
     let text = fs::read_to_string(SLIDER_CRANK).unwrap();
     let output =

@@ -174,6 +174,10 @@ pub(super) struct EmitArguments {
     #[arg(long, value_enum, value_name = "WHAT", default_value = "solver")]
     pub with: Content,
 
+    /// Leave redundant equations out; the emitted code checks them at every time
+    #[arg(long)]
+    pub allow_redundant: bool,
+
     /// Solve for N variants or times at once too, in vector instructions where the target has them
     #[arg(long, value_name = "N", value_parser = lanes)]
     pub lanes: Option<usize>,

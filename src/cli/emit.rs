@@ -20,7 +20,8 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     if arguments.lanes.is_some() {
         can_have_lanes(arguments)?;
     }
-    let determined = input::determined(&arguments.input, false, reporter, &mut Timings::new(false))?;
+    let determined =
+        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     if let Some(folder) = &arguments.folder {
