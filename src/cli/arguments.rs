@@ -162,7 +162,7 @@ pub(super) struct EmitArguments {
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: String,
 
-    /// Write a whole crate into this folder: the module, a page, a test against `mechc run`, a benchmark
+    /// Write a whole crate into this folder, named like it: the module, a page, a test against `mechc run`, a benchmark
     #[arg(long = "crate", value_name = "DIR", conflicts_with = "output")]
     pub folder: Option<String>,
 

@@ -85,13 +85,20 @@ fn package(
     let (reference, said) = crate::reference(determined, &program)?;
     let sources = &reporter.sources;
     let unit = unit(determined, &program, sources, file, motion, arguments)?;
-    let crate_files = emit::package(&unit, &reference);
+    let name = folder_name(folder).unwrap_or_else(|| determined.system().name.clone());
+    let crate_files = emit::package(&unit, &reference, &name);
     files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK)?;
     if said.has_errors() {
         return Err(said.into());
     }
     reporter.print(&said);
     Ok(())
+}
+
+/// What a folder is called, `.` too; the root has no name.
+fn folder_name(folder: &str) -> Option<String> {
+    let named = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    named(Path::new(folder)).or_else(|| named(&Path::new(folder).canonicalize().ok()?))
 }
 
 fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Result<Motion, Failure> {
