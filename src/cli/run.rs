@@ -8,7 +8,7 @@ use super::progress::Progress;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::analysis::{self, Started, Times};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::output::{TableFormat, TableWriter};
 use crate::program::Program;
 use crate::source::Sources;
@@ -113,9 +113,13 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
     if let Some(earliest) = earliest {
         let from = from.unwrap_or(earliest);
         if earliest < from {
-            return Err(unusable(format!("`--at` {earliest} s is before the start of the analysis at {from} s"))
-                .help("start earlier with `--from`")
-                .into());
+            return Err(unusable(format!(
+                "`--at` {} s is before the start of the analysis at {} s",
+                readable(earliest),
+                readable(from)
+            ))
+            .help("start earlier with `--from`")
+            .into());
         }
         return Ok(Times::listed(from, listed));
     }
@@ -124,14 +128,15 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
             .help("add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`")
             .into());
     };
+    let [first, last, step] = [from, to, every].map(readable);
     if every <= 0.0 {
-        return Err(unusable(format!("the step must be positive, it is {every} s")).into());
+        return Err(unusable(format!("the step must be positive, it is {step} s")).into());
     }
     if to < from {
-        return Err(unusable(format!("the analysis would end at {to} s, before its start at {from} s")).into());
+        return Err(unusable(format!("the analysis would end at {last} s, before its start at {first} s")).into());
     }
     Times::grid(from, to, every)
-        .ok_or_else(|| unusable(format!("a step of {every} s is too small to get from {from} s to {to} s")).into())
+        .ok_or_else(|| unusable(format!("a step of {step} s is too small to get from {first} s to {last} s")).into())
 }
 
 fn unusable(message: String) -> Diagnostic {

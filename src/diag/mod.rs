@@ -6,10 +6,12 @@
 
 mod codes;
 mod nearest;
+mod number;
 mod render;
 
 pub use codes::Code;
 pub use nearest::nearest;
+pub use number::readable;
 pub use render::{Color, Format, render};
 
 use crate::source::Span;
