@@ -15,7 +15,8 @@ Exit codes:
   1  the input has errors
   2  wrong usage
   3  the analysis could not be completed; the rows up to there are written
-  4  a file could not be read or written";
+  4  a file could not be read or written
+  130  interrupted";
 
 /// A compiler for .mech files: planar mechanisms of bodies, joints and drivers.
 ///

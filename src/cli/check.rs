@@ -2,7 +2,7 @@
 
 use super::arguments::CheckArguments;
 use super::failure::Failure;
-use super::files::Output;
+use super::files;
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
@@ -22,7 +22,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
     reporter.print(&started.remarks());
     let report = report(&determined, started, t, &reporter.sources);
-    Output::write("-", &report)
+    files::print(&report)
 }
 
 /// As many as a reader compares with a drawing.
