@@ -155,6 +155,11 @@ impl Sources {
         &self.files[file.0 as usize]
     }
 
+    /// All texts, in the order in which they came in.
+    pub fn iter(&self) -> impl Iterator<Item = &Source> {
+        self.files.iter()
+    }
+
     /// The words that a span covers.
     #[must_use]
     pub fn text(&self, span: Span) -> &str {

@@ -115,6 +115,72 @@ fn a_reader_that_goes_away_is_no_error() {
     assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
 }
 
+/// What a message says, without the lines that it quotes.
+fn said(text: &str) -> String {
+    let is_quoted = |line: &&str| line.contains(" │ ") && line.trim_start().starts_with(|c: char| c.is_ascii_digit());
+    text.lines().filter(|line| !is_quoted(line)).collect::<Vec<&str>>().join("\n")
+}
+
+#[test]
+fn numbers_in_messages_are_not_written_out() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("numbers.mech").to_string_lossy().into_owned();
+    let run = |text: &str, options: &[&str], code: i32| {
+        fs::write(&file, format!("mechanism m {{ {text} }}")).unwrap();
+        let text = said(&failure(&[&["run", &file], options].concat(), code));
+        assert!(!text.contains("000000"), "{text}");
+        text
+    };
+    let disc = "ground { point O = (0, 0) } body b { point O = (0, 0) } joint j: revolute(ground.O, b.O)
+        driver d: rotation(j) = t / 1 s";
+    for tiny in ["1e-300", "3e-7", "2.5e-12"] {
+        let negative = &format!("-{tiny}");
+        assert!(run(disc, &["--from", "0", "--to", "1", "--every", negative], 2).contains(&format!("{negative} s")));
+        assert!(
+            run(disc, &["--from", "1e200", "--to", tiny, "--every", "1"], 2).contains(&format!("at {tiny} s, before"))
+        );
+        assert!(run(disc, &["--from", tiny, "--at", negative], 2).contains(&format!("`--at` {negative} s")));
+        assert!(run(&format!("{disc} analysis from 0 s to 1 s every -{tiny} s"), &[], 1).contains("E0407"));
+        let backwards = run(&format!("{disc} analysis from 1e30 s to {tiny} s every 1 s"), &[], 1);
+        assert!(
+            backwards.contains("E0408") && backwards.contains(&format!("`from {tiny} s to 1e30 s`")),
+            "{backwards}"
+        );
+        assert!(
+            run(&format!("{disc} table f = spline [(0, 0), ({tiny}, 1), (-{tiny}, 2)]"), &[], 1)
+                .contains(&format!("-{tiny} follows {tiny}"))
+        );
+        assert!(run(&format!("ground {{ circle c = (0, 0) radius -{tiny} m }} {disc}"), &[], 1).contains("E04"));
+    }
+    assert!(run(disc, &["--from", "0", "--to", "1e300", "--every", "1e-300"], 2).contains("1e-300 s is too small"));
+    // a warning in its words
+    fs::write(&file, format!("mechanism m {{ {disc} measure s = sin(1e30) analysis from 0 s to 1 s every 1 s }}"))
+        .unwrap();
+    let output = mechc().args(["run", &file]).output().expect("it runs");
+    let text = said(&String::from_utf8_lossy(&output.stderr));
+    assert!(!text.contains("000000"), "{text}");
+}
+
+#[test]
+fn redundant_equations_are_left_out_of_what_is_emitted() {
+    let door = "tests/ui/ndof/same_pin_twice.mech";
+    assert!(failure(&["emit", door], 1).contains("--allow-redundant"));
+    let emitted = |more: &[&str]| {
+        let output = mechc().args(["emit", door, "--allow-redundant"]).args(more).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0));
+        assert!(String::from_utf8_lossy(&output.stderr).contains("W0502"));
+        String::from_utf8(output.stdout).expect("text")
+    };
+    for form in [&[][..], &["--with", "equations"]] {
+        let rust = emitted(form);
+        assert!(rust.contains("pub const LEFT_OUT: usize = 2;") && rust.contains("joint `lower`: 2"), "{rust}");
+        assert!(rust.contains("pub fn left_out("), "{rust}");
+    }
+    assert!(emitted(&["--format", "latex"]).contains("left out: 2 of \\textbf{lower}"));
+    let json: serde_json::Value = serde_json::from_str(&emitted(&["--format", "json"])).expect("JSON");
+    assert_eq!(json["left_out"].as_array().expect("a list").len(), 2);
+}
+
 #[test]
 fn standard_input_and_json() {
     let text = fs::read_to_string(SLIDER_CRANK).unwrap();

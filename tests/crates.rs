@@ -39,7 +39,7 @@ fn emitted(path: &Path, text: &str) -> Crate {
         lanes: None,
         largest_straight: emit::LARGEST_STRAIGHT,
     };
-    let list = emit::package(&unit, &reference).into_iter();
+    let list = emit::package(&unit, &reference, "a_crate").into_iter();
     Crate { files: list.map(|File { path, text }| (path, text)).collect(), reference }
 }
 
@@ -173,6 +173,25 @@ fn a_folder_is_made_and_what_mechc_wrote_is_replaced() {
         fs::read_to_string(target.join("README.md")).unwrap().contains("| `rod_length` | `rod_length` | m | 0.2 |")
     );
     assert_eq!(fs::read_to_string(target.join("src/more.rs")).unwrap(), "mine");
+}
+
+#[test]
+fn a_crate_is_named_like_its_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let manifest = |name: &str| fs::read_to_string(folder.path().join(name).join("Cargo.toml")).unwrap();
+    for (name, wanted) in [("enc", "enc"), ("hand-wheel", "hand-wheel"), ("Enc2", "enc2"), ("3 rods", "n3_rods")] {
+        emit_crate(&[SLIDER_CRANK, "--crate", &format!("{}/{name}/", folder.path().display())], 0);
+        assert!(manifest(name).contains(&format!("\nname = \"{wanted}\"\n")), "{}", manifest(name));
+        let test = fs::read_to_string(folder.path().join(name).join("tests/reference.rs")).unwrap();
+        assert!(test.contains(&format!("\nuse {}::{{", wanted.replace('-', "_"))), "{test}");
+    }
+    // where one stands already
+    let here = folder.path().join("here");
+    fs::create_dir(&here).unwrap();
+    let file = fs::canonicalize(SLIDER_CRANK).unwrap();
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    assert!(command.arg("emit").arg(file).args(["--crate", "."]).current_dir(&here).output().unwrap().status.success());
+    assert!(manifest("here").contains("\nname = \"here\"\n"));
 }
 
 #[test]

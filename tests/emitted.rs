@@ -36,6 +36,19 @@ impl Emitted {
         determined.map(|determined| Emitted { name, determined, sources })
     }
 
+    /// The first mechanism of a text, whose redundant equations are left out.
+    fn without_redundant(name: String, text: &str) -> Emitted {
+        let mut sources = Sources::default();
+        let file = sources.add(&name, text);
+        let tree = mechc::syntax::parse(&sources, file).unwrap_or_else(|said| panic!("{name}: {said:?}\n{text}"));
+        let surroundings = mechc::check::Surroundings::default();
+        let (model, said) = mechc::check::check(&tree.mechanisms[0], &surroundings, &sources);
+        let model = model.unwrap_or_else(|| panic!("{name}: {said:?}\n{text}"));
+        let (determined, _) = analysis::determine(mechc::lower::lower(&model), true)
+            .unwrap_or_else(|said| panic!("{name}: {said:?}\n{text}"));
+        Emitted { name, determined, sources }
+    }
+
     /// The module, with so many lanes if any are wanted.
     fn text(&self, lanes: Option<usize>) -> String {
         self.text_of(lanes, emit::LARGEST_STRAIGHT)
@@ -305,8 +318,83 @@ fn main() {{
 
 #[test]
 fn every_module_stands_alone_and_gives_the_bits_of_the_interpreter() {
+    stand_alone_and_agree(all());
+}
+
+#[test]
+fn what_is_left_out_is_checked_and_the_rest_has_the_bits_of_the_interpreter() {
+    let mut all: Vec<Emitted> = Vec::new();
+    for seed in 1..=3 {
+        let (_, random, _) = point(8, seed);
+        all.push(Emitted::without_redundant(format!("planets{seed}_input"), &planets(seed as usize + 1, &random)));
+        all.push(Emitted::without_redundant(format!("examples_cranks{seed}"), &cranks(seed as usize + 2, &random)));
+    }
+    // a check with branches, and one that fails on the way
+    for name in ["kinked", "parts_later"] {
+        let text = fs::read_to_string(format!("tests/cli/redundant/{name}.mech")).expect("a text");
+        all.push(Emitted::without_redundant(format!("examples_{name}"), &text));
+    }
+    for emitted in &all {
+        let (checks, (rows, ends_well)) = (&emitted.determined.system().checks, emitted.rows());
+        assert!(!checks.is_empty() && rows.len() > 2, "{}: {} checks, {} rows", emitted.name, checks.len(), rows.len());
+        assert_eq!(ends_well, !emitted.name.ends_with("parts_later"), "{}", emitted.name);
+    }
+    let last = stand_alone_and_agree(all);
+    assert_eq!(last.as_deref(), Some("examples_parts_later Inconsistent"));
+}
+
+/// A planetary gear with so many planets, of which one would do.
+fn planets(count: usize, random: &[f64]) -> String {
+    let (sun, planet, turn) = (24.0 + 8.0 * random[0], 18.0 + 6.0 * random[1], 40.0 * random[2]);
+    let (arm, ring) = (sun + planet, sun + 2.0 * planet);
+    let mut text = format!(
+        "mechanism planets {{\n ground {{ point O = (0, 0) circle ring = O radius {ring} mm }}
+ body sun at (0, 0, {turn} deg) {{ point O = (0, 0) circle c = O radius {sun} mm }}
+ joint axle: revolute(ground.O, sun.O)\n joint hub: revolute(ground.O, carrier.O)
+ driver motor: rotation(axle) = {turn} deg + 300 deg/s * t + 20 deg * sin(7 rad/s * t)
+ measure spin = angle(p0) - angle(carrier)\n analysis from 0 s to 0.6 s every 50 ms\n"
+    );
+    let mut pins = String::new();
+    for k in 0..count {
+        let (sin, cos) = mechc::math::sin_cos(std::f64::consts::TAU * k as f64 / count as f64);
+        let (x, y) = (arm * cos, arm * sin);
+        pins += &format!(" point pin{k} = ({x} mm, {y} mm)");
+        text += &format!(
+            " body p{k} at ({x} mm, {y} mm, {} deg) {{ point O = (0, 0) circle c = O radius {planet} mm }}
+ joint pin{k}: revolute(carrier.pin{k}, p{k}.O)
+ joint outer{k}: gear(sun.c, p{k}.c)\n joint inner{k}: internal_gear(ground.ring, p{k}.c)\n",
+            90.0 * random[3 + k]
+        );
+    }
+    text + &format!(" body carrier at (0, 0, 0) {{ point O = (0, 0){pins} }}\n}}\n")
+}
+
+/// A seat on so many parallel cranks, of which two would do.
+fn cranks(count: usize, random: &[f64]) -> String {
+    let (length, turn) = (0.3 + 0.1 * random[0], 60.0 + 10.0 * random[1]);
+    let (mut ground, mut seat, mut rest) = (String::new(), String::new(), String::new());
+    let (sin, cos) = mechc::math::sin_cos(turn.to_radians());
+    for k in 0..count {
+        let (x, y) = (k as f64 + 0.3 * random[2 + k], 0.4 * random[7 - k]);
+        ground += &format!(" point P{k} = ({x} m, {y} m)");
+        seat += &format!(" point P{k} = ({x} m, {y} m)");
+        rest += &format!(
+            " body c{k} at ({x} m, {y} m, {turn} deg) {{ point O = (0, 0) point P = (r, 0) }}
+ joint low{k}: revolute(ground.P{k}, c{k}.O)\n joint high{k}: revolute(c{k}.P, seat.P{k})\n"
+        );
+    }
+    format!(
+        "mechanism cranks {{\n param r = {length} m\n ground {{{ground} }}
+ body seat at ({} m, {} m, 0) {{{seat} }}\n{rest} driver motor: rotation(low0) = {turn} deg + 50 deg * sin(3 rad/s * t)
+ analysis from 0 s to 1 s every 0.1 s\n}}\n",
+        length * cos,
+        length * sin,
+    )
+}
+
+/// Compiles modules and compares them with the interpreter; gives the last line that a module printed.
+fn stand_alone_and_agree(all: Vec<Emitted>) -> Option<String> {
     let folder = tempfile::tempdir().expect("a folder");
-    let all = all();
     write_modules(&all, folder.path());
     let all: Vec<(Emitted, Vec<Vec<f64>>, bool)> = all
         .into_iter()
@@ -333,10 +421,12 @@ fn every_module_stands_alone_and_gives_the_bits_of_the_interpreter() {
         }
         if !ends_well {
             let error = next();
-            assert!([" LockUp", " Bifurcation", " Divergence", " NotANumber"].contains(&error), "{name}: {error}");
+            let errors = [" LockUp", " Bifurcation", " Divergence", " NotANumber", " Inconsistent"];
+            assert!(errors.contains(&error), "{name}: {error}");
         }
     }
     assert_eq!(lines.next(), None);
+    text.lines().last().map(str::to_owned)
 }
 
 /// Compares numbers that a module has printed with what they should be, bit for bit.
@@ -477,6 +567,31 @@ fn lanes_of_variants_have_the_bits_of_each_alone() {
         }
     }
     assert!(all.get(4).is_none());
+}
+
+#[test]
+fn a_time_that_is_far_away_is_told_as_that_and_reached_in_parts() {
+    use slider_crank::{Error, LONGEST_STEP, Params, assemble, step, step_within};
+    let mut far = assemble(&Params::default()).expect("it assembles");
+    let mut whole = far.clone();
+    assert_eq!(step(1e6, &mut far), Err(Error::TooFar), "nothing diverges");
+    assert!(far.t() > 100.0 && far.t() < 1e6);
+    assert_eq!(step_within(far.t(), &mut far.clone(), 0), Ok(()), "it is there");
+    assert_eq!(step_within(f64::NAN, &mut far, 0), Err(Error::NotANumber));
+    // a deadline is kept, and all is as in one go
+    let mut parts = whole.clone();
+    let t = 50.5 * LONGEST_STEP;
+    step(t, &mut whole).expect("it moves");
+    let mut calls = 0;
+    let mut before = parts.t();
+    while let Err(error) = step_within(t, &mut parts, 3) {
+        assert_eq!(error, Error::TooFar);
+        assert!(parts.t() - before <= 3.0 * LONGEST_STEP * (1.0 + 1e-12), "more than three steps");
+        (before, calls) = (parts.t(), calls + 1);
+        assert!(calls < 100);
+    }
+    assert!(calls >= 16, "{calls} calls");
+    assert_eq!(parts.row().map(f64::to_bits), whole.row().map(f64::to_bits));
 }
 
 #[test]

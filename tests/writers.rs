@@ -91,9 +91,10 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("measures", &[("name", "text"), ("line", "count"), ("value", "text"), ("first", "text?"), ("second", "text?")]),
     ("conditions", &[("owner", "text"), ("kind", "text"), ("table", "text?"), ("positive", "text")]),
     ("watches", &[("declaration", "count"), ("kind", "text"), ("value", "text")]),
+    ("left_out", &[("declaration", "count"), ("phi", "text")]),
 ];
 
-const FIELDS: [&str; 18] = [
+const FIELDS: [&str; 19] = [
     "layout",
     "mechc",
     "mechanism",
@@ -112,6 +113,7 @@ const FIELDS: [&str; 18] = [
     "measures",
     "conditions",
     "watches",
+    "left_out",
 ];
 
 fn is_of(kind: &str, value: &Value) -> bool {
@@ -312,6 +314,9 @@ fn formulas_of_the_json_are_those_of_the_system() {
         }
         for (watch, item) in system.watches.iter().zip(list(&json, "watches")) {
             same(&item["value"], watch.value);
+        }
+        for (check, item) in system.checks.iter().zip(list(&json, "left_out")) {
+            same(&item["phi"], check.phi);
         }
     }
 }

@@ -3,13 +3,10 @@
 use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use super::yardstick::is_looked_at_beside;
-use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
 use crate::structure::Determined;
-
-/// An equation that was left out may be open by this much, scaled: lengths are written with so many digits.
-const CHECKED: f64 = 1e-9;
 
 /// A time with the coordinates and their derivatives.
 #[derive(Clone, Debug)]
@@ -349,7 +346,7 @@ impl<'d> Kinematics<'d> {
     pub fn broken_check(&self) -> Option<usize> {
         let checks = self.system().checks.iter().zip(&self.program.outputs.checks);
         let mut open = checks.map(|(check, &register)| self.registers.get(register).abs() / check.scale);
-        open.position(|open| open.is_nan() || open > CHECKED)
+        open.position(|open| open.is_nan() || open > Check::LARGEST_OPENING)
     }
 
     /// A quantity that is watched, against its scale, where the position was set.

@@ -39,6 +39,8 @@ pub(super) struct Output<'m> {
     steps: u64,
     /// Up to this time (s) steps go to each output time on their own.
     careful_until: f64,
+    /// Whether a step may go over several output times.
+    may_leap: bool,
     rows: Option<Rows<'m>>,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
@@ -122,10 +124,10 @@ pub(super) struct Bookmark {
 impl<'m> Output<'m> {
     pub fn new(kinematics: &Kinematics<'_>, state: &State, solver: Option<&'m Solver>, times: Times) -> Output<'m> {
         // what was left out of the equations is looked at wherever a row is printed
-        let solver = solver.filter(|_| kinematics.system().checks.is_empty());
+        let may_leap = kinematics.system().checks.is_empty();
         let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
         let careful_until = f64::NEG_INFINITY;
-        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, rows, edge: None }
+        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, may_leap, rows, edge: None }
     }
 }
 
@@ -275,7 +277,7 @@ impl Motion<'_, '_> {
     /// Whether a step may go over several output times: the state is clear of singular positions.
     fn may_leap(&self) -> bool {
         let is_clear = self.clear.t.total_cmp(&self.state.t).is_eq();
-        self.output.rows.is_some() && is_clear && self.state.t >= self.output.careful_until
+        self.output.rows.is_some() && self.output.may_leap && is_clear && self.state.t >= self.output.careful_until
     }
 
     /// Tries a step over as many output times as the error allows.

@@ -1,7 +1,7 @@
 //! What is said of a mechanism that does not pass.
 
 use super::names::Entity;
-use crate::diag::{Code, Diagnostic, nearest};
+use crate::diag::{Code, Diagnostic, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
@@ -282,7 +282,7 @@ pub fn told(value: f64, dimension: Dimension) -> String {
         (value, dimension.unit())
     };
     let rounded: f64 = format!("{value:.9e}").parse().unwrap_or(value);
-    format!("{rounded} {unit}").trim_end().to_owned()
+    format!("{} {unit}", readable(rounded)).trim_end().to_owned()
 }
 
 pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnostic {
@@ -387,7 +387,8 @@ pub fn too_few_rows(name: &Name, periodic: bool, least: usize, found: usize) -> 
 }
 
 pub fn not_rising(name: &Name, [here, before]: [f64; 2], rows: [Span; 2]) -> Diagnostic {
-    let message = format!("the arguments of table `{}` do not rise: {here} follows {before}", name.text);
+    let (this, last) = (readable(here), readable(before));
+    let message = format!("the arguments of table `{}` do not rise: {this} follows {last}", name.text);
     let text = if here < before { "smaller than the one before" } else { "the same as the one before" };
     Diagnostic::new(Code::E0414, message)
         .at(rows[0], text)
@@ -439,16 +440,20 @@ pub fn no_side(span: Span) -> Diagnostic {
 }
 
 pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
+    let value = readable(value);
     Diagnostic::new(Code::E0407, format!("the analysis needs a positive step, it is {value} s"))
         .at(span, format!("{value} s"))
         .help("`every` is the time from one row to the next")
 }
 
 pub fn ends_before_start(span: Span, from: f64, to: f64) -> Diagnostic {
+    let is_duration = to > 0.0;
+    let end = told(from + to, Dimension::TIME);
+    let [from, to] = [from, to].map(readable);
     Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
         .at(span, "the end")
-        .help(if to > 0.0 {
-            format!("`to` is a time, and no duration: `from {from} s to {} s`; or the other way round: `from {to} s to {from} s`", from + to)
+        .help(if is_duration {
+            format!("`to` is a time, and no duration: `from {from} s to {end}`; or the other way round: `from {to} s to {from} s`")
         } else {
             format!("the other way round: `from {to} s to {from} s`")
         })
@@ -471,6 +476,7 @@ pub fn too_large(span: Span) -> Diagnostic {
 }
 
 pub fn degrees(span: Span, value: f64) -> Diagnostic {
+    let value = readable(value);
     Diagnostic::new(Code::W0401, format!("{value} rad is more than a turn; degrees were probably meant"))
         .at(span, "a bare number is in radians")
         .help(format!("write `{value} deg`, or `{value} rad` if radians are meant"))

@@ -15,7 +15,8 @@ Exit codes:
   1  the input has errors
   2  wrong usage
   3  the analysis could not be completed; the rows up to there are written
-  4  a file could not be read or written";
+  4  a file could not be read or written
+  130  interrupted";
 
 /// A compiler for .mech files: planar mechanisms of bodies, joints and drivers.
 ///
@@ -162,7 +163,7 @@ pub(super) struct EmitArguments {
     #[arg(short, long, value_name = "OUT", default_value = "-")]
     pub output: String,
 
-    /// Write a whole crate into this folder: the module, a page, a test against `mechc run`, a benchmark
+    /// Write a whole crate into this folder, named like it: the module, a page, a test against `mechc run`, a benchmark
     #[arg(long = "crate", value_name = "DIR", conflicts_with = "output")]
     pub folder: Option<String>,
 
@@ -173,6 +174,10 @@ pub(super) struct EmitArguments {
     /// What Rust code can do
     #[arg(long, value_enum, value_name = "WHAT", default_value = "solver")]
     pub with: Content,
+
+    /// Leave redundant equations out; the emitted code checks them at every time
+    #[arg(long)]
+    pub allow_redundant: bool,
 
     /// Solve for N variants or times at once too, in vector instructions where the target has them
     #[arg(long, value_name = "N", value_parser = lanes)]

@@ -2,11 +2,12 @@
 
 use super::arguments::CheckArguments;
 use super::failure::Failure;
-use super::files::Output;
+use super::files;
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
 use crate::analysis::{self, Started};
+use crate::diag::readable;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
 use crate::source::Sources;
@@ -21,7 +22,7 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
     reporter.print(&started.remarks());
     let report = report(&determined, started, t, &reporter.sources);
-    Output::write("-", &report)
+    files::print(&report)
 }
 
 /// As many as a reader compares with a drawing.
@@ -55,12 +56,12 @@ fn report(determined: &Determined, mut started: Started<'_>, t: f64, sources: &S
     }
     text += "\norder of solution\n";
     text += &structure::order_of_solution(determined);
-    text += &format!("\nat t = {t} s\n  {moved}\n");
+    text += &format!("\nat t = {} s\n  {moved}\n", readable(t));
     text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
     for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
         // less than an atom is nothing
         let q = if q.abs() < 1e-12 { 0.0 } else { *q };
-        let value = format!("{} {}", nine_digits(q), coordinate.kind.unit());
+        let value = format!("{} {}", readable(nine_digits(q)), coordinate.kind.unit());
         text += &format!("  {} = {}\n", coordinate.name, value.trim_end());
     }
     text

@@ -15,5 +15,5 @@ pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result
         // the equations can be looked at even where they are too many or too few
         Stage::Ir => lower::lower(&input::model(&arguments.input, reporter)?).to_string(),
     };
-    Output::write(&arguments.output, &text)
+    Output::write(&arguments.output, &text, &reporter.sources)
 }

@@ -1,6 +1,7 @@
 //! `mechc emit`: the mechanism as Rust, a module or a whole crate, its constraint system as LaTeX or JSON.
 
 use super::arguments::{Content, EmitArguments, EmitFormat};
+use super::endings;
 use super::failure::Failure;
 use super::files::{self, Output};
 use super::input;
@@ -13,25 +14,31 @@ use crate::source::Sources;
 use crate::structure::Determined;
 use std::path::Path;
 
+/// The forms by their endings.
+const FORMS: [(&str, EmitFormat); 3] =
+    [("rs", EmitFormat::Rust), ("tex", EmitFormat::Latex), ("json", EmitFormat::Json)];
+
 pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let format = endings::form(arguments.format, &arguments.output, &FORMS, EmitFormat::Rust)?;
     if arguments.folder.is_some() {
         can_be_a_crate(arguments)?;
     }
     if arguments.lanes.is_some() {
-        can_have_lanes(arguments)?;
+        can_have_lanes(arguments, format)?;
     }
-    let determined = input::determined(&arguments.input, false, reporter, &mut Timings::new(false))?;
+    let determined =
+        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     if let Some(folder) = &arguments.folder {
         return package(&determined, arguments, folder, &file, reporter);
     }
-    let text = match format(arguments) {
+    let text = match format {
         EmitFormat::Rust => rust(&determined, arguments, &file, reporter)?,
         EmitFormat::Latex => emit::latex(determined.system(), &file),
         EmitFormat::Json => emit::json(determined.system(), &reporter.sources, &file),
     };
-    Output::write(&arguments.output, &text)
+    Output::write(&arguments.output, &text, &reporter.sources)
 }
 
 fn rust(
@@ -84,13 +91,20 @@ fn package(
     let (reference, said) = crate::reference(determined, &program)?;
     let sources = &reporter.sources;
     let unit = unit(determined, &program, sources, file, motion, arguments)?;
-    let crate_files = emit::package(&unit, &reference);
-    files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK)?;
+    let name = folder_name(folder).unwrap_or_else(|| determined.system().name.clone());
+    let crate_files = emit::package(&unit, &reference, &name);
+    files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK, sources)?;
     if said.has_errors() {
         return Err(said.into());
     }
     reporter.print(&said);
     Ok(())
+}
+
+/// What a folder is called, `.` too; the root has no name.
+fn folder_name(folder: &str) -> Option<String> {
+    let named = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
+    named(Path::new(folder)).or_else(|| named(&Path::new(folder).canonicalize().ok()?))
 }
 
 fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Result<Motion, Failure> {
@@ -100,8 +114,8 @@ fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Re
 }
 
 /// What has no lanes.
-fn can_have_lanes(arguments: &EmitArguments) -> Result<(), Failure> {
-    if format(arguments) != EmitFormat::Rust || arguments.with == Content::Equations {
+fn can_have_lanes(arguments: &EmitArguments, format: EmitFormat) -> Result<(), Failure> {
+    if format != EmitFormat::Rust || arguments.with == Content::Equations {
         return Err(Diagnostic::new(Code::E0706, "lanes are for Rust code with the solver")
             .help("leave `--lanes` out, or `--format` and `--with`")
             .into());
@@ -127,16 +141,4 @@ fn can_be_a_crate(arguments: &EmitArguments) -> Result<(), Failure> {
 fn too_large() -> Diagnostic {
     Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
         .help("leave it out with `--with equations`, in a file that `-o` names")
-}
-
-/// As it is said, or by the ending of the output.
-fn format(arguments: &EmitArguments) -> EmitFormat {
-    let ending = Path::new(&arguments.output).extension();
-    let ends_in = |wanted: &str| ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted));
-    match arguments.format {
-        Some(format) => format,
-        None if ends_in("tex") => EmitFormat::Latex,
-        None if ends_in("json") => EmitFormat::Json,
-        None => EmitFormat::Rust,
-    }
 }

@@ -2,14 +2,14 @@
 
 use super::arguments::ExplainArguments;
 use super::failure::Failure;
-use super::files::Output;
+use super::files;
 use crate::diag::{Code, Diagnostic, nearest};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<(), Failure> {
     match &arguments.code {
-        None => Output::write("-", &list()),
+        None => files::print(&list()),
         Some(name) => match Code::named(name) {
-            Some(code) => Output::write("-", code.page()),
+            Some(code) => files::print(code.page()),
             None => Err(unknown(name).into()),
         },
     }

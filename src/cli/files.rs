@@ -1,17 +1,21 @@
 //! Reading the input, and writing results whole or not at all.
 
 use super::failure::Failure;
+use super::interrupts;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources, Span};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 
+/// What standard input is called in messages.
+const STANDARD_INPUT: &str = "<stdin>";
+
 /// The text of a file, or of standard input for `-`.
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
     let (shown, bytes) = if name == "-" {
         let mut bytes = Vec::new();
-        ("<stdin>", io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
+        (STANDARD_INPUT, io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
     } else {
         (name, fs::read(name))
     };
@@ -103,9 +107,16 @@ impl Write for Destination {
     }
 }
 
+/// Prints a text to standard output.
+pub(super) fn print(text: &str) -> Result<(), Failure> {
+    Output::write("-", text, &Sources::default())
+}
+
 impl Output {
-    /// Opens it; a file's place is tried at once, so that no work is done for nothing.
-    pub fn open(name: &str) -> Result<Output, Failure> {
+    /// Opens it, unless it is one of the files that were read; a file's place is tried at once, so that no work is done for
+    /// nothing.
+    pub fn open(name: &str, sources: &Sources) -> Result<Output, Failure> {
+        spare_inputs(name, sources)?;
         let destination =
             if name == "-" { Ok(Destination::Standard(io::stdout())) } else { Destination::beside(Path::new(name)) };
         let destination = destination.map_err(|error| cannot_write(name, &error))?;
@@ -114,8 +125,8 @@ impl Output {
     }
 
     /// Writes a whole text.
-    pub fn write(name: &str, text: &str) -> Result<(), Failure> {
-        let mut output = Output::open(name)?;
+    pub fn write(name: &str, text: &str, sources: &Sources) -> Result<(), Failure> {
+        let mut output = Output::open(name, sources)?;
         if let Err(error) = output.writer.write_all(text.as_bytes()) {
             return Err(output.failure(&error));
         }
@@ -145,19 +156,69 @@ impl Output {
     }
 
     /// Puts a file in its place.
-    pub fn close(mut self) -> Result<(), Failure> {
+    pub fn close(self) -> Result<(), Failure> {
+        put_in_place(self.written()?)
+    }
+
+    /// The file, if it is one, with all that was written.
+    fn written(mut self) -> Result<Option<Written>, Failure> {
         if let Err(error) = self.writer.flush() {
             return Err(self.failure(&error));
         }
         let name = self.name.clone();
         match self.writer.into_inner() {
-            Ok(Destination::File { temporary, path }) => {
-                temporary.persist(path).map(|_| ()).map_err(|error| cannot_write(&name, &error.error).into())
-            }
-            Ok(Destination::Standard(_) | Destination::Device(_)) => Ok(()),
+            Ok(Destination::File { temporary, path }) => Ok(Some(Written { name, temporary, path })),
+            Ok(Destination::Standard(_) | Destination::Device(_)) => Ok(None),
             Err(error) => Err(cannot_write(&name, error.error()).into()),
         }
     }
+}
+
+/// A file that is whole, but not in its place yet.
+struct Written {
+    name: String,
+    temporary: tempfile::NamedTempFile,
+    path: PathBuf,
+}
+
+/// Puts all that a command writes in its place. No interruption comes between.
+fn put_in_place(files: impl IntoIterator<Item = Written>) -> Result<(), Failure> {
+    let mut unfinished = interrupts::unfinished();
+    for Written { name, temporary, path } in files {
+        temporary.persist(path).map_err(|error| cannot_write(&name, &error.error))?;
+    }
+    unfinished.clear();
+    Ok(())
+}
+
+/// Refuses to write over a file that was read, by whatever path or link.
+fn spare_inputs(name: &str, sources: &Sources) -> Result<(), Failure> {
+    let Some(own) = identity(Path::new(name)) else {
+        return Ok(());
+    };
+    let read = sources.iter().filter(|source| !source.is_option);
+    let path = |shown: &str| if shown == STANDARD_INPUT { "/dev/stdin".to_owned() } else { shown.to_owned() };
+    let found =
+        read.map(|source| source.name.as_str()).find(|shown| identity(Path::new(&path(shown))).as_ref() == Some(&own));
+    let Some(shown) = found else {
+        return Ok(());
+    };
+    let same = if shown == name { String::new() } else { format!(": it is `{shown}`") };
+    Err(Diagnostic::new(Code::E0706, format!("`{name}` would be written over, and was read{same}"))
+        .help("name another output; nothing was touched")
+        .into())
+}
+
+/// What tells a file from all others, whichever links lead to it; what is no file has none.
+#[cfg(unix)]
+fn identity(path: &Path) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    path.metadata().ok().filter(fs::Metadata::is_file).map(|found| (found.dev(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(path: &Path) -> Option<PathBuf> {
+    path.canonicalize().ok().filter(|path| path.is_file())
 }
 
 /// Writes files into a folder, which is made if it is not there: all of them or none. A file that is there already is replaced only
@@ -166,6 +227,7 @@ pub(super) fn write_all<'f>(
     folder: &str,
     files: impl Iterator<Item = (&'f str, &'f str)>,
     mark: &str,
+    sources: &Sources,
 ) -> Result<(), Failure> {
     let files: Vec<(PathBuf, &str)> = files.map(|(path, text)| (Path::new(folder).join(path), text)).collect();
     for (path, _) in &files {
@@ -186,11 +248,11 @@ pub(super) fn write_all<'f>(
     for (path, text) in &files {
         let name = path.to_string_lossy();
         path.parent().map_or(Ok(()), make_folder).map_err(|error| cannot_write(&name, &error))?;
-        let mut output = Output::open(&name)?;
+        let mut output = Output::open(&name, sources)?;
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
-        outputs.push(output);
+        outputs.extend(output.written()?);
     }
-    outputs.into_iter().try_for_each(Output::close)
+    put_in_place(outputs)
 }
 
 /// Lines of a file that may hold the mark.
@@ -203,12 +265,15 @@ fn make_folder(path: &Path) -> io::Result<()> {
         Ok(_) => return Err(io::Error::other("it is a file")),
         Err(_) => {}
     }
+    let mut unfinished = interrupts::unfinished();
     fs::create_dir(path).map_err(|error| match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
             io::Error::other(format!("there is no folder `{}`", parent.display()))
         }
         _ => error,
-    })
+    })?;
+    unfinished.push(path.to_owned());
+    Ok(())
 }
 
 impl Destination {
@@ -245,7 +310,9 @@ impl Destination {
             use std::os::unix::fs::PermissionsExt;
             builder.permissions(fs::Permissions::from_mode(mode));
         }
+        let mut unfinished = interrupts::unfinished();
         let temporary = builder.tempfile_in(folder)?;
+        unfinished.push(temporary.path().to_owned());
         Ok(Destination::File { temporary, path })
     }
 }

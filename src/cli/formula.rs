@@ -5,7 +5,7 @@
 
 use super::arguments::FormulaArguments;
 use super::failure::Failure;
-use super::files::Output;
+use super::files;
 use super::input;
 use super::report::Reporter;
 use crate::analysis::Times;
@@ -44,7 +44,7 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
     if !rows.is_empty() {
         text += &format!("\n{}", table(&rows));
     }
-    Output::write("-", &text)?;
+    files::print(&text)?;
     if failed.is_empty() { Ok(()) } else { Err(failed.into()) }
 }
 

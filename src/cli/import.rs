@@ -26,7 +26,7 @@ pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Re
         None => Err(said.into()),
         Some(file) => {
             reporter.print(&said);
-            Output::write(&arguments.output, &syntax::format(&file))
+            Output::write(&arguments.output, &syntax::format(&file), &reporter.sources)
         }
     }
 }

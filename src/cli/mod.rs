@@ -6,12 +6,14 @@ mod arguments;
 mod check;
 mod dump;
 mod emit;
+mod endings;
 mod explain;
 mod failure;
 mod files;
 mod formula;
 mod import;
 mod input;
+mod interrupts;
 mod progress;
 mod report;
 mod run;
@@ -26,6 +28,7 @@ use std::process::ExitCode;
 /// Runs the command that the process was called with.
 #[must_use]
 pub fn main() -> ExitCode {
+    interrupts::watch();
     ExitCode::from(match Arguments::parse().command {
         Command::Check(check) => reported(&check.input.messages, |reporter| check::check(&check, reporter)),
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),

@@ -1,6 +1,7 @@
 //! `mechc run`: the kinematic analysis, as a table.
 
 use super::arguments::{Format, RunArguments};
+use super::endings;
 use super::failure::Failure;
 use super::files::Output;
 use super::input;
@@ -8,25 +9,26 @@ use super::progress::Progress;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::analysis::{self, Started, Times};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::output::{TableFormat, TableWriter};
 use crate::program::Program;
 use crate::source::Sources;
-use std::path::Path;
+use std::io::IsTerminal;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let format = format(arguments)?;
     let mut timings = Timings::new(arguments.timings);
     let determined = input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
     let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
-    let output = Output::open(&arguments.output)?;
-    if format(arguments) == TableFormat::Parquet && output.is_terminal() {
+    let output = Output::open(&arguments.output, &reporter.sources)?;
+    if format == TableFormat::Parquet && output.is_terminal() {
         return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
     }
     let program = Program::new(determined.system());
     timings.end(Phase::Program);
     let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
     reporter.print(&started.remarks());
-    let table = Table { output, format: format(arguments), timings };
+    let table = Table { output, format, timings };
     let ended = table.write(&mut started, &times, arguments.pass_bifurcations)?;
     reporter.print(&ended.remarks);
     Reporter::say(&ended.timings);
@@ -54,6 +56,11 @@ impl Table {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
     fn write(mut self, started: &mut Started<'_>, times: &Times, pass: bool) -> Result<Ended, Failure> {
         let columns = started.columns();
+        if std::io::stderr().is_terminal()
+            && let Some(text) = beforehand(times.len(), columns.len(), self.format)
+        {
+            Reporter::say(&text);
+        }
         let mut progress = Progress::new(times.len(), self.output.is_standard());
         let mut motion = started.motion(times);
         if pass {
@@ -88,17 +95,35 @@ impl Table {
     }
 }
 
-fn format(arguments: &RunArguments) -> TableFormat {
-    let ending = Path::new(&arguments.output).extension();
-    let ends_in = |wanted: &str| ending.is_some_and(|ending| ending.eq_ignore_ascii_case(wanted));
-    match arguments.format {
-        Some(Format::Json) => TableFormat::Json,
-        Some(Format::Parquet) => TableFormat::Parquet,
-        None if ends_in("json") => TableFormat::Json,
-        None if ends_in("parquet") => TableFormat::Parquet,
-        Some(Format::Csv) | None => TableFormat::Csv,
-    }
+/// From so many bytes on a table is told beforehand.
+const LARGE: f64 = 1e10;
+
+/// What a number takes in a table, with what parts it from the next, more or less: some are all digits, some nothing but 0.0 (bytes).
+const IN_TEXT: f64 = 16.0;
+const IN_PARQUET: f64 = 8.0;
+
+/// What is said of a very large table before it is written.
+fn beforehand(rows: u64, columns: usize, format: TableFormat) -> Option<String> {
+    let number = if format == TableFormat::Parquet { IN_PARQUET } else { IN_TEXT };
+    let bytes = rows as f64 * columns as f64 * number;
+    let (size, unit) = if bytes < 1e12 { (bytes / 1e9, "GB") } else { (bytes / 1e12, "TB") };
+    let size = if size < 1e4 { format!("{size:.0}") } else { readable(format!("{size:.1e}").parse().unwrap_or(size)) };
+    (bytes >= LARGE).then(|| format!("writing {rows} rows of {columns} columns, about {size} {unit}\n"))
 }
+
+/// The form of the table.
+fn format(arguments: &RunArguments) -> Result<TableFormat, Failure> {
+    let said = arguments.format.map(|format| match format {
+        Format::Csv => TableFormat::Csv,
+        Format::Json => TableFormat::Json,
+        Format::Parquet => TableFormat::Parquet,
+    });
+    endings::form(said, &arguments.output, &FORMS, TableFormat::Csv)
+}
+
+/// The forms by their endings.
+const FORMS: [(&str, TableFormat); 3] =
+    [("csv", TableFormat::Csv), ("json", TableFormat::Json), ("parquet", TableFormat::Parquet)];
 
 /// The output times: those of the command line over those of the file.
 fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sources) -> Result<Times, Failure> {
@@ -113,9 +138,13 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
     if let Some(earliest) = earliest {
         let from = from.unwrap_or(earliest);
         if earliest < from {
-            return Err(unusable(format!("`--at` {earliest} s is before the start of the analysis at {from} s"))
-                .help("start earlier with `--from`")
-                .into());
+            return Err(unusable(format!(
+                "`--at` {} s is before the start of the analysis at {} s",
+                readable(earliest),
+                readable(from)
+            ))
+            .help("start earlier with `--from`")
+            .into());
         }
         return Ok(Times::listed(from, listed));
     }
@@ -124,16 +153,34 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
             .help("add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`")
             .into());
     };
+    let [first, last, step] = [from, to, every].map(readable);
     if every <= 0.0 {
-        return Err(unusable(format!("the step must be positive, it is {every} s")).into());
+        return Err(unusable(format!("the step must be positive, it is {step} s")).into());
     }
     if to < from {
-        return Err(unusable(format!("the analysis would end at {to} s, before its start at {from} s")).into());
+        return Err(unusable(format!("the analysis would end at {last} s, before its start at {first} s")).into());
     }
     Times::grid(from, to, every)
-        .ok_or_else(|| unusable(format!("a step of {every} s is too small to get from {from} s to {to} s")).into())
+        .ok_or_else(|| unusable(format!("a step of {step} s is too small to get from {first} s to {last} s")).into())
 }
 
 fn unusable(message: String) -> Diagnostic {
     Diagnostic::new(Code::E0706, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::beforehand;
+    use crate::output::TableFormat;
+
+    #[test]
+    fn only_what_is_very_large_is_told_beforehand() {
+        assert_eq!(beforehand(1_000_000, 28, TableFormat::Csv), None);
+        assert_eq!(beforehand(1_000_000_000, 1, TableFormat::Parquet), None);
+        let told = |rows, format| beforehand(rows, 28, format).expect("it is large");
+        assert_eq!(told(30_000_000, TableFormat::Csv), "writing 30000000 rows of 28 columns, about 13 GB\n");
+        assert_eq!(told(100_000_000, TableFormat::Parquet), "writing 100000000 rows of 28 columns, about 22 GB\n");
+        assert_eq!(told(10_000_000_000, TableFormat::Json), "writing 10000000000 rows of 28 columns, about 4 TB\n");
+        assert!(told(u64::MAX, TableFormat::Csv).ends_with("about 8.3e9 TB\n"));
+    }
 }

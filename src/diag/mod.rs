@@ -7,11 +7,13 @@
 mod codes;
 mod fix;
 mod nearest;
+mod number;
 mod render;
 
 pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
+pub use number::readable;
 pub use render::{Color, Format, render};
 
 use crate::source::Span;

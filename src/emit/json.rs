@@ -40,6 +40,7 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.list("measures", writer.measures());
     object.list("conditions", writer.conditions());
     object.list("watches", writer.watches());
+    object.list("left_out", writer.left_out());
     object.finish()
 }
 
@@ -52,6 +53,7 @@ fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     roots.extend(system.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
     roots.extend(system.conditions.iter().map(|condition| condition.positive));
     roots.extend(system.watches.iter().map(|watch| watch.value));
+    roots.extend(system.checks.iter().map(|check| check.phi));
     roots.extend(system.graph.tables().iter().flat_map(|table| table.cells().chain(table.values.iter().copied())));
     roots
 }
@@ -149,6 +151,11 @@ impl Writer<'_> {
             })
         });
         declarations.collect()
+    }
+
+    fn left_out(&self) -> Vec<Value> {
+        let checks = self.system.checks.iter();
+        checks.map(|check| json!({ "declaration": check.declaration, "phi": (self.text)(check.phi) })).collect()
     }
 
     fn rows(&self) -> Vec<Value> {

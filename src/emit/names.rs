@@ -99,7 +99,7 @@ impl Namer {
     }
 
     fn unique(&mut self, name: &str, separator: char) -> String {
-        let safe = if KEYWORDS.contains(&name) { format!("{name}{separator}") } else { name.to_owned() };
+        let safe = if is_keyword(name) { format!("{name}{separator}") } else { name.to_owned() };
         self.numbered(&safe, &separator.to_string())
     }
 
@@ -113,6 +113,11 @@ impl Namer {
         }
         candidate
     }
+}
+
+/// Whether a name is a word of Rust.
+pub(super) fn is_keyword(name: &str) -> bool {
+    KEYWORDS.contains(&name)
 }
 
 /// ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `é` is `u00e9`, `gearA` stays one word.

@@ -4,7 +4,7 @@
 //! What the interpreter computes is handed in; this room knows of no analysis.
 
 use super::Unit;
-use super::names::Namer;
+use super::names::{Namer, is_keyword};
 use super::rust;
 use super::text::{lines, literal, one_line};
 use std::fmt::Display;
@@ -63,11 +63,12 @@ pub struct File {
 /// What every file of a crate holds near its beginning, and by which it can be told from one that somebody wrote.
 pub const MARK: &str = "ritten by mechc ";
 
-/// The files of a crate, for a unit with its motion.
+/// The files of a crate, for a unit with its motion. It has the name of its folder, as cargo's own have; where that cannot be a
+/// crate's, the next to it that can.
 #[must_use]
-pub fn package(unit: &Unit<'_>, reference: &Reference) -> Vec<File> {
+pub fn package(unit: &Unit<'_>, reference: &Reference, folder: &str) -> Vec<File> {
     let module = rust(unit);
-    let writer = Writer { unit, reference, needs_libm: module.contains("libm::") };
+    let writer = Writer { unit, reference, name: crate_name(folder), needs_libm: module.contains("libm::") };
     vec![
         File { path: "Cargo.toml", text: writer.manifest() },
         File { path: "README.md", text: writer.page() },
@@ -78,12 +79,14 @@ pub fn package(unit: &Unit<'_>, reference: &Reference) -> Vec<File> {
     ]
 }
 
-/// A valid name of a crate, out of a mechanism's.
-fn crate_name(mechanism: &str) -> String {
-    let name = Namer::default().snake(mechanism);
-    // a word of Rust got a line behind it
-    let plain = name.trim_end_matches('_');
-    if plain.len() < name.len() || TAKEN.contains(&plain) { format!("{plain}_mechanism") } else { name }
+/// A valid name of a crate, out of a folder's: in small letters, as crates are named.
+fn crate_name(folder: &str) -> String {
+    let is_part = |part: &str| part.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+    let may_stay = folder.starts_with(|c: char| c.is_ascii_alphabetic()) && folder.split('-').all(is_part);
+    let wanted = if may_stay { folder.to_lowercase() } else { Namer::default().snake(folder) };
+    let plain = wanted.trim_end_matches('_');
+    let is_taken = TAKEN.contains(&plain.replace('-', "_").as_str());
+    if is_keyword(plain) || is_taken { format!("{plain}_mechanism") } else { wanted }
 }
 
 /// What a page says of the crate that some modules ask for.
@@ -93,6 +96,8 @@ elementary functions with the same bits on every platform. Where cargo does not 
 struct Writer<'w> {
     unit: &'w Unit<'w>,
     reference: &'w Reference,
+    /// The crate's.
+    name: String,
     needs_libm: bool,
 }
 
@@ -102,7 +107,9 @@ impl Writer<'_> {
         let system = &self.unit.system;
         let version = env!("CARGO_PKG_VERSION");
         let shared = [
-            ("package", crate_name(&system.name)),
+            ("package", self.name.clone()),
+            // what it is called in code
+            ("library", self.name.replace('-', "_")),
             ("mechanism", system.name.clone()),
             ("mark", format!("W{MARK}{version} from `{}`.", one_line(self.unit.file))),
             ("params", if system.params.is_empty() { "Params" } else { "Params::default()" }.to_owned()),
@@ -310,13 +317,20 @@ mod tests {
             ("Self", "self_mechanism"),
             ("core", "core_mechanism"),
             ("_", "unnamed"),
+            ("", "unnamed"),
             ("_3rpr", "n3rpr"),
-            ("ends_", "ends"),
+            ("3rpr", "n3rpr"),
+            ("ends_", "ends_"),
+            ("type_", "type_mechanism"),
+            ("slider-crank", "slider-crank"),
+            ("four  bar (2)", "four_bar_u00282u0029"),
+            ("proc-macro", "proc-macro_mechanism"),
+            ("a__b", "a__b"),
+            ("-x", "u002dx"),
         ];
-        for (mechanism, name) in cases {
-            assert_eq!(crate_name(mechanism), name);
+        for (folder, name) in cases {
+            assert_eq!(crate_name(folder), name);
         }
-        assert!(crate_name(&"long".repeat(100)).len() <= 50);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::names::{Namer, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
-use crate::ir::{Measure, Owner};
+use crate::ir::{Check, Measure, Owner};
 use crate::program::{Column, Register, STAGES};
 use crate::solver::RowLayout;
 use crate::source::Span;
@@ -90,6 +90,12 @@ impl Writer<'_> {
         text += &format!("//! - coordinates `q`: {n} (m, rad), equations `phi = 0`: {}\n", system.rows.len());
         text += &format!("//! - `phi_q`: {entries} entries that do not vanish, see [`PHI_Q_PATTERN`]\n");
         text += &format!("//! - parameters: {}; those that follow from others are worked out\n", system.params.len());
+        if !system.checks.is_empty() {
+            text += &format!(
+                "//! - equations that were left out as redundant: {}, see [`left_out`]\n",
+                system.checks.len()
+            );
+        }
         if self.unit.motion.is_some() {
             text += "//! - the motion: [`assemble`], then [`step`] from time to time\n";
         }
@@ -310,8 +316,10 @@ impl Writer<'_> {
             ),
         ];
         let jerk = ("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, &outputs.jerk, "N");
+        let left_out = ("left_out", LEFT_OUT_DOCS, 1, &outputs.checks, "LEFT_OUT");
         let kinds = kinds.into_iter().chain((!outputs.jerk.is_empty()).then_some(jerk));
-        let mut text = String::new();
+        let kinds = kinds.chain((!outputs.checks.is_empty()).then_some(left_out));
+        let mut text = self.left_out();
         for (name, docs, orders, outputs, length) in kinds {
             let wanted = Wanted {
                 name,
@@ -330,6 +338,22 @@ impl Writer<'_> {
             text += DENSE;
         }
         text + &self.measures()
+    }
+
+    /// Which equations were left out.
+    fn left_out(&self) -> String {
+        let system = self.unit.system;
+        if system.checks.is_empty() {
+            return String::new();
+        }
+        let mut text =
+            "/// Number of equations that were left out, since they follow from the others. Those of:\n".to_owned();
+        for of in system.checks.chunk_by(|a, b| a.declaration == b.declaration) {
+            let declaration = &system.declarations[of[0].declaration];
+            let (kind, name, line) = (declaration.kind.noun(), &declaration.name, self.line(declaration.span));
+            text += &format!("/// - {kind} `{name}`: {}{line}\n", of.len());
+        }
+        text + &format!("pub const LEFT_OUT: usize = {};\n\n", system.checks.len())
     }
 
     /// The measures with their derivatives.
@@ -384,6 +408,7 @@ impl Writer<'_> {
             ("end", of_time && solution.motion.to.is_some()),
             ("conditions", !conditions.is_empty()),
             ("watches", !system.watches.is_empty()),
+            ("left_out", !system.checks.is_empty()),
             ("pivoting", solution.motion.blocks.is_some()),
             ("newton", solution.has_newton()),
             ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
@@ -400,6 +425,7 @@ impl Writer<'_> {
         if !system.measures.is_empty() {
             text += MEASURES_IN_SOLUTION;
         }
+        text += &self.left_out_limits();
         if let Some(to) = solution.motion.to.filter(|_| of_time) {
             text += &format!("/// The last time of the file's analysis (s).\nconst END: f64 = {};\n\n", literal(to));
         }
@@ -429,7 +455,7 @@ impl Writer<'_> {
             text += &self.lanes(solution, lanes, &wanted);
         }
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
-        for name in ["phi_q", "phi", "nu", "gamma", "jerk"] {
+        for name in ["phi_q", "phi", "nu", "gamma", "jerk", "left_out"] {
             text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
@@ -447,7 +473,10 @@ impl Writer<'_> {
     fn lanes(&self, solution: &Solution<'_>, lanes: usize, wanted: &[(&str, bool)]) -> String {
         let solve = solution.function(true);
         let (system, switches) = (self.unit.system, self.unit.program.switches());
-        let checks = !switches.is_empty() || !system.watches.is_empty() || wanted.contains(&("conditions", true));
+        let checks = !switches.is_empty()
+            || !system.watches.is_empty()
+            || !system.checks.is_empty()
+            || wanted.contains(&("conditions", true));
         let more = [("checks", checks), ("watched", solve.contains("at.watch("))];
         let wanted: Vec<(&str, bool)> = wanted.iter().copied().chain(more).collect();
         let tears: Vec<String> = solution.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
@@ -456,6 +485,18 @@ impl Writer<'_> {
             .replace("$lane_sides", if self.has_sides() { ", &states.sides" } else { "" })
             .replace("$lane_tears", &format!("[{}]", tears.join(", ")));
         template + indented(&solve, MODULE).trim_end() + "\n}\n\n"
+    }
+
+    /// How far equations that were left out may be open.
+    fn left_out_limits(&self) -> String {
+        let checks = &self.unit.system.checks;
+        if checks.is_empty() {
+            return String::new();
+        }
+        let scales: Vec<String> = checks.iter().map(|check| literal(check.scale)).collect();
+        let docs = "What each equation that was left out is judged against, and how far it may be open beside that.";
+        super::text::constant(docs, "LEFT_OUT_SCALES", "f64", "LEFT_OUT", &scales)
+            + &format!("const LARGEST_OPENING: f64 = {};\n\n", literal(Check::LARGEST_OPENING))
     }
 
     /// The parameters with what follows from them.
@@ -610,6 +651,7 @@ impl Writer<'_> {
             ("phi_q_with", "phi_q", 1, &outputs.phi_q, "ENTRIES", sides),
             ("nu_with", "nu", 1, &outputs.nu, "N", sides),
             ("gamma_with", "gamma", 2, &outputs.gamma, "N", sides),
+            ("left_out_with", "left_out", 1, &outputs.checks, "LEFT_OUT", sides && !outputs.checks.is_empty()),
             ("jerk_with", "jerk", 3, &outputs.jerk, "N", sides && has_pivoting && !outputs.jerk.is_empty()),
         ];
         for (name, of, orders, outputs, length, is_wanted) in kinds {
@@ -631,6 +673,9 @@ impl Writer<'_> {
         text
     }
 }
+
+/// What is said of the function that the equations left out are.
+const LEFT_OUT_DOCS: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";
 
 /// What measures are given as.
 const MEASURES: &str = "/// The measures with their time derivatives.

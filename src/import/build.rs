@@ -64,9 +64,3 @@ pub(super) fn call(function: &str, arguments: Vec<Expr>, span: Span) -> Expr {
 pub(super) fn word(text: &str, span: Span) -> Expr {
     Expr { kind: ExprKind::Name(name(text, span)), span }
 }
-
-/// A number for a message: `1e300` rather than all its digits.
-pub(super) fn in_short(value: f64) -> String {
-    let (plain, scientific) = (value.to_string(), format!("{value:e}"));
-    if plain.len() > scientific.len() + 3 { scientific } else { plain }
-}

@@ -1,8 +1,7 @@
 //! What is said of a model file that cannot be translated, and of what its translation changed or left behind.
 
-use super::build;
 use super::json::{Rule, Value};
-use crate::diag::{Code, Diagnostic, nearest};
+use crate::diag::{Code, Diagnostic, nearest, readable};
 use crate::source::{FileId, Span};
 use crate::syntax::DEEPEST;
 use pest::error::{Error, ErrorVariant, InputLocation};
@@ -153,7 +152,7 @@ pub(super) fn no_such_body(key: &str, number: f64, span: Span, count: usize) -> 
         1 => "there is 1 body".to_owned(),
         _ => format!("there are {count} bodies"),
     };
-    fault(span, format!("`{key}` is {}, and {there}", build::in_short(number)), "no such body")
+    fault(span, format!("`{key}` is {}, and {there}", readable(number)), "no such body")
         .help("a body is named by its position in the list of bodies, from 1")
 }
 

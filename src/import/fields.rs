@@ -1,10 +1,9 @@
 //! Keys of JSON objects as what they must be: a number, a vector, a string. What is wrong is said once, with its
 //! place, and the reading goes on.
 
-use super::build;
 use super::errors;
 use super::json::{Kind, Quoted, Value};
-use crate::diag::{Diagnostic, Diagnostics};
+use crate::diag::{Diagnostic, Diagnostics, readable};
 use crate::source::Span;
 
 /// An object whose keys are asked for.
@@ -62,7 +61,7 @@ impl<'a> Fields<'a> {
     ) -> Option<Number> {
         let number = self.number(key, said)?;
         if !holds(number.value) {
-            let message = format!("`{key}` must be {wanted}, it is {}", build::in_short(number.value));
+            let message = format!("`{key}` must be {wanted}, it is {}", readable(number.value));
             said.push(errors::fault(number.span, message, format!("expected {wanted}")));
             return None;
         }

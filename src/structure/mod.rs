@@ -9,7 +9,7 @@ mod matching;
 mod order;
 
 pub use count::table;
-pub use order::order_of_solution;
+pub use order::{Step, order_of_solution, steps};
 
 use crate::diag::Diagnostic;
 use crate::expr::Symbol;

@@ -2875,10 +2875,14 @@ pub enum Error {
     LockUp,
     /// Two branches of the motion meet: which one goes on is not determined.
     Bifurcation,
-    /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
+    /// Newton's iteration does not arrive, however short the step.
     Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
     /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
 }
 
 impl core::fmt::Display for Error {
@@ -2888,7 +2892,9 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
             Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
         })
     }
 }
@@ -3210,7 +3216,7 @@ fn known(p: &Params) -> [f64; KNOWN] {
     out
 }
 
-/// Steps that one call of [`step`] takes at most: what takes more is not meant.
+/// Steps that one call of [`step`] takes at most.
 pub const MOST_STEPS: usize = 1_000_000;
 
 /// Trials on the way from the file's parameters to others at most, and the smallest part of it.
@@ -3317,7 +3323,8 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 /// At the end of the file's analysis the formulas of time take their earlier branches, as
 /// `mechc run` has it; at any other time where they change, the later ones.
@@ -3325,14 +3332,24 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 /// # Errors
 /// Why it cannot get there; the state stays at the last time that it could reach.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    for _ in 0..MOST_STEPS {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
         if left == 0.0 {
             return Ok(());
-        }
-        if !left.is_finite() {
-            return Err(Error::NotANumber);
         }
         // no crumb at the end
         let wanted = if state.step >= 0.999 * left.abs() {
@@ -3365,7 +3382,11 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
             }
         }
     }
-    Err(Error::Divergence)
+    if state.at().t == t {
+        Ok(())
+    } else {
+        Err(Error::TooFar)
+    }
 }
 
 /// Why a step is refused.

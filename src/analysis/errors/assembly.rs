@@ -3,7 +3,7 @@
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::assembly::Moved;
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
-use crate::diag::{Code, Diagnostic};
+use crate::diag::{Code, Diagnostic, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
 use crate::math;
 
@@ -163,7 +163,7 @@ fn digits_that_differ(value: f64, other: f64) -> String {
     }
     let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
     let rounded: f64 = format!("{:.digits$e}", value * 1e3).parse().unwrap_or(value);
-    format!("{rounded} mm")
+    format!("{} mm", readable(rounded))
 }
 
 impl Moved {

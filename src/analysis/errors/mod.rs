@@ -10,7 +10,7 @@ pub(super) use determinacy::*;
 pub(super) use motion::*;
 pub(super) use singularity::*;
 
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 
 /// Labels of one message at most.
@@ -24,12 +24,6 @@ fn at(t: f64) -> String {
 /// Ten digits at most.
 fn short(value: f64) -> String {
     readable(format!("{value:.9e}").parse().unwrap_or(value))
-}
-
-/// With an exponent where there would be more zeros than digits.
-fn readable(value: f64) -> String {
-    let size = value.abs();
-    if size == 0.0 || (1e-4..1e10).contains(&size) { format!("{value}") } else { format!("{value:e}") }
 }
 
 /// `3.2 mm`, `1.4 m`.

@@ -93,6 +93,14 @@ impl Writer<'_> {
         self.text += "Of $\\Phi_q$ the columns are given that do not vanish.\n";
         self.text +=
             "Each $\\mathcal{T}_k$ stands for a part of a formula, and is written out where it is met first.\n";
+        let left_out = system.checks.chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
+            let name = words(&system.declarations[of[0].declaration].name);
+            format!("{} of \\textbf{{{name}}}", of.len())
+        });
+        let left_out: Vec<String> = left_out.collect();
+        if !left_out.is_empty() {
+            self.text += &format!("Equations that follow from the others are left out: {}.\n", left_out.join(", "));
+        }
     }
 
     fn section(&mut self, title: &str) {

@@ -4,7 +4,7 @@
 
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
-use $package::{COLUMNS, Error, Params, START_TIME, assemble, step};
+use $library::{COLUMNS, Error, Params, START_TIME, assemble, step};
 
 #[test]
 fn the_motion_is_that_of_mechc_run() -> Result<(), Error> {

@@ -4,7 +4,7 @@
 
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
-use $package::{Error, Params, START_TIME, assemble, step};
+use $library::{Error, Params, START_TIME, assemble, step};
 
 use std::hint::black_box;
 use std::time::{Duration, Instant};

@@ -336,6 +336,11 @@ pub mod lanes {
             return false;
         }
 //# end
+//# if left_out
+        if !left_out_holds(&at.q, t, &model.params$sides) {
+            return false;
+        }
+//# end
 //# if watches
         let watched = watched(&at.q, t, &model.params$sides).map(|value| value > 0.0);
         if watched != states.watched[k] {

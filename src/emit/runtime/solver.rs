@@ -1,4 +1,4 @@
-/// Steps that one call of [`step`] takes at most: what takes more is not meant.
+/// Steps that one call of [`step`] takes at most.
 pub const MOST_STEPS: usize = 1_000_000;
 
 /// Trials on the way from the file's parameters to others at most, and the smallest part of it.
@@ -116,7 +116,8 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one. What a driver does and undoes within a
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
 /// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
 //# if end
 /// At the end of the file's analysis the formulas of time take their earlier branches, as
@@ -126,14 +127,24 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
 /// # Errors
 /// Why it cannot get there; the state stays at the last time that it could reach.
 pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    for _ in 0..MOST_STEPS {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
         if left == 0.0 {
             return Ok(());
-        }
-        if !left.is_finite() {
-            return Err(Error::NotANumber);
         }
         // no crumb at the end
         let $wanted = if state.step >= 0.999 * left.abs() {
@@ -168,7 +179,11 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
             }
         }
     }
-    Err(Error::Divergence)
+    if state.at().t == t {
+        Ok(())
+    } else {
+        Err(Error::TooFar)
+    }
 }
 
 /// Why a step is refused.
@@ -184,6 +199,10 @@ enum Fault {
     /// A position or velocity jumps.
     NotSmooth,
 //# end
+//# if left_out
+    /// An equation that was left out does not hold.
+    LeftOut,
+//# end
 }
 
 impl Fault {
@@ -191,6 +210,9 @@ impl Fault {
     fn at_start(self) -> Error {
         match self {
             Self::NotANumber => Error::NotANumber,
+//# if left_out
+            Self::LeftOut => Error::Inconsistent,
+//# end
             _ => Error::Divergence,
         }
     }
@@ -390,6 +412,11 @@ fn reach(
         return Err(Fault::NotANumber);
     }
 //# end
+//# if left_out
+    if !left_out_holds(&at.q, t, &m.params$sides) {
+        return Err(Fault::LeftOut);
+    }
+//# end
 //# if watches
     at.watched = watched(&at.q, t, &m.params$sides).map(|value| value > 0.0);
 //# end
@@ -403,6 +430,15 @@ fn reach(
     }
 }
 
+//# if left_out
+/// Whether the equations that were left out hold.
+fn left_out_holds(q: &Q, t: f64, p: &Params$sides_argument) -> bool {
+    let left = $left_out(q, t, p$sides);
+    let mut pairs = left.iter().zip(&LEFT_OUT_SCALES);
+    pairs.all(|(value, scale)| value.abs() / scale <= LARGEST_OPENING)
+}
+
+//# end
 /// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
 /// amplified by as much as the position is near to a singular one.
 fn rounding(at: &Solution, m: &Model) -> f64 {
@@ -444,6 +480,11 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
     }
 //# end
     if at.steepest < SINGULAR * state.steepness {
+//# if left_out
+        if fault == Fault::LeftOut {
+            return Error::Inconsistent;
+        }
+//# end
         return Error::Divergence;
     }
     // a motion that comes to a dead point after a time u is as the root of u, whose slope over

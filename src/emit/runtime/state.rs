@@ -8,10 +8,14 @@ pub enum Error {
     LockUp,
     /// Two branches of the motion meet: which one goes on is not determined.
     Bifurcation,
-    /// Newton's iteration does not arrive, however short the step, or not within [`MOST_STEPS`].
+    /// Newton's iteration does not arrive, however short the step.
     Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
     /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
     NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
 }
 
 impl core::fmt::Display for Error {
@@ -21,7 +25,9 @@ impl core::fmt::Display for Error {
             Error::LockUp => "the mechanism locks up: its driver cannot go on",
             Error::Bifurcation => "two branches of the motion meet",
             Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
             Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
         })
     }
 }

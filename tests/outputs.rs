@@ -1,0 +1,228 @@
+//! Where results go: never over what was read, never half, and in a form that their ending says.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+#![cfg(unix)] // links and signals
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::os::unix::process::ExitStatusExt;
+use std::path::Path;
+use std::process::{Child, Command, ExitStatus, Stdio};
+use std::thread::sleep;
+use std::time::Duration;
+
+const SLIDER_CRANK: &str = "examples/slider_crank.mech";
+
+fn mechc(folder: &Path) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    command.current_dir(folder);
+    command
+}
+
+/// What is in a folder and below, hidden files too.
+fn inside(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut found = BTreeMap::new();
+    for entry in fs::read_dir(folder).expect("a folder") {
+        let path = entry.expect("it can be read").path();
+        let name = path.file_name().expect("a name").to_string_lossy().into_owned();
+        if path.is_dir() {
+            found.insert(name.clone() + "/", Vec::new());
+            found.extend(inside(&path).into_iter().map(|(below, text)| (format!("{name}/{below}"), text)));
+        } else {
+            found.insert(name, fs::read(&path).expect("it can be read"));
+        }
+    }
+    found
+}
+
+// ---- interruptions
+
+fn interrupt(child: &mut Child, signal: i32) -> ExitStatus {
+    let sent = Command::new("kill").args([format!("-{signal}"), child.id().to_string()]).status().expect("it runs");
+    assert!(sent.success());
+    child.wait().expect("it ends")
+}
+
+/// Interrupts a command at several moments, and holds the folder to what it was. Says how often something half done was there.
+fn interrupted(folder: &Path, arguments: &[&str], moments: u64) -> usize {
+    let before = inside(folder);
+    let mut half_done = 0;
+    for signal in [2_i32, 15, 1] {
+        for moment in 0..moments {
+            // not evenly, and the first ones while the program is still starting
+            let delay = 1 + moment * moment * 7 + (moment * 37 + u64::from(signal.unsigned_abs()) * 11) % 13;
+            let mut command = mechc(folder);
+            let mut child = command.args(arguments).stderr(Stdio::null()).spawn().expect("it runs");
+            sleep(Duration::from_millis(delay));
+            half_done += usize::from(inside(folder).len() > before.len());
+            let status = interrupt(&mut child, signal);
+            // before it has begun to listen the signal itself ends it
+            let is_interrupted = status.code() == Some(128 + signal) || status.signal() == Some(signal);
+            assert!(is_interrupted, "{arguments:?}, signal {signal} after {delay} ms: {status}");
+            assert!(inside(folder) == before, "{arguments:?}, signal {signal} after {delay} ms leaves something");
+        }
+    }
+    half_done
+}
+
+#[test]
+fn an_interrupted_run_leaves_nothing_and_the_old_result() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::copy(SLIDER_CRANK, path.join("a.mech")).unwrap();
+    fs::write(path.join("old.csv"), "precious").unwrap();
+    fs::create_dir(path.join("below")).unwrap();
+    for out in ["old.csv", "below/new.parquet"] {
+        let half_done = interrupted(path, &["run", "a.mech", "--every", "1e-9", "-o", out], 7);
+        assert!(half_done > 3, "only {half_done} times something was half done");
+    }
+}
+
+#[test]
+fn an_interrupted_crate_leaves_no_folder() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(SLIDER_CRANK, folder.path().join("a.mech")).unwrap();
+    let before = inside(folder.path());
+    // whichever moment: all of it or nothing
+    for moment in 0..30_u64 {
+        let mut command = mechc(folder.path());
+        let mut child =
+            command.args(["emit", "a.mech", "--crate", "enc"]).stderr(Stdio::null()).spawn().expect("it runs");
+        sleep(Duration::from_millis(3 * moment));
+        let _ = interrupt(&mut child, 2);
+        let now = inside(folder.path());
+        if now != before {
+            assert_eq!(now.keys().filter(|name| name.starts_with("enc/")).count(), 10, "{:?}", now.keys());
+            fs::remove_dir_all(folder.path().join("enc")).unwrap();
+        }
+    }
+}
+
+#[test]
+fn what_is_ignored_stays_ignored() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(SLIDER_CRANK, folder.path().join("a.mech")).unwrap();
+    let before = inside(folder.path());
+    let mut child = Command::new("sh")
+        .args(["-c", "trap '' HUP; exec \"$0\" run a.mech --every 1e-9 -o out.csv", env!("CARGO_BIN_EXE_mechc")])
+        .current_dir(folder.path())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("it runs");
+    sleep(Duration::from_millis(200));
+    let hung_up = Command::new("kill").args(["-1".to_owned(), child.id().to_string()]).status().expect("it runs");
+    assert!(hung_up.success());
+    sleep(Duration::from_millis(200));
+    assert!(child.try_wait().expect("a state").is_none(), "a hang-up was to be ignored");
+    assert_eq!(interrupt(&mut child, 2).code(), Some(130));
+    assert!(inside(folder.path()) == before);
+}
+
+// ---- what was read
+
+/// Runs a command that must be refused as wrong usage, and touches nothing.
+fn refused(folder: &Path, arguments: &[&str], stdin: Option<&str>) -> String {
+    let before = inside(folder);
+    let stdin = stdin.map_or(Stdio::null(), |name| fs::File::open(folder.join(name)).expect("a file").into());
+    let output = mechc(folder).args(arguments).stdin(stdin).output().expect("it runs");
+    let text = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+    assert!(text.contains("E0706"), "{arguments:?}: {text}");
+    assert!(inside(folder) == before, "{arguments:?} touches something");
+    text
+}
+
+#[test]
+fn what_was_read_is_not_written_over() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::create_dir(path.join("below")).unwrap();
+    fs::copy("tests/cases/table_file.mech", path.join("a.mech")).unwrap();
+    for table in ["table_file_table.csv", "table_file_table2.csv"] {
+        fs::copy(Path::new("tests/cases").join(table), path.join(table)).unwrap();
+    }
+    for file in ["wiper.adm", "wiper.acf"] {
+        fs::copy(Path::new("tests/import").join(file), path.join(file)).unwrap();
+    }
+    let absolute = |name: &str| path.join(name).to_string_lossy().into_owned();
+    // each file by several ways
+    let ways = |name: &str| {
+        let (soft, hard, twice) = (format!("soft_{name}"), format!("hard_{name}"), format!("below/twice_{name}"));
+        if !path.join(&soft).exists() {
+            std::os::unix::fs::symlink(name, path.join(&soft)).unwrap();
+            std::os::unix::fs::symlink(format!("../{soft}"), path.join(&twice)).unwrap();
+            fs::hard_link(path.join(name), path.join(&hard)).unwrap();
+        }
+        [name.to_owned(), format!("./{name}"), format!("below/../{name}"), absolute(name), soft, hard, twice]
+    };
+    for out in ways("a.mech") {
+        let run = refused(path, &["run", "a.mech", "--format", "csv", "-o", &out], None);
+        assert!(run.contains("was read"), "{run}");
+        refused(path, &["run", "soft_a.mech", "--format", "json", "-o", &out], None);
+        refused(path, &["run", "-", "--format", "csv", "-o", &out], Some("a.mech"));
+        refused(path, &["emit", "a.mech", "--format", "rust", "-o", &out], None);
+        refused(path, &["dump", "a.mech", "--stage", "ast", "-o", &out], None);
+        refused(path, &["dump", "a.mech", "--stage", "ir", "-o", &out], None);
+    }
+    for table in ["table_file_table.csv", "table_file_table2.csv"] {
+        for out in ways(table) {
+            let text = refused(path, &["run", "a.mech", "-o", &out], None);
+            assert!(text.contains(&out), "{text}");
+            refused(path, &["emit", "a.mech", "--format", "json", "-o", &out], None);
+        }
+    }
+    for file in ["wiper.adm", "wiper.acf"] {
+        for out in ways(file) {
+            refused(path, &["import", "wiper.adm", "--acf", "wiper.acf", "-o", &out], None);
+        }
+    }
+    // a file of a crate that looks as if mechc had written it
+    let text = fs::read_to_string(SLIDER_CRANK).unwrap();
+    fs::create_dir(path.join("enc")).unwrap();
+    fs::write(path.join("enc/README.md"), format!("// Written by mechc 0.1.0\n{text}")).unwrap();
+    refused(path, &["emit", "enc/README.md", "--crate", "enc"], None);
+    // a copy is another file
+    fs::copy(path.join("a.mech"), path.join("copy.csv")).unwrap();
+    let output = mechc(path).args(["run", "a.mech", "-o", "copy.csv"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    assert!(fs::read_to_string(path.join("copy.csv")).unwrap().starts_with("t,"));
+}
+
+// ---- endings
+
+#[test]
+fn an_ending_says_the_form_or_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::copy(SLIDER_CRANK, path.join("a.mech")).unwrap();
+    for out in ["x.xlsx", "x.png", "x.pdf", "x.csv.gz", "x.txt", "X.TEX", "x.mech"] {
+        let text = refused(path, &["run", "a.mech", "-o", out], None);
+        assert!(text.contains("`.csv`, `.json` and `.parquet`") && text.contains("--format"), "{text}");
+    }
+    for out in ["x.csv", "x.py", "x.c"] {
+        let text = refused(path, &["emit", "a.mech", "-o", out], None);
+        assert!(text.contains("`.rs`, `.tex` and `.json`"), "{text}");
+    }
+    // whatever is wrong with the file, the ending is told first
+    refused(path, &["run", "missing.mech", "-o", "x.xlsx"], None);
+    let written = |arguments: &[&str], out: &str| {
+        let output = mechc(path).args(arguments).args(["-o", out]).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(0), "{out}: {}", String::from_utf8_lossy(&output.stderr));
+        fs::read(path.join(out)).unwrap_or_default()
+    };
+    let run = |more: &[&str], out: &str| written(&[&["run", "a.mech", "--every", "10 ms"], more].concat(), out);
+    let (csv, json, parquet) = (run(&[], "a.csv"), run(&[], "a.json"), run(&[], "a.parquet"));
+    assert!(csv.starts_with(b"t,") && json.starts_with(b"{") && parquet.starts_with(b"PAR1"));
+    assert_eq!(run(&[], "A.CSV"), csv);
+    assert_eq!(run(&[], "plain"), csv);
+    assert_eq!(run(&["--format", "csv"], "x.xlsx"), csv);
+    assert_eq!(run(&["--format", "json"], "x.csv"), json, "what is said counts");
+    assert_eq!(run(&["--format", "parquet"], "x"), parquet);
+    run(&[], "/dev/null");
+    // a link to it, whatever it is called
+    std::os::unix::fs::symlink("/dev/null", path.join("nothing.log")).unwrap();
+    run(&[], "nothing.log");
+    let emit = |more: &[&str], out: &str| written(&[&["emit", "a.mech"], more].concat(), out);
+    assert!(emit(&[], "a.rs").starts_with(b"//!") && emit(&[], "a.tex").starts_with(b"%"));
+    assert_eq!(emit(&["--format", "rust"], "x.inc"), emit(&[], "plain"));
+}
