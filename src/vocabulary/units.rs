@@ -13,6 +13,9 @@ pub struct Unit {
     factor: f64,
     /// Of a quantity in this unit.
     pub dimension: Dimension,
+    /// Whether a name of the mechanism, or an argument, that is called so means itself: texts that were written before there was this
+    /// unit mean what they meant.
+    pub gives_way: bool,
 }
 
 const fn word(name: &'static str, form: &'static [&'static str], meaning: &'static str, example: &'static str) -> Word {
@@ -28,7 +31,7 @@ const fn length(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::LENGTH;
-    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension }
+    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension, gives_way: false }
 }
 
 const fn time(
@@ -39,16 +42,23 @@ const fn time(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::TIME;
-    Unit { word: word(name, form, meaning, example), numerator: 1.0, denominator, factor: 1.0, dimension }
+    Unit {
+        word: word(name, form, meaning, example),
+        numerator: 1.0,
+        denominator,
+        factor: 1.0,
+        dimension,
+        gives_way: false,
+    }
 }
 
 /// A unit of angle or rate: so many of `factor` in each `denominator`.
 const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
-    Unit { word, numerator: 1.0, denominator, factor, dimension }
+    Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
 }
 
 /// All of them.
-pub const UNITS: &[Unit] = &[
+pub static UNITS: &[Unit] = &[
     length("m", &["1.5 m"], "the metre", 1.0, 1.0, "measure beyond = x(arm.tip) - 0.05 m"),
     length("mm", &["50 mm"], "the millimetre", 1.0, 1e3, "measure beyond = x(arm.tip) - 50 mm"),
     length("cm", &["5 cm"], "the centimetre", 1.0, 1e2, "measure beyond = x(arm.tip) - 5 cm"),
