@@ -104,10 +104,10 @@ pub fn is_called(name: &str) -> bool {
     Function::named(name).is_some() || QuantityWord::named(name).is_some()
 }
 
-/// Whether a name of a mechanism's space is taken by a constant, the ground or a unit.
+/// Whether a name of a mechanism's space is taken by a constant, the ground or a unit that does not give way.
 #[must_use]
 pub fn is_taken(name: &str) -> bool {
-    Constant::named(name).is_some() || Unit::named(name).is_some()
+    Constant::named(name).is_some() || Unit::named(name).is_some_and(|unit| !unit.gives_way)
 }
 
 /// Whether a name is that of a function or quantity of one argument, and says so: a letter alone may be anything.

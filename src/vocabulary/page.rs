@@ -126,7 +126,7 @@ fn in_si(unit: &Unit) -> String {
     let value = unit.to_si(1.0, 1);
     match unit.dimension.unit().as_str() {
         "1" => value.to_string(),
-        "1/s" => format!("{value} 1/s"),
+        "1/s" => format!("{value}/s"),
         si => format!("{value} {si}"),
     }
 }

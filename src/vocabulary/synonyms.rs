@@ -12,7 +12,8 @@ pub struct Synonym {
     /// Whether it is the same as that word, and does not take a formula of it.
     pub is_same: bool,
     /// How to say it. `{0 a}` stands for the first argument as it was written, or for `a` where there is none; `{0 (a)}` is the
-    /// same as an operand, with parentheses where it needs them, and `{0 deg}` as a number of degrees.
+    /// same as an operand, with parentheses where it needs them, `{0 deg}` as a number of degrees, and `{2 ?}` as one more
+    /// argument, if it is there.
     say: &'static str,
 }
 
@@ -87,6 +88,7 @@ fn filled(hole: &str, arguments: &[&str]) -> String {
         if is_one { text.to_owned() } else { format!("({text})") }
     };
     match (name, argument) {
+        ("?", argument) => argument.map_or(String::new(), |text| format!(", {text}")),
         ("deg", None) => "30 deg".to_owned(),
         ("deg", Some(text)) if is_number(text) => format!("{text} deg"),
         ("deg", Some(text)) => format!("{} * 1 deg", as_operand(text)),
@@ -140,17 +142,17 @@ pub static SYNONYMS: &[Synonym] = &[
     joint(
         &["prismatic", "slider", "slide", "sliding", "linear", "guide", "rail", "cylindrical", "piston", "translation"],
         &["translational"],
-        "a body that slides on another is joined by `translational({0 a}, {1 b})`, of an axis on each",
+        "a body that slides on another is joined by `translational(a, b)`, of an axis on each",
     ),
     joint(
         &["fixed", "rigid", "fix", "lock", "locked", "glue", "welded", "clamp", "bolted"],
         &["weld"],
-        "bodies that cannot move against each other are joined by `weld({0 P}, {1 Q})`, of a point on each",
+        "bodies that cannot move against each other are joined by `weld({0 P}, {1 Q}{2 ?})`, of a point on each",
     ),
     joint(
         &["slot", "pin_slot", "pin_in_slot", "slotted", "point_on_line", "point_line", "inline"],
         &["revolute_translational"],
-        "a pin in a slot is `revolute_translational({0 P}, {1 a})`, P the pin's point and a the slot's axis",
+        "a pin in a slot is `revolute_translational(P, a)`, P the pin's point and a the slot's axis",
     ),
     joint(
         &["link", "rod", "bar", "strut", "distance", "fixed_distance", "massless_link"],
@@ -160,32 +162,32 @@ pub static SYNONYMS: &[Synonym] = &[
     joint(
         &["gears", "spur", "spur_gear", "gear_pair", "external_gear", "mesh", "friction_wheel"],
         &["gear"],
-        "two wheels that roll on each other are `gear({0 c}, {1 d})`, of a circle on each",
+        "two wheels that roll on each other are `gear(c, d)`, of a circle on each",
     ),
     joint(
         &["ring_gear", "annulus", "internal", "inner_gear", "gear_internal"],
         &["internal_gear"],
-        "a wheel in a ring is `internal_gear({0 c}, {1 d})`, of a circle on each",
+        "a wheel in a ring is `internal_gear(c, d)`, of a circle on each",
     ),
     joint(
         &["rack", "rack_and_pinion", "pinion", "pinion_rack", "rolling"],
         &["rack_pinion"],
-        "a wheel that rolls on a straight line is `rack_pinion({0 c}, {1 a})`, of a circle and an axis",
+        "a wheel that rolls on a straight line is `rack_pinion(c, a)`, of a circle and an axis",
     ),
     joint(
         &["follower", "knife_edge", "point_on_curve", "point_curve", "pin_on_curve", "curve_slot"],
         &["point_follower"],
-        "a point on a curve is `point_follower({0 P}, {1 k})`",
+        "a point on a curve is `point_follower(P, k)`",
     ),
     joint(
         &["cam_follower", "roller", "roller_follower", "curve_curve", "cam_cam", "tangent"],
         &["cam"],
-        "two curves that touch are `cam({0 k}, {1 m})`; a roller is a `circle`",
+        "two curves that touch are `cam(k, m)`; a roller is a `circle`",
     ),
     joint(
         &["flat", "flat_face", "flat_faced_follower", "mushroom", "tappet"],
         &["flat_follower"],
-        "a curve under a flat face is `flat_follower({0 k}, {1 a})`, a the axis of the face",
+        "a curve under a flat face is `flat_follower(k, a)`, a the axis of the face",
     ),
     joint(
         &["contact", "touch"],
@@ -200,12 +202,12 @@ pub static SYNONYMS: &[Synonym] = &[
     joint(
         &["parallel"],
         &["constraint"],
-        "bodies that stay parallel are an equation: `constraint parallel: angle({0 b}, {1 c}) = 0`",
+        "bodies that stay parallel are an equation: `constraint parallel: angle(b, c) = 0`",
     ).takes_a_formula(),
     joint(
         &["perpendicular"],
         &["constraint"],
-        "bodies that stay perpendicular are an equation: `constraint perpendicular: angle({0 b}, {1 c}) = 90 deg`",
+        "bodies that stay perpendicular are an equation: `constraint perpendicular: angle(b, c) = 90 deg`",
     ).takes_a_formula(),
     joint(
         &["motor", "actuator", "rotation", "displacement"],
@@ -425,9 +427,13 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["inch", "inches"], &["in"], "was `in` meant?"),
     unit(&["foot", "feet"], &["ft"], "was `ft` meant?"),
     unit(&["rps"], &["rev"], "revolutions per second are `rev/s`").takes_a_formula(),
+    unit(&["khz", "kilohertz"], &["Hz"], "kilohertz are no unit; `1 kHz` is `1000 Hz`").takes_a_formula(),
+    unit(&["mhz"], &["Hz"], "neither megahertz nor millihertz are a unit; write `1e6 Hz` or `0.001 Hz`").takes_a_formula(),
+    unit(&["hertz"], &["Hz"], "was `Hz` meant?"),
+    unit(&["urad", "µrad"], &["mrad"], "microradians are no unit; `1 urad` is `0.001 mrad`").takes_a_formula(),
     unit(&["u/min", "upm", "rev_min", "revpm"], &["rpm"], "was `rpm` meant?"),
     unit(&["dm"], &["m"], "decimetres are no unit; `1 dm` is `0.1 m`").takes_a_formula(),
-    unit(&["nm"], &["m"], "nanometres are no unit; `1 nm` is `1e-9 m`").takes_a_formula(),
+    unit(&["nm"], &["m"], "neither nanometres nor newton metres are a unit; `1 nm` is `1e-9 m`").takes_a_formula(),
     unit(&["mil", "thou"], &["in"], "thousandths of an inch are no unit; `1 mil` is `0.001 in`").takes_a_formula(),
     unit(&["yd", "yard", "yards"], &["ft"], "yards are no unit; `1 yd` is `3 ft`").takes_a_formula(),
     unit(&["gon", "grad"], &["deg"], "gons are no unit; `1 gon` is `0.9 deg`").takes_a_formula(),

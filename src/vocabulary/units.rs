@@ -80,6 +80,20 @@ pub static UNITS: &[Unit] = &[
         1.0,
         Dimension::PURE,
     ),
+    Unit {
+        gives_way: true,
+        ..turning(
+            word(
+                "mrad",
+                &["5 mrad"],
+                "the milliradian, which is the pure number 0.001",
+                "driver motor: rotation(main) = 5 mrad * sin(2 rad/s * t)",
+            ),
+            1.0,
+            1e3,
+            Dimension::PURE,
+        )
+    },
     turning(
         word(
             "deg",
@@ -112,6 +126,20 @@ pub static UNITS: &[Unit] = &[
         1e6,
         "analysis from 0 s to 2 s every 200 µs",
     ),
+    Unit {
+        gives_way: true,
+        ..turning(
+            word(
+                "Hz",
+                &["5 Hz"],
+                "the hertz, 1 per second; a turning speed is in `rpm` or `rev/s`",
+                "driver motor: rotation(main) = 30 deg * sin(2 * pi * 5 Hz * t)",
+            ),
+            1.0,
+            1.0,
+            Dimension::RATE,
+        )
+    },
     turning(
         word(
             "rpm",
@@ -164,6 +192,8 @@ mod tests {
         assert_eq!(si(1.0, "in", 1), 0.0254);
         assert_eq!(si(180.0, "deg", 1), std::f64::consts::PI);
         assert_eq!(si(60.0, "rpm", 1), std::f64::consts::TAU);
+        assert_eq!(si(50.0, "Hz", 1), 50.0);
+        assert_eq!(si(5.0, "mrad", 1), 0.005);
         assert_eq!(si(30.0, "s", -1), 30.0);
         assert_eq!(si(7.0, "μm", 1), 7e-6, "the Greek letter serves too");
     }
