@@ -421,6 +421,11 @@ proptest! {
                  joint NAME: revolute(b.P, c.O) driver d: rotation(NAME) = {}",
                 of_curve.replace("NAME", "ARG").replace('u', "ARG"), over("1").replace("NAME", "2")
             ),
+            // what is plain stays plain
+            "fn g(ARG) = 2 * ARG + ARG^2 measure NAME = g(angle(b)) + x(b.P)
+             body c { point O = (0, 0) curve k(ARG) = (cos(ARG), 0.1 * sin(ARG)) }
+             joint j: revolute(b.P, c.O) driver d: rotation(j) = 2"
+                .to_owned(),
             // a measure, and a table
             format!("measure NAME = {} measure v = 2 * NAME measure w = der(NAME)", over("angle(b)").replace("NAME", "3")),
             format!("table NAME = spline [(0, 1), (1, 3), (2, 2)] measure v = NAME(angle(b)) + NAME(1 + sin({})^2 / 2)", over("angle(b)").replace("NAME", "2")),
