@@ -46,7 +46,8 @@ impl Checker<'_> {
             }
             None => {
                 let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
-                let diagnostic = errors::unknown_function(name, &own);
+                let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+                let diagnostic = errors::unknown_function(name, &own, &texts);
                 self.report(diagnostic);
                 None
             }

@@ -5,7 +5,7 @@ use crate::diag::{Code, Diagnostic, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
-use crate::vocabulary::{Constant, FUNCTIONS, QUANTITIES, QuantityWord, Unit, Word};
+use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
 
 fn meant(wanted: &str, names: &[&str]) -> Option<String> {
     nearest(wanted, names.iter().copied()).map(|name| format!("was `{name}` meant?"))
@@ -17,6 +17,15 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
         .at(name.span, "not declared")
         .help_if(meant(&name.text, known))
+}
+
+/// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
+pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    let diagnostic = unknown(what, name, known);
+    match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
+        Some(synonym) => diagnostic.help(synonym.say(&[])),
+        None => diagnostic,
+    }
 }
 
 /// A name in the value of an option.
@@ -49,34 +58,55 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
         .help_if(meant(&name.text, known).or(Some(listed)))
 }
 
-pub fn unknown_function(name: &Name, own: &[&str]) -> Diagnostic {
+/// With the arguments as they were written.
+pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagnostic {
+    let diagnostic =
+        Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
+    if let Some(said) = said_otherwise(&name.text, arguments) {
+        return diagnostic.help(said).help_if(meant(&name.text, own));
+    }
     let mut known: Vec<&str> = own.to_vec();
     known.extend(FUNCTIONS.iter().map(|function| function.word.name));
     known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
-    let special = match name.text.as_str() {
-        "log" => Some("was `ln` (natural) or `log10` meant?".to_owned()),
-        "arcsin" | "arccos" | "arctan" => Some(format!("was `a{}` meant?", &name.text[3..])),
-        "pow" => Some("a power is written `a ^ b`".to_owned()),
-        _ => None,
-    };
-    Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text))
-        .at(name.span, "not known")
-        .help_if(special.or_else(|| meant(&name.text, &known)))
+    diagnostic.help_if(meant(&name.text, &known))
+}
+
+/// How to say what is called as a function, if it is something else here.
+fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
+    if let Some(synonym) = Synonym::of(Place::Call, name) {
+        return Some(synonym.say(arguments));
+    }
+    if let Some(joint) = JointWord::named(name) {
+        let form = joint.word.forms.first().copied().unwrap_or(name);
+        return Some(format!("`{name}` is a kind of joint: `joint NAME: {form}`"));
+    }
+    Unit::named(name).map(|_| match arguments {
+        [number] if number.parse::<f64>().is_ok() => format!("a unit follows its number: `{number} {name}`"),
+        _ => format!("a unit is a factor: `… * 1 {name}`"),
+    })
+}
+
+pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
+    let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
+    let said = Synonym::of(Place::Joint, &kind.text).map(|synonym| synonym.say(arguments));
+    Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
+        .at(kind.span, "not declared")
+        .help(said.or_else(|| meant(&kind.text, &known)).unwrap_or_else(|| format!("the joints are {}", list(&known))))
 }
 
 /// A word after a number that is no unit.
 pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
-    let help = match name.text.as_str() {
-        "min" => Some("minutes are no unit; `rev/min` is `rpm`, `1 min` is `60 s`".to_owned()),
-        "degree" | "degrees" | "°" => Some("was `deg` meant?".to_owned()),
-        "sec" | "second" | "seconds" => Some("was `s` meant?".to_owned()),
-        _ if is_a_name => Some(format!("was `{number} * {}` meant?", name.text)),
-        _ => nearest(&name.text, Unit::names()).map(|unit| format!("was `{unit}` meant?")),
-    };
-    let units: Vec<&str> = Unit::names().collect();
+    let product = is_a_name.then(|| format!("was `{number} * {}` meant?", name.text));
     Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "only a unit may follow a number")
-        .help_if(help.or_else(|| Some(format!("the units are {}", units.join(" ")))))
+        .help(product.unwrap_or_else(|| meant_unit(&name.text)))
+}
+
+/// Which unit was meant, or all of them.
+fn meant_unit(name: &str) -> String {
+    let said = Synonym::of(Place::Unit, name).map(|synonym| synonym.say(&[]));
+    let units: Vec<&str> = Unit::names().collect();
+    said.or_else(|| meant(name, &units)).unwrap_or_else(|| format!("the units are {}", units.join(" ")))
 }
 
 pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
@@ -355,11 +385,9 @@ pub fn curve_is_a_point(name: &Name, argument: &str, at: Span) -> Diagnostic {
 // ---- tables
 
 pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
-    let units: Vec<&str> = Unit::names().collect();
-    let meant = nearest(&name.text, Unit::names()).map(|unit| format!("was `{unit}` meant?"));
     Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
         .at(name.span, "the unit of a column")
-        .help_if(meant.or_else(|| Some(format!("the units are {}", units.join(" ")))))
+        .help(meant_unit(&name.text))
 }
 
 pub fn row_of(span: Span, found: usize) -> Diagnostic {

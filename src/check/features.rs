@@ -157,7 +157,7 @@ impl Checker<'_> {
             ));
             return None;
         };
-        let context = self.pair_context([dx, dy], "a direction");
+        let context = self.pair_context([dx, dy], "a direction", None);
         let (x, y) = (self.formula(dx, &context), self.formula(dy, &context));
         let (x, y) = (x?, y?);
         self.alike("the two parts of the direction are", (dx.span, x.dim), (dy.span, y.dim), &context)?;
@@ -173,14 +173,19 @@ impl Checker<'_> {
         Some(direction)
     }
 
-    pub(super) fn pair_context(&self, parts: [&Expr; 2], place: &'static str) -> Context<'static> {
-        let judged = parts.iter().any(|part| self.is_dimensional(part));
+    pub(super) fn pair_context(
+        &self,
+        parts: [&Expr; 2],
+        place: &'static str,
+        argument: Option<&str>,
+    ) -> Context<'static> {
+        let judged = parts.iter().any(|part| self.is_dimensional_over(argument, part));
         Context { judged, ..Context::constant(place) }
     }
 
     /// Two lengths, judged together.
     fn lengths(&mut self, parts: [&Expr; 2], place: &'static str) -> Option<[ExprId; 2]> {
-        let context = self.pair_context(parts, place);
+        let context = self.pair_context(parts, place, None);
         self.lengths_in(parts, &context)
     }
 

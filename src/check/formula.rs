@@ -90,12 +90,19 @@ impl<'c> Context<'c> {
 impl Checker<'_> {
     /// Whether a formula holds a unit of length, time or rate, or something that does.
     pub(super) fn is_dimensional(&self, formula: &Expr) -> bool {
+        self.is_dimensional_over(None, formula)
+    }
+
+    /// The same of the formula of a function or curve, over its argument.
+    pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             let holds = match &e.kind {
-                ExprKind::Literal { unit: Some((name, _)), .. } | ExprKind::Name(name) => {
-                    self.is_dimensional_name(name)
+                ExprKind::Literal { unit: Some((name, _)), .. } => {
+                    Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
                 }
+                ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
+                ExprKind::Name(name) => self.is_dimensional_name(name),
                 ExprKind::Call { name, .. } if !is_called(&name.text) => self.is_dimensional_name(name),
                 // a literal point says nothing about the formula around it
                 ExprKind::Tuple(_) => continue,
@@ -110,7 +117,7 @@ impl Checker<'_> {
     }
 
     fn is_dimensional_name(&self, name: &Name) -> bool {
-        if let Some(unit) = Unit::named(&name.text) {
+        if let Some(unit) = self.unit_alone(name) {
             return !unit.dimension.is(Dimension::PURE);
         }
         match self.entity(name) {
@@ -122,6 +129,11 @@ impl Checker<'_> {
             Some(Entity::Measure(k)) => self.measures[k].dimensional,
             _ => false,
         }
+    }
+
+    /// The unit of a name that stands alone, and not behind a number.
+    fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
+        Unit::named(&name.text).filter(|unit| !unit.gives_way || self.space.get(&name.text).is_none())
     }
 
     /// A literal zero, alone but for its sign, also through a param that is nothing else.
@@ -241,7 +253,7 @@ impl Checker<'_> {
             Some(StandsFor::Number(number)) => return Some(self.pure(number)),
             Some(StandsFor::Ground) | None => {}
         }
-        if let Some(unit) = Unit::named(&name.text) {
+        if let Some(unit) = self.unit_alone(name) {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));
             return Some(Value { id, dim: Dim::Of(unit.dimension) });
         }
@@ -296,7 +308,7 @@ impl Checker<'_> {
             known.push(constant);
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
-        let diagnostic = errors::unknown(what, name, &known);
+        let diagnostic = errors::unknown_number(what, name, &known);
         self.report(diagnostic);
     }
 

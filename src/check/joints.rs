@@ -5,7 +5,7 @@ use crate::expr::ExprId;
 use crate::model::{CircleId, Dimension, Frame, Joint, JointKind, PointId, Side};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
-use crate::vocabulary::{JOINTS, JointWord};
+use crate::vocabulary::JointWord;
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
@@ -25,7 +25,7 @@ impl Checker<'_> {
             "gear" | "internal_gear" => self.gear(kind, arguments, span),
             "rack_pinion" => self.rack_pinion(kind, arguments, span),
             "point_follower" | "cam" | "flat_follower" => self.contact(kind, arguments, span),
-            _ => self.unknown_joint(kind),
+            _ => self.unknown_joint(kind, arguments),
         }?;
         let frames = joint.frames(&self.model);
         if frames[0] == frames[1] {
@@ -36,13 +36,9 @@ impl Checker<'_> {
         self.is_drawn_apart(joint, arguments).then_some(joint)
     }
 
-    fn unknown_joint(&mut self, kind: &Name) -> Option<JointKind> {
-        let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
-        let listed = format!("the joints are {}", errors::list(&known));
-        let mut diagnostic = errors::unknown("kind of joint", kind, &known);
-        if diagnostic.help.is_empty() {
-            diagnostic = diagnostic.help(listed);
-        }
+    fn unknown_joint(&mut self, kind: &Name, arguments: &[Expr]) -> Option<JointKind> {
+        let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
+        let diagnostic = errors::unknown_joint(kind, &texts);
         self.report(diagnostic);
         None
     }

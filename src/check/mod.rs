@@ -409,7 +409,7 @@ impl<'a> Checker<'a> {
     /// Reads a function's formula once on its own, so that its mistakes are found even if nobody calls it.
     fn function(&mut self, at: usize) {
         let (argument, value) = (self.functions[at].argument, self.functions[at].value);
-        self.functions[at].dimensional = self.is_dimensional(value);
+        self.functions[at].dimensional = self.is_dimensional_over(Some(&argument.text), value);
         self.functions[at].time = self.time_in(value, argument);
         self.functions[at].sound = true;
         let named = self.name_symbol(Named::Argument, 0);

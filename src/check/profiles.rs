@@ -123,7 +123,8 @@ impl Checker<'_> {
         match &e.kind {
             ExprKind::Tuple(parts) => {
                 if let [x, y] = parts.as_slice() {
-                    let context = Context { argument, ..self.pair_context([x, y], place) };
+                    let name = argument.map(|(name, _)| name);
+                    let context = Context { argument, ..self.pair_context([x, y], place, name) };
                     self.lengths_in([x, y], &context)
                 } else {
                     self.report(errors::argument_count(

@@ -83,12 +83,15 @@ pub(super) enum Command {
         mechc import pendulum.adm | mechc run - --from 0 --to 5 --every 10ms"
     )]
     Import(ImportArguments),
-    /// The page of a diagnostic's code: what it means, an example, why, and the mend
+    /// The page of a diagnostic's code, or of a function, quantity, joint, unit or keyword
     #[command(
-        long_about = "The page of a diagnostic's code.\n\n\
+        long_about = "The page of a diagnostic's code, or of a word of the language.\n\n\
         Every message of mechc begins with a code, as in error[E0203]. Its page says what the code means, shows a small file \
-        that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.",
-        after_help = "Examples:\n  mechc explain E0203\n  mechc explain e0602 | less\n  mechc explain"
+        that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.\n\n\
+        The page of a word says how it is written, what it means (a joint's equations, a unit's value in SI), shows a mechanism \
+        with it, and says what others call it. `functions`, `motions`, `quantities`, `joints`, `units`, `keywords` and `constants` \
+        list them.",
+        after_help = "Examples:\n  mechc explain E0203\n  mechc explain step5\n  mechc explain joints | less\n  mechc explain"
     )]
     Explain(ExplainArguments),
 }
@@ -309,9 +312,9 @@ pub(super) struct FormulaArguments {
 
 #[derive(Args, Debug)]
 pub(super) struct ExplainArguments {
-    /// The code, in capitals or not; without it all codes are listed
-    #[arg(value_name = "CODE")]
-    pub code: Option<String>,
+    /// The code, in capitals or not, or the word; without it all codes are listed
+    #[arg(value_name = "CODE|NAME")]
+    pub name: Option<String>,
 
     #[command(flatten)]
     pub messages: Messages,

@@ -1,16 +1,18 @@
-//! `mechc explain`: the page of a diagnostic's code, or the list of all codes.
+//! `mechc explain`: the page of a diagnostic's code or of a word of the language, or the list of all codes.
 
 use super::arguments::ExplainArguments;
 use super::failure::Failure;
 use super::files;
 use crate::diag::{Code, Diagnostic, nearest};
+use crate::vocabulary::{self, OVERVIEWS, Synonym};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<(), Failure> {
-    match &arguments.code {
+    match &arguments.name {
         None => files::print(&list()),
-        Some(name) => match Code::named(name) {
-            Some(code) => files::print(code.page()),
-            None => Err(unknown(name).into()),
+        Some(name) => match (Code::named(name), vocabulary::page(name)) {
+            (Some(code), _) => files::print(code.page()),
+            (None, Some(page)) => files::print(&page),
+            (None, None) => Err(unknown(name).into()),
         },
     }
 }
@@ -29,9 +31,25 @@ fn list() -> String {
 }
 
 fn unknown(name: &str) -> Diagnostic {
-    let diagnostic = Diagnostic::new(Code::E0706, format!("there is no code `{name}`"));
-    match nearest(&name.to_uppercase(), Code::ALL.iter().map(|code| code.as_str())) {
-        Some(code) => diagnostic.help(format!("was `{code}` meant? `mechc explain` lists all codes")),
-        None => diagnostic.help("`mechc explain` lists all codes"),
+    let diagnostic = Diagnostic::new(Code::E0706, format!("there is no code and no word `{name}`"));
+    let mut said = Synonym::all_of(name).map(|synonym| (synonym.say(&[]), synonym.means)).peekable();
+    if said.peek().is_some() {
+        return said.fold(diagnostic, |diagnostic, (say, means)| {
+            let pages: Vec<String> = means.iter().map(|word| format!("`mechc explain {word}`")).collect();
+            let end = if say.ends_with('?') { "" } else { ";" };
+            diagnostic.help(if pages.is_empty() { say } else { format!("{say}{end} see {}", pages.join(" and ")) })
+        });
     }
+    let words = vocabulary::words().map(|word| word.name).chain(OVERVIEWS.iter().copied());
+    let code = nearest(&name.to_uppercase(), Code::ALL.iter().map(|code| code.as_str()));
+    match code.or_else(|| nearest(name, words)) {
+        Some(meant) => diagnostic.help(format!("was `{meant}` meant? `mechc explain` lists all codes")),
+        None => diagnostic.help(format!("`mechc explain` lists all codes; the words are listed by {}", overviews())),
+    }
+}
+
+/// `mechc explain functions`, `motions` …
+fn overviews() -> String {
+    let names: Vec<String> = OVERVIEWS.iter().map(|name| format!("`mechc explain {name}`")).collect();
+    names.join(", ")
 }

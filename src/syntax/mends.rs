@@ -3,7 +3,7 @@
 use super::grammar::Rule;
 use super::tokens::next_token;
 use crate::diag::nearest;
-use crate::vocabulary::{KEYWORDS, Keyword, is_declaration, is_feature, is_one_argument_function};
+use crate::vocabulary::{KEYWORDS, Keyword, Place, Synonym, is_declaration, is_feature, is_one_argument_function};
 
 /// A fault: where it is, and what would have fitted there.
 pub(super) struct Fault<'a> {
@@ -161,6 +161,10 @@ impl Fault<'_> {
         if let Some(word) = meant {
             return Some(format!("was `{word}` meant?"));
         }
+        let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
+        if let Some(synonym) = other {
+            return Some(synonym.say(&[]));
+        }
         let starts_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
             return None;
@@ -182,6 +186,14 @@ impl Fault<'_> {
             }
             .to_owned(),
         )
+    }
+
+    /// Whether a declaration could begin here by one of these keywords.
+    fn begins(&self, keywords: &[&str]) -> bool {
+        let is_one = |rule: &Rule| {
+            keywords.iter().any(|word| is_rule_of(*rule, word) || *word == "fn" && *rule == Rule::function)
+        };
+        self.expected.iter().any(is_one)
     }
 
     /// The words that would have gone on.

@@ -64,7 +64,7 @@ const fn constant(
 }
 
 /// All of them.
-pub const CONSTANTS: &[Constant] = &[
+pub static CONSTANTS: &[Constant] = &[
     constant(
         "t",
         StandsFor::Time,

@@ -104,7 +104,7 @@ const AN_ANGLE: &str = "Takes a pure number and gives an angle in radians.";
 const PURE: &str = "Takes and gives a pure number.";
 
 /// All of them.
-pub const FUNCTIONS: &[Function] = &[
+pub static FUNCTIONS: &[Function] = &[
     pure(
         "sin",
         &["sin(a)"],

@@ -29,7 +29,7 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
                             by +90°, `φ` a body's angle and `A` its rotation matrix.";
 
 /// All of them.
-pub const JOINTS: &[JointWord] = &[
+pub static JOINTS: &[JointWord] = &[
     JointWord {
         word: Word {
             name: "revolute",

@@ -78,29 +78,61 @@ const fn keyword(
     form: &'static [&'static str],
     meaning: &'static str,
     more: &'static str,
-    example: &'static str,
+    example: Example,
 ) -> Keyword {
-    let word = Word {
-        name,
-        category: Category::Keyword,
-        forms: form,
-        letters: "",
-        meaning,
-        more,
-        example: Example::Arm(example),
-    };
+    let word = Word { name, category: Category::Keyword, forms: form, letters: "", meaning, more, example };
     Keyword { word, role }
 }
 
+/// A rack and pinion of which no pose says on which side of the axis the pinion lies.
+const ON_THE_LEFT: Example = Example::Whole(
+    "\
+ground {
+    point O  = (0, 30 mm)
+    axis way = (0, 0) along (1, 0)
+}
+body pinion {
+    circle pitch = (0, 0) radius 30 mm
+    point O      = (0, 0)
+}
+body rack {
+    axis way = (0, 0) along (1, 0)
+}
+joint axle: revolute(ground.O, pinion.O)
+joint guide: translational(ground.way, rack.way)
+joint mesh: rack_pinion(pinion.pitch, rack.way, 0 mm, left)
+driver motor: rotation(axle) = 30 deg/s * t",
+);
+
+/// The same on the other side.
+const ON_THE_RIGHT: Example = Example::Whole(
+    "\
+ground {
+    point O  = (0, -30 mm)
+    axis way = (0, 0) along (1, 0)
+}
+body pinion {
+    circle pitch = (0, 0) radius 30 mm
+    point O      = (0, 0)
+}
+body rack {
+    axis way = (0, 0) along (1, 0)
+}
+joint axle: revolute(ground.O, pinion.O)
+joint guide: translational(ground.way, rack.way)
+joint mesh: rack_pinion(pinion.pitch, rack.way, 0 mm, right)
+driver motor: rotation(axle) = 30 deg/s * t",
+);
+
 /// All of them, in the order of the grammar.
-pub const KEYWORDS: &[Keyword] = &[
+pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Declaration,
         "mechanism",
         &["mechanism NAME { … }"],
         "a mechanism: bodies, joints, drivers and what is to be known of them",
         "A file holds one or more, of different names. The declarations inside may stand in any order.",
-        "",
+        Example::Arm(""),
     ),
     keyword(
         Role::Declaration,
@@ -108,7 +140,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["param NAME = FORMULA"],
         "a constant that has a name",
         "Over other params, functions and tables, without `t`. It may be set from outside: `--set reach=60mm`.",
-        "param reach = 80 mm\nmeasure beyond = x(arm.tip) - reach",
+        Example::Arm("param reach = 80 mm\nmeasure beyond = x(arm.tip) - reach"),
     ),
     keyword(
         Role::Declaration,
@@ -116,7 +148,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["fn NAME(u) = FORMULA"],
         "a function of one argument",
         "Over its argument, `t`, params, other functions and tables, but not itself, and without kinematic quantities.",
-        "fn swing(u) = 30 deg * sin(u)^2\ndriver motor: rotation(main) = swing(2 rad/s * t)",
+        Example::Arm("fn swing(u) = 30 deg * sin(u)^2\ndriver motor: rotation(main) = swing(2 rad/s * t)"),
     ),
     keyword(
         Role::Declaration,
@@ -129,7 +161,9 @@ pub const KEYWORDS: &[Keyword] = &[
         "a curve through points, called as a function is",
         "The natural cubic spline; its arguments rise, and what lies outside of them is an error at the time when it happens. With \
          `periodic` it repeats, and its last row has the value of the first, one period on.",
-        "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+        Example::Arm(
+            "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+        ),
     ),
     keyword(
         Role::Declaration,
@@ -137,7 +171,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["ground { … }"],
         "the body that does not move, with its points, axes, circles and curves",
         "It has no coordinates; a mechanism has one. Its features are `ground.P`.",
-        "measure reach = distance(ground.O, arm.tip)",
+        Example::Arm("measure reach = distance(ground.O, arm.tip)"),
     ),
     keyword(
         Role::Declaration,
@@ -146,7 +180,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "a rigid body, with its points, axes, circles and curves",
         "It has three coordinates: the place of its frame's origin, and its angle. The pose behind `at` is where the assembly begins \
          to look for it, `(0, 0, 0)` if it is not given; the features inside are in the body's own frame.",
-        "measure reach = x(arm.tip)",
+        Example::Arm("measure reach = x(arm.tip)"),
     ),
     keyword(
         Role::Feature,
@@ -154,7 +188,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["point P = (x, y)"],
         "a point of a body or the ground",
         "Two lengths, in the frame of the body.",
-        "measure height = y(arm.tip)",
+        Example::Arm("measure height = y(arm.tip)"),
     ),
     keyword(
         Role::Feature,
@@ -162,8 +196,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["axis a = P along (dx, dy)", "axis a = P to Q"],
         "a directed line of a body or the ground",
         "P and Q are points of the body, or literal; only the direction of `(dx, dy)` counts.",
-        "body slide at (200 mm, 0, 0) {\n    axis way = (0, 0) along (1, 0)\n}\njoint guide: translational(arm.way, slide.way)\n\
-         driver out: displacement(guide) = 200 mm + 10 mm/s * t",
+        Example::Of("translational"),
     ),
     keyword(
         Role::Feature,
@@ -171,7 +204,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["circle c = P radius r"],
         "a circle of a body or the ground: a gear's pitch circle, a roller, an eccentric",
         "P is a point of the body, or literal; the radius is positive.",
-        "",
+        Example::Of("gear"),
     ),
     keyword(
         Role::Feature,
@@ -180,7 +213,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "a profile of a body or the ground",
         "x and y are lengths over the pure number u. The estimate is where on the curve the contact is looked for first; without it, \
          the best of one turn, −π to π.",
-        "",
+        Example::Of("point_follower"),
     ),
     keyword(
         Role::Declaration,
@@ -188,7 +221,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["joint NAME: KIND(…)"],
         "what two bodies are joined by",
         "It brings equations, and its kind says which: `mechc explain joints`.",
-        "measure turned = rotation(main)",
+        Example::Arm("measure turned = rotation(main)"),
     ),
     keyword(
         Role::Declaration,
@@ -196,7 +229,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["driver NAME: FORMULA = FORMULA"],
         "an equation that holds time: what a motor or actuator prescribes",
         "Between kinematic quantities on one side, mostly, and a formula of `t` on the other. Each takes one degree of freedom.",
-        "driver motor: rotation(main) = 60 rpm * t + 30 deg",
+        Example::Arm("driver motor: rotation(main) = 60 rpm * t + 30 deg"),
     ),
     keyword(
         Role::Declaration,
@@ -204,8 +237,10 @@ pub const KEYWORDS: &[Keyword] = &[
         &["constraint NAME: FORMULA = FORMULA"],
         "an equation between kinematic quantities that always holds",
         "Time may not stand in it: that is a `driver`. Each takes one degree of freedom.",
-        "body hand at (100 mm, 0, 0) {\n    point O = (0, 0)\n}\njoint wrist: revolute(arm.tip, hand.O)\n\
+        Example::Arm(
+            "body hand at (100 mm, 0, 0) {\n    point O = (0, 0)\n}\njoint wrist: revolute(arm.tip, hand.O)\n\
          constraint level: angle(hand) = 0",
+        ),
     ),
     keyword(
         Role::Declaration,
@@ -213,7 +248,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["measure NAME = FORMULA"],
         "a number that is printed for every time, with its first two derivatives",
         "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`.",
-        "measure height = y(arm.tip)\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))",
+        Example::Arm("measure height = y(arm.tip)\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))"),
     ),
     keyword(
         Role::Declaration,
@@ -221,7 +256,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["analysis from A to B every H"],
         "the times for which `mechc run` prints rows",
         "Three times; `--from --to --every` on the command line stand over it.",
-        "analysis from 0 s to 2 s every 10 ms",
+        Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(
         Role::Formula,
@@ -230,7 +265,7 @@ pub const KEYWORDS: &[Keyword] = &[
         "one formula or another",
         "Both have the same dimension. Inside an operator it needs parentheses: `2 * (if t < 1 s then 0 else 1)`. Where a formula of \
          time jumps there is no motion; where its slope jumps no acceleration.",
-        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+        Example::Arm("driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2"),
     ),
     keyword(
         Role::Formula,
@@ -238,7 +273,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["if CONDITION then A else B"],
         "stands before what counts if the condition holds",
         "",
-        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+        Example::Arm("driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2"),
     ),
     keyword(
         Role::Formula,
@@ -246,7 +281,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["if CONDITION then A else B", "if CONDITION then A else if CONDITION then B else C"],
         "stands before what counts if the condition does not hold",
         "",
-        "driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2",
+        Example::Arm("driver motor: rotation(main) = if t < 1 s then 0 else 30 deg/s^2 * (t - 1 s)^2"),
     ),
     keyword(
         Role::Formula,
@@ -254,7 +289,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["CONDITION and CONDITION"],
         "whether both conditions hold",
         "Between `if` and `then`. It binds tighter than `or`.",
-        "measure inside = if x(arm.tip) > 0 and y(arm.tip) > 0 then 1 else 0",
+        Example::Arm("measure inside = if x(arm.tip) > 0 and y(arm.tip) > 0 then 1 else 0"),
     ),
     keyword(
         Role::Formula,
@@ -262,7 +297,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["CONDITION or CONDITION"],
         "whether one of two conditions holds",
         "Between `if` and `then`.",
-        "measure outside = if x(arm.tip) < 0 or y(arm.tip) < 0 then 1 else 0",
+        Example::Arm("measure outside = if x(arm.tip) < 0 or y(arm.tip) < 0 then 1 else 0"),
     ),
     keyword(
         Role::Formula,
@@ -270,7 +305,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["not CONDITION"],
         "whether a condition does not hold",
         "Between `if` and `then`.",
-        "measure outside = if not (x(arm.tip) > 0 and y(arm.tip) > 0) then 1 else 0",
+        Example::Arm("measure outside = if not (x(arm.tip) > 0 and y(arm.tip) > 0) then 1 else 0"),
     ),
     keyword(
         Role::Separator,
@@ -278,7 +313,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["axis a = P to Q", "analysis from A to B every H"],
         "stands before the second point of an axis, and the last time of an analysis",
         "",
-        "analysis from 0 s to 2 s every 10 ms",
+        Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(
         Role::Separator,
@@ -286,7 +321,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["analysis from A to B every H"],
         "stands before the time from one row to the next",
         "It is positive.",
-        "analysis from 0 s to 2 s every 10 ms",
+        Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(
         Role::Separator,
@@ -294,7 +329,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["along (dx, dy)"],
         "stands before the direction of an axis",
         "Its length does not count.",
-        "",
+        Example::Of("translational"),
     ),
     keyword(
         Role::Separator,
@@ -303,16 +338,23 @@ pub const KEYWORDS: &[Keyword] = &[
         "stands before the pose of a body, or the estimate of a curve's argument",
         "The pose of `body NAME at (x, y, phi)` is two lengths and an angle: where the assembly begins to look for the body. Gears \
          and racks mesh as they stand there.",
-        "",
+        Example::Of("weld"),
     ),
-    keyword(Role::Separator, "radius", &["circle c = P radius r"], "stands before the radius of a circle", "", ""),
+    keyword(
+        Role::Separator,
+        "radius",
+        &["circle c = P radius r"],
+        "stands before the radius of a circle",
+        "",
+        Example::Of("gear"),
+    ),
     keyword(
         Role::Separator,
         "from",
         &["analysis from A to B every H"],
         "stands before the first time of an analysis",
         "",
-        "analysis from 0 s to 2 s every 10 ms",
+        Example::Arm("analysis from 0 s to 2 s every 10 ms"),
     ),
     keyword(
         Role::Place,
@@ -320,7 +362,9 @@ pub const KEYWORDS: &[Keyword] = &[
         &["table NAME = spline [(u0, v0), (u1, v1), …]", "table NAME = spline \"FILE.csv\" (UNIT, UNIT)"],
         "stands before the rows or the file of a table",
         "",
-        "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+        Example::Arm(
+            "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+        ),
     ),
     keyword(
         Role::Place,
@@ -328,8 +372,10 @@ pub const KEYWORDS: &[Keyword] = &[
         &["table NAME = periodic spline [(u0, v0), (u1, v1), …]"],
         "a table that repeats",
         "Its last row has the value of the first, one period on.",
-        "table swing = periodic spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 0 deg)]\n\
+        Example::Arm(
+            "table swing = periodic spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 0 deg)]\n\
          driver motor: rotation(main) = swing(t)",
+        ),
     ),
     keyword(
         Role::Side,
@@ -337,7 +383,7 @@ pub const KEYWORDS: &[Keyword] = &[
         &["rack_pinion(c, a, phase, left)"],
         "the pinion lies to the left of the axis, seen along it",
         "",
-        "",
+        ON_THE_LEFT,
     ),
     keyword(
         Role::Side,
@@ -345,6 +391,6 @@ pub const KEYWORDS: &[Keyword] = &[
         &["rack_pinion(c, a, phase, right)"],
         "the pinion lies to the right of the axis, seen along it",
         "",
-        "",
+        ON_THE_RIGHT,
     ),
 ];

@@ -8,15 +8,19 @@ mod dimension;
 mod functions;
 mod joints;
 mod keywords;
+mod page;
 mod quantities;
+mod synonyms;
 mod units;
 
 pub use constants::{CONSTANTS, Constant, StandsFor};
 pub use dimension::Dimension;
-pub use functions::{FUNCTIONS, Function, Group, OF_MOTIONS};
-pub use joints::{JOINTS, JointWord, NOTATION};
+pub use functions::{FUNCTIONS, Function, Group};
+pub use joints::{JOINTS, JointWord};
 pub use keywords::{KEYWORDS, Keyword, Role, is_declaration, is_feature};
+pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
+pub use synonyms::{Place, SYNONYMS, Synonym};
 pub use units::{UNITS, Unit};
 
 /// A word, as a reader is told of it.
@@ -65,6 +69,8 @@ pub enum Example {
     Arm(&'static str),
     /// All declarations.
     Whole(&'static str),
+    /// That of another word.
+    Of(&'static str),
 }
 
 impl Word {
@@ -98,10 +104,10 @@ pub fn is_called(name: &str) -> bool {
     Function::named(name).is_some() || QuantityWord::named(name).is_some()
 }
 
-/// Whether a name of a mechanism's space is taken by a constant, the ground or a unit.
+/// Whether a name of a mechanism's space is taken by a constant, the ground or a unit that does not give way.
 #[must_use]
 pub fn is_taken(name: &str) -> bool {
-    Constant::named(name).is_some() || Unit::named(name).is_some()
+    Constant::named(name).is_some() || Unit::named(name).is_some_and(|unit| !unit.gives_way)
 }
 
 /// Whether a name is that of a function or quantity of one argument, and says so: a letter alone may be anything.

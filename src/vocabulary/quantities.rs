@@ -20,7 +20,7 @@ impl QuantityWord {
 }
 
 /// All of them.
-pub const QUANTITIES: &[QuantityWord] = &[
+pub static QUANTITIES: &[QuantityWord] = &[
     QuantityWord {
         word: Word {
             name: "x",

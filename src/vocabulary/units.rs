@@ -13,6 +13,9 @@ pub struct Unit {
     factor: f64,
     /// Of a quantity in this unit.
     pub dimension: Dimension,
+    /// Whether a name of the mechanism, or an argument, that is called so means itself: texts that were written before there was this
+    /// unit mean what they meant.
+    pub gives_way: bool,
 }
 
 const fn word(name: &'static str, form: &'static [&'static str], meaning: &'static str, example: &'static str) -> Word {
@@ -28,7 +31,7 @@ const fn length(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::LENGTH;
-    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension }
+    Unit { word: word(name, form, meaning, example), numerator, denominator, factor: 1.0, dimension, gives_way: false }
 }
 
 const fn time(
@@ -39,16 +42,23 @@ const fn time(
     example: &'static str,
 ) -> Unit {
     let dimension = Dimension::TIME;
-    Unit { word: word(name, form, meaning, example), numerator: 1.0, denominator, factor: 1.0, dimension }
+    Unit {
+        word: word(name, form, meaning, example),
+        numerator: 1.0,
+        denominator,
+        factor: 1.0,
+        dimension,
+        gives_way: false,
+    }
 }
 
 /// A unit of angle or rate: so many of `factor` in each `denominator`.
 const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension) -> Unit {
-    Unit { word, numerator: 1.0, denominator, factor, dimension }
+    Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
 }
 
 /// All of them.
-pub const UNITS: &[Unit] = &[
+pub static UNITS: &[Unit] = &[
     length("m", &["1.5 m"], "the metre", 1.0, 1.0, "measure beyond = x(arm.tip) - 0.05 m"),
     length("mm", &["50 mm"], "the millimetre", 1.0, 1e3, "measure beyond = x(arm.tip) - 50 mm"),
     length("cm", &["5 cm"], "the centimetre", 1.0, 1e2, "measure beyond = x(arm.tip) - 5 cm"),
@@ -70,6 +80,20 @@ pub const UNITS: &[Unit] = &[
         1.0,
         Dimension::PURE,
     ),
+    Unit {
+        gives_way: true,
+        ..turning(
+            word(
+                "mrad",
+                &["5 mrad"],
+                "the milliradian, which is the pure number 0.001",
+                "driver motor: rotation(main) = 5 mrad * sin(2 rad/s * t)",
+            ),
+            1.0,
+            1e3,
+            Dimension::PURE,
+        )
+    },
     turning(
         word(
             "deg",
@@ -102,6 +126,20 @@ pub const UNITS: &[Unit] = &[
         1e6,
         "analysis from 0 s to 2 s every 200 µs",
     ),
+    Unit {
+        gives_way: true,
+        ..turning(
+            word(
+                "Hz",
+                &["5 Hz"],
+                "the hertz, 1 per second; a turning speed is in `rpm` or `rev/s`",
+                "driver motor: rotation(main) = 30 deg * sin(2 * pi * 5 Hz * t)",
+            ),
+            1.0,
+            1.0,
+            Dimension::RATE,
+        )
+    },
     turning(
         word(
             "rpm",
@@ -154,6 +192,8 @@ mod tests {
         assert_eq!(si(1.0, "in", 1), 0.0254);
         assert_eq!(si(180.0, "deg", 1), std::f64::consts::PI);
         assert_eq!(si(60.0, "rpm", 1), std::f64::consts::TAU);
+        assert_eq!(si(50.0, "Hz", 1), 50.0);
+        assert_eq!(si(5.0, "mrad", 1), 0.005);
         assert_eq!(si(30.0, "s", -1), 30.0);
         assert_eq!(si(7.0, "μm", 1), 7e-6, "the Greek letter serves too");
     }
