@@ -352,6 +352,7 @@ impl Motion<'_, '_> {
         if !to_edge_of_motion {
             self.look_between(h, between)?;
         }
+        self.look_for_rims(h)?;
         self.look_for_touch(h, motion)?;
         Ok(Some(Accepted { first_correction, between, motion }))
     }

@@ -84,11 +84,13 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         conditions: lowering.conditions,
         checks: Vec::new(),
         watches: lowering.watches,
+        rims: Vec::new(),
         fits: lowering.fits,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
+    system.find_rims();
     system
 }
 
