@@ -221,6 +221,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
+        self.say_what_is_missing();
         std::mem::take(&mut self.remarks)
     }
 

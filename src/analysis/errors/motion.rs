@@ -34,11 +34,16 @@ pub fn has_tangent(system: &ConstraintSystem, declaration: usize) -> bool {
     matches!(system.declarations[declaration].kind, DeclarationKind::Joint("cam" | "flat_follower"))
 }
 
-pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
+/// A warning that a measure has no value in some rows, the first of them at `t` (s).
+pub fn measure_without_value(system: &ConstraintSystem, index: usize, t: f64, rows: u64) -> Diagnostic {
     let measure = &system.measures[index];
-    Diagnostic::new(Code::E0605, format!("measure `{}` or a derivative of it is not finite at {}", measure.name, at(t)))
-        .at(measure.span, "infinite or not a number")
+    let message = format!("measure `{}` or a derivative of it has no value at {}", measure.name, at(t));
+    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
+    Diagnostic::new(Code::W0603, message)
+        .at(measure.span, format!("infinite or undefined {how_many}"))
+        .note("its cells are empty there; everything else is as good as ever")
         .datum("t", t)
+        .datum("rows", rows as usize)
 }
 
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
