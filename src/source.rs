@@ -157,7 +157,7 @@ impl Sources {
 
     /// All texts, in the order in which they came in.
     pub fn iter(&self) -> impl Iterator<Item = &Source> {
-        self.files.iter()
+        self.files.iter().map(AsRef::as_ref)
     }
 
     /// The words that a span covers.

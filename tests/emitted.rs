@@ -73,7 +73,7 @@ impl Emitted {
 
     /// How many lanes it has where all are looked at: the examples show what there is to see.
     fn lanes(&self) -> Option<usize> {
-        self.name.starts_with("examples_").then_some(3)
+        (self.name.starts_with("examples_") || self.name.starts_with("rim_")).then_some(3)
     }
 
     /// Beyond how many operations they are written as numbers: the stages are, as if they were large.
@@ -121,6 +121,34 @@ fn scissor_lift(cells: usize) -> String {
     text + &format!(" driver lift: y(a{top}.R) = {height} + 0.1 * sin(t)\n analysis from 0 to 1 every 0.1\n}}")
 }
 
+/// Formulas that come to the end of what their functions take, smoothly and not, and measures that have no value at times.
+fn with_rims() -> Vec<Emitted> {
+    let formulas = [
+        ("root", "0.3 * sqrt((t - 0.70013)^2)"),
+        ("arc", "0.1 * acos(cos(3 * (t - 0.70013)))"),
+        ("cusp", "((t - 0.70013)^2)^0.25"),
+        ("hidden", "(t - 0.70013) * sqrt((t - 0.70013)^2 + 1e-6)"),
+        ("smooth", "sqrt((t - 0.70013)^4) + 0.1 * hypot((t - 1.1)^2, (t - 1.10007)^3)"),
+        ("steep", "if t < 0.5 then 0.2 * abs(t - 1) else 0.1 + 0.2 * (0.5 - t) + (t - 0.5)^2 * sqrt((t - 0.9001)^2)"),
+    ];
+    let all = formulas.iter().map(|(name, formula)| {
+        let text = format!(
+            "mechanism slide {{
+                ground {{ axis way = (0, 0) along (1, 0) }}
+                body block {{ axis way = (0, 0) along (1, 0) }}
+                joint guide: translational(ground.way, block.way)
+                table bend = spline [(0, 0), (0.5, 1), (0.95, 0)]
+                driver push: displacement(guide) = {formula}
+                measure left = bend(t)
+                measure pole = 1 / (t - 0.5)
+                analysis from 0 s to 2 s every 0.1 s
+            }}"
+        );
+        Emitted::of(format!("rim_{name}"), &text, Path::new(name), 0)
+    });
+    all.map(|emitted| emitted.expect("determined")).collect()
+}
+
 /// Everything that is emitted here: examples, reference cases and the stages, and one that takes several functions.
 fn all() -> Vec<Emitted> {
     let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
@@ -139,6 +167,7 @@ fn all() -> Vec<Emitted> {
             })
         })
         .chain([lift])
+        .chain(with_rims())
         .collect();
     assert!(all.len() >= 70, "{} systems", all.len());
     all

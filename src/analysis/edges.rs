@@ -68,6 +68,8 @@ pub(super) struct Edge {
     pub t: f64,
     /// A time (s) at which every switch of time is on the later side; none for an edge of the motion.
     pub after: Option<f64>,
+    /// Whether it is the place from which a rim is judged.
+    pub is_rim: bool,
 }
 
 /// A switch that has gone back and forth without anything to show for it: two branches that agree to rounding. It is left
@@ -99,6 +101,12 @@ impl Motion<'_, '_> {
         let reach = if is_output { shortly_after(next) } else { next };
         let of_time = if self.in_time.is_empty() { None } else { self.edge_of_time(self.state.t, reach)? };
         let edge = match (of_time, self.met.filter(|edge| edge.t <= reach)) {
+            (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
+            (one, other) => one.or(other),
+        };
+        let rim = if self.kinematics.rims().is_empty() { None } else { self.next_rim(reach) };
+        let rim = rim.map(|t| Edge { t, after: None, is_rim: true });
+        let edge = match (edge, rim) {
             (Some(a), Some(b)) => Some(if b.t < a.t { b } else { a }),
             (one, other) => one.or(other),
         };
@@ -165,7 +173,7 @@ impl Motion<'_, '_> {
                 self.kinematics.set_time(low);
                 let on_edge = |switch| self.kinematics.is_on_edge(switch);
                 let is_low = self.kinematics.switches().iter().filter(|switch| switch.on_time).any(on_edge);
-                return Ok(Some(Edge { t: if is_low { low } else { high }, after: Some(after) }));
+                return Ok(Some(Edge { t: if is_low { low } else { high }, after: Some(after), is_rim: false }));
             }
             // what differs at a single time is no edge, `t == 1 s`; or rounding goes back and forth around one
             if after >= b {
@@ -213,7 +221,7 @@ impl Motion<'_, '_> {
             }
         }
         if found {
-            self.met = Some(Edge { t: high, after: None });
+            self.met = Some(Edge { t: high, after: None, is_rim: false });
         }
         found
     }
@@ -289,6 +297,9 @@ impl Motion<'_, '_> {
 
     /// Goes over to the later side of an edge, which the state has reached on the earlier one.
     pub(super) fn cross(&mut self, edge: Edge) -> Result<(), Box<Diagnostic>> {
+        if edge.is_rim {
+            return self.cross_rim();
+        }
         if self.met.is_some_and(|known| known.t <= edge.t) {
             self.met = None;
         }
@@ -523,7 +534,7 @@ impl Motion<'_, '_> {
     }
 
     /// Names of the result's columns that differ on the two sides of the edge.
-    fn columns_that_jump(&self) -> Vec<String> {
+    pub(super) fn columns_that_jump(&self) -> Vec<String> {
         let jumps = |a: f64, b: f64| {
             (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (self.span * self.span))
         };

@@ -4,7 +4,7 @@ use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use super::yardstick::is_looked_at_beside;
 use crate::ir::{Check, ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
-use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Signal, Stage, Switch};
+use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Rim, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
 use crate::structure::Determined;
 
@@ -56,6 +56,8 @@ pub(super) enum Fault {
     Check { index: usize },
     /// Derivatives would be more rounding than digits.
     Uncertain,
+    /// The step goes over a rim, of which a note has been taken.
+    Rim,
     /// The step goes over an edge of a switch, by its number, which lies before a time (s).
     Edge { t: f64, switch: usize },
 }
@@ -204,6 +206,44 @@ impl<'d> Kinematics<'d> {
     /// The result that a switch has now.
     pub fn switch(&self, switch: &Switch) -> f64 {
         self.registers.get(switch.to)
+    }
+
+    /// Sets the result of a switch that is frozen.
+    pub fn set_switch(&mut self, switch: &Switch, value: f64) {
+        self.registers.set(switch.to, value);
+    }
+
+    /// Where formulas come to the end of what their functions take.
+    pub fn rims(&self) -> &'d [Rim] {
+        &self.program.outputs.rims
+    }
+
+    /// Room for proofs about rims of time, and of the motion.
+    pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
+        [true, false].map(|on_time| Enclosure::of_rims(self.program, &self.registers, on_time))
+    }
+
+    /// A rim's gauge and its slope where time, position and velocity were set.
+    pub fn gauge(&mut self, rim: &Rim) -> [f64; 2] {
+        self.program.run(Stage::Rims, &mut self.registers);
+        [rim.gauge, rim.slope].map(|register| self.registers.get(register))
+    }
+
+    /// The largest term of a gauge, which must just have been asked for.
+    pub fn largest_term(&self, rim: &Rim) -> f64 {
+        rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
+    }
+
+    /// Sets the velocity alone.
+    pub fn set_velocity(&mut self, qd: &[f64]) {
+        self.registers.set_all(self.program.inputs.coordinates[1], qd);
+    }
+
+    /// Encloses from one time (s) to another, coordinates and velocities being anywhere in their intervals (middle and reach).
+    pub fn enclose_motion(&self, enclosure: &mut Enclosure, times: [f64; 2], [q, qd]: [&[[f64; 2]]; 2]) {
+        enclosure.set_all(self.program.inputs.coordinates[0], q);
+        enclosure.set_all(self.program.inputs.coordinates[1], qd);
+        enclosure.enclose(self.program, &self.registers, times);
     }
 
     /// Whether a switch would have another result now if it were not frozen.

@@ -9,6 +9,7 @@ use super::bridge::Bridge;
 use super::determinant::Determinant;
 use super::edges::{Edge, Restless, behind_start};
 use super::kinematics::{Fault, Kinematics, State};
+use super::rims::Rims;
 use super::rows::{Bookmark, Output};
 use super::signals::Signals;
 use super::singular;
@@ -47,6 +48,7 @@ pub(super) const MOST_STEPS: u64 = 1_000_000;
 /// A motion in progress: rows at ascending times, computed without allocating.
 #[allow(clippy::struct_excessive_bools)] // what has begun, what is wanted, what the row is worth: nothing of them follows from another
 pub struct Motion<'m, 'd> {
+    pub(super) rims: Rims<'d>,
     pub(super) kinematics: &'m mut Kinematics<'d>,
     pub(super) state: &'m mut State,
     pub(super) trial: State,
@@ -138,6 +140,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         let switches = kinematics.switches();
         let [in_time, along] = kinematics.enclosures();
         Motion {
+            rims: Rims::new(kinematics, state),
             // what happens in no time at all is measured by the second
             span: if span > 0.0 { span } else { 1.0 },
             last: state.t + span,
@@ -217,12 +220,14 @@ impl<'m, 'd> Motion<'m, 'd> {
                 Ok(())
             }
             Fault::Edge { t, .. } if self.locate(t) => Ok(()),
+            Fault::Rim => self.cross_rim(),
             fault => self.shorten(h, fault, target),
         }
     }
 
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
+        self.say_what_is_missing();
         std::mem::take(&mut self.remarks)
     }
 
@@ -269,6 +274,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         if !to_edge_of_motion {
             self.look_between(h, between)?;
         }
+        self.look_for_rims(h)?;
         self.look_for_touch(h, motion)?;
         Ok(Accepted { first_correction, between, motion })
     }
@@ -437,6 +443,9 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.h = 0.5 * h;
         let vanishes = self.state.t + self.h <= self.state.t;
         if self.h < self.smallest || vanishes {
+            if let Some(why) = self.end_at_rim(h) {
+                return Err(why);
+            }
             return self.pass_or_explain(fault, h, target);
         }
         Ok(())

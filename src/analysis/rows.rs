@@ -42,8 +42,34 @@ pub(super) struct Output<'m> {
     /// Whether a step may go over several output times.
     may_leap: bool,
     rows: Option<Rows<'m>>,
+    /// By measure.
+    missing: Vec<Missing>,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
+}
+
+/// The rows in which a measure has no value.
+#[derive(Clone, Copy)]
+struct Missing {
+    /// Times of the first and the last of them (s).
+    first: f64,
+    last: f64,
+    rows: u64,
+    is_told: bool,
+}
+
+impl Missing {
+    const NEVER: Missing = Missing { first: 0.0, last: f64::NAN, rows: 0, is_told: false };
+
+    /// A cell of a row at a time; several of one row count once.
+    fn take_note(&mut self, t: f64) {
+        if self.rows == 0 {
+            self.first = t;
+        }
+        if self.last.total_cmp(&t).is_ne() {
+            (self.last, self.rows) = (t, self.rows + 1);
+        }
+    }
 }
 
 /// Rows within a step, a few at a time.
@@ -127,7 +153,8 @@ impl<'m> Output<'m> {
         let may_leap = kinematics.system().checks.is_empty();
         let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
         let careful_until = f64::NEG_INFINITY;
-        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, may_leap, rows, edge: None }
+        let missing = vec![Missing::NEVER; kinematics.system().measures.len()];
+        Output { times, next: 0, has_stopped: false, steps: 0, careful_until, may_leap, rows, missing, edge: None }
     }
 }
 
@@ -193,9 +220,8 @@ impl Motion<'_, '_> {
         };
         self.output.next += 1;
         self.output.steps = 0;
-        if let Some(column) = self.row(&place).iter().position(|value| !value.is_finite()) {
-            self.output.has_stopped = true;
-            return Some(Err(Box::new(self.explain_row(column, t))));
+        if self.row(&place).iter().any(|value| !value.is_finite()) {
+            self.leave_out_measures(&place, t);
         }
         Some(Ok(self.row(&place)))
     }
@@ -210,9 +236,38 @@ impl Motion<'_, '_> {
         }
     }
 
-    /// A row has been computed that holds something which is no number: a measure, since the coordinates are finite.
-    fn explain_row(&mut self, column: usize, t: f64) -> Diagnostic {
-        errors::measure_not_finite(self.kinematics.system(), self.kinematics.measure_of_column(column), t)
+    fn row_mut(&mut self, place: &Place) -> &mut [f64] {
+        match (place, &mut self.output.rows) {
+            (Place::Lane(lane), Some(rows)) => {
+                let layout = rows.solver.layout();
+                &mut rows.values[lane * layout.stride..][..layout.printed]
+            }
+            _ => &mut self.row,
+        }
+    }
+
+    /// A row has been computed that holds something which is not finite: a measure, since the coordinates are. Its cells hold no
+    /// number.
+    fn leave_out_measures(&mut self, place: &Place, t: f64) {
+        for column in 0..self.row.len() {
+            let cell = &mut self.row_mut(place)[column];
+            if !cell.is_finite() {
+                *cell = f64::NAN;
+                let measure = self.kinematics.measure_of_column(column);
+                self.output.missing[measure].take_note(t);
+            }
+        }
+    }
+
+    /// A warning for each measure that had no value, with what else there is to say.
+    pub(super) fn say_what_is_missing(&mut self) {
+        let system = self.kinematics.system();
+        for (index, missing) in self.output.missing.iter_mut().enumerate() {
+            if missing.rows > 0 && !missing.is_told {
+                missing.is_told = true;
+                self.remarks.push(errors::measure_without_value(system, index, missing.first, missing.rows));
+            }
+        }
     }
 
     /// Goes on until the row of the next output time `t` (s) is there.
@@ -357,6 +412,7 @@ impl Motion<'_, '_> {
         if !to_edge_of_motion {
             self.look_between(h, between)?;
         }
+        self.look_for_rims(h)?;
         self.look_for_touch(h, motion)?;
         Ok(Some(Accepted { first_correction, between, motion }))
     }
@@ -562,7 +618,9 @@ impl Motion<'_, '_> {
         }
         let refined = &rows.alone_row[..printed];
         // where both do not agree the position is too near to a singular one for the grid
-        if is_solved && self.row.iter().zip(refined).all(|(a, b)| (a - b).abs() <= REFINED * (1.0 + a.abs())) {
+        // a measure may have no value
+        let agrees = |(a, b): (&f64, &f64)| !a.is_finite() || (a - b).abs() <= REFINED * (1.0 + a.abs());
+        if is_solved && self.row.iter().zip(refined).all(agrees) {
             self.row.copy_from_slice(refined);
         }
     }

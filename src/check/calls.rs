@@ -7,6 +7,7 @@ use crate::expr::ExprId;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
 use crate::vocabulary::is_called;
+use rustc_hash::FxHashSet;
 
 /// One expansion of a function or measure: which, of what argument, and how it is read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -104,12 +105,24 @@ impl Checker<'_> {
 
     fn expand(&mut self, key: Call, formula: &Expr, span: Span, context: &Context<'_>) -> Option<Value> {
         if let Some(&known) = self.calls.get(&key) {
+            // who calls it asks for what it asks for
+            if let Some(conditions) = self.conditions_of_calls.get(&key) {
+                self.model.conditions.extend_from_slice(conditions);
+            }
             return known;
         }
         self.callers.push(span);
+        let first = self.model.conditions.len();
         // functions may call each other in a long chain
         let value = stacker::maybe_grow(256 << 10, 4 << 20, || self.number(formula, context));
         self.callers.pop();
+        let mut conditions = self.model.conditions.split_off(first);
+        let mut seen = FxHashSet::default();
+        conditions.retain(|condition| seen.insert(condition.positive));
+        self.model.conditions.extend_from_slice(&conditions);
+        if !conditions.is_empty() {
+            self.conditions_of_calls.insert(key, conditions);
+        }
         self.calls.insert(key, value);
         value
     }

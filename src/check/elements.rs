@@ -12,6 +12,7 @@ impl Checker<'_> {
     /// Measures, in the order in which they need each other; listed in that of the text.
     pub(super) fn measures(&mut self, order: &[usize]) {
         let mut values = vec![None; self.measures.len()];
+        let mut asked = vec![Vec::new(); self.measures.len()];
         for &k in order {
             let judged = self.measures[k].dimensional;
             let context =
@@ -19,14 +20,20 @@ impl Checker<'_> {
             let conditions = self.model.conditions.len();
             values[k] = self.formula(self.measures[k].value, &context);
             let name = &self.measures[k].name.text;
-            for condition in &mut self.model.conditions[conditions..] {
+            let mut own = self.model.conditions.split_off(conditions);
+            for condition in &mut own {
                 condition.owner.clone_from(name);
             }
+            // what parameters alone decide holds at no time or at all times
+            let graph = &self.model.graph;
+            let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
+            self.model.conditions.append(&mut { always });
+            asked[k] = at_times;
             self.measures[k].sound = values[k].is_some();
         }
-        for (state, value) in self.measures.iter().zip(values) {
+        for ((state, value), conditions) in self.measures.iter().zip(values).zip(asked) {
             if let Some(value) = value {
-                let measure = Measure { declared: declared(state.name), value: value.id };
+                let measure = Measure { declared: declared(state.name), value: value.id, conditions };
                 self.model.measures.push(measure);
             }
         }

@@ -193,6 +193,8 @@ struct Checker<'a> {
     values: Vec<f64>,
     /// Expansions already made.
     calls: FxHashMap<Call, Option<Value>>,
+    /// What those ask to be positive, where they do.
+    conditions_of_calls: FxHashMap<Call, Vec<Condition>>,
     /// Where the formula being expanded was called, outermost first.
     callers: Vec<Span>,
     /// Parts visited for the current formula.
@@ -224,6 +226,7 @@ impl<'a> Checker<'a> {
             derivative_orders: Vec::new(),
             values: Vec::new(),
             calls: FxHashMap::default(),
+            conditions_of_calls: FxHashMap::default(),
             callers: Vec::new(),
             visited: 0,
             untaken: false,

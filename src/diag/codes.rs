@@ -122,6 +122,7 @@ catalogue! {
         E0611 Error "a redundant equation that ceases to hold"
         W0601 Warning "an acceleration that jumps"
         W0602 Warning "a bifurcation that was passed"
+        W0603 Warning "a measure without a value"
         N0601 Note "the estimates were far from the assembled start"
     }
     "the command line and files" {

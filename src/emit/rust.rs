@@ -8,7 +8,7 @@ use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::ir::{Check, Measure, Owner};
-use crate::program::{Column, Register, STAGES};
+use crate::program::{Column, Register, Rim, STAGES};
 use crate::solver::RowLayout;
 use crate::source::Span;
 use std::cell::RefCell;
@@ -21,6 +21,7 @@ const STATE: &str = include_str!("runtime/state.rs");
 const SOLVER: &str = include_str!("runtime/solver.rs");
 const SIDES: &str = include_str!("runtime/sides.rs");
 const MOTION: &str = include_str!("runtime/motion.rs");
+const RIMS: &str = include_str!("runtime/rims.rs");
 const LANES: &str = include_str!("runtime/lanes.rs");
 const LARGE: &str = include_str!("runtime/large.rs");
 const RUN: &str = include_str!("runtime/tables.rs");
@@ -394,6 +395,7 @@ impl Writer<'_> {
         let switches = program.switches();
         let of_time = switches.iter().any(|switch| switch.on_time);
         let has_motion = switches.iter().any(|switch| !switch.on_time);
+        let rims = self.rims_of_time();
         let conditions = self.conditions();
         let solve = match &self.equations.book {
             Some(_) => LARGE.to_owned(),
@@ -405,6 +407,7 @@ impl Writer<'_> {
             ("sides", self.has_sides()),
             ("of_time", of_time),
             ("motion", has_motion),
+            ("rims", !rims.is_empty()),
             ("end", of_time && solution.motion.to.is_some()),
             ("conditions", !conditions.is_empty()),
             ("watches", !system.watches.is_empty()),
@@ -446,6 +449,7 @@ impl Writer<'_> {
         text += &conditions;
         text += &self.watches();
         text += &self.sides(of_time, has_motion, &wanted);
+        text += &rims;
         if solution.motion.blocks.is_some() {
             text += "#[rustfmt::skip]\nmod blocks {\n\n";
             text += BLOCKS;
@@ -462,7 +466,9 @@ impl Writer<'_> {
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
         let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
         text.replace("$from", if solution.motion.blocks.is_some() { "from" } else { "_from" })
-            .replace("$wanted", if of_time { "wanted" } else { "next" })
+            .replace("$wanted", if of_time || !rims.is_empty() { "wanted" } else { "next" })
+            .replace("$rimmed", if rims.is_empty() { "next" } else { "edge" })
+            .replace("$rim_end", if of_time { "edge" } else { "wanted" })
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)
@@ -473,10 +479,12 @@ impl Writer<'_> {
     fn lanes(&self, solution: &Solution<'_>, lanes: usize, wanted: &[(&str, bool)]) -> String {
         let solve = solution.function(true);
         let (system, switches) = (self.unit.system, self.unit.program.switches());
+        let has = |what: &str| wanted.contains(&(what, true));
         let checks = !switches.is_empty()
             || !system.watches.is_empty()
             || !system.checks.is_empty()
-            || wanted.contains(&("conditions", true));
+            || has("conditions")
+            || has("rims");
         let more = [("checks", checks), ("watched", solve.contains("at.watch("))];
         let wanted: Vec<(&str, bool)> = wanted.iter().copied().chain(more).collect();
         let tears: Vec<String> = solution.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
@@ -634,6 +642,29 @@ impl Writer<'_> {
         text
     }
 
+    /// What looks for times at which formulas of time come to the end of what their functions take; nothing where none may.
+    fn rims_of_time(&self) -> String {
+        let rims: Vec<&Rim> = self.unit.program.outputs.rims.iter().filter(|rim| rim.on_time).collect();
+        if rims.is_empty() {
+            return String::new();
+        }
+        let outputs: Vec<Register> = rims.iter().map(|rim| rim.gauge).chain(rims.iter().map(|rim| rim.slope)).collect();
+        let function = self.equations.function(&Wanted {
+            name: "rims_of_time",
+            docs: "Quantities that are zero where a formula of time may end, and then their slopes.",
+            is_public: false,
+            orders: 0,
+            has_time: true,
+            outputs: &outputs,
+            length: "2 * RIMS",
+            negated: false,
+            given: Given::None,
+        });
+        format!("/// Number of places where a formula of time may end.\nconst RIMS: usize = {};\n\n", rims.len())
+            + RIMS
+            + &function
+    }
+
     /// A register that holds 0, or what no function computes.
     fn zero(&self) -> Register {
         let zero =
@@ -678,7 +709,7 @@ impl Writer<'_> {
 const LEFT_OUT_DOCS: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";
 
 /// What measures are given as.
-const MEASURES: &str = "/// The measures with their time derivatives.
+const MEASURES: &str = "/// The measures with their time derivatives; `NAN` where one has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// By the indices in [`measure`].
@@ -703,9 +734,14 @@ const MEASURES_IN_SOLUTION: &str = "impl Measures {
         [&self.values, &self.rates, &self.accelerations]
     }
 
-    fn is_finite(&self) -> bool {
-        let mut all = self.lists().into_iter().flatten();
-        all.all(|value| value.is_finite())
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
+        for value in self.values.iter_mut().chain(rest) {
+            if !value.is_finite() {
+                *value = f64::NAN;
+            }
+        }
     }
 }
 

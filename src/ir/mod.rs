@@ -19,6 +19,9 @@
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
 mod print;
+mod rims;
+
+pub use rims::Rim;
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
@@ -60,6 +63,8 @@ pub struct ConstraintSystem {
     pub checks: Vec<Check>,
     /// What tells one branch of a gear or contact from another.
     pub watches: Vec<Watch>,
+    /// Where formulas of the equations come to the end of what their functions take.
+    pub rims: Vec<Rim>,
     /// Distances that gears and racks are made for, but do not hold themselves.
     pub fits: Vec<Fit>,
     /// Characteristic length L (m): the size of the largest body.

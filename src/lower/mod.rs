@@ -11,7 +11,7 @@ mod quantities;
 mod size;
 mod uses;
 
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::{Comparison, ExprId, Graph, Symbol};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Watch,
@@ -85,11 +85,13 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         conditions: lowering.conditions,
         checks: Vec::new(),
         watches: lowering.watches,
+        rims: Vec::new(),
         fits: lowering.fits,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
+    system.find_rims();
     system
 }
 
@@ -301,9 +303,34 @@ impl Lowering<'_> {
                 let first = self.along_the_motion(value);
                 let second = first.and_then(|first| self.along_the_motion(first));
                 let (name, span) = (measure.declared.name.clone(), measure.declared.span);
+                let holds = self.all_hold(&measure.conditions);
+                let value = self.only_where(holds, value);
+                let [first, second] = [first, second].map(|id| id.map(|id| self.only_where(holds, id)));
                 Measure { name, value, first, second, span }
             })
             .collect()
+    }
+
+    /// Whether all of some conditions hold; none where there are none.
+    fn all_hold(&mut self, conditions: &[crate::model::Condition]) -> Option<ExprId> {
+        let mut all = None;
+        for condition in conditions {
+            let positive = self.formula(condition.positive);
+            let zero = self.graph.constant(0.0);
+            let holds = self.graph.compare(Comparison::Less, zero, positive);
+            all = Some(all.map_or(holds, |all| self.graph.and(all, holds)));
+        }
+        all
+    }
+
+    /// A formula where something holds, elsewhere nothing finite.
+    fn only_where(&mut self, holds: Option<ExprId>, id: ExprId) -> ExprId {
+        let Some(holds) = holds else {
+            return id;
+        };
+        let (one, zero) = (self.graph.constant(1.0), self.graph.constant(0.0));
+        let none = self.graph.div(one, zero);
+        self.graph.select(holds, id, none)
     }
 
     /// The time derivative of an expression, unless that needs a fourth derivative of `q`.

@@ -473,6 +473,8 @@ pub struct Measure {
     pub declared: Declared,
     /// Its formula.
     pub value: ExprId,
+    /// What must be positive for it to have a value.
+    pub conditions: Vec<Condition>,
 }
 
 /// A formula that must be positive, for others to have a meaning.

@@ -41,7 +41,7 @@ impl<W: Write + Send> TableWriter<W> {
         Ok(TableWriter { form })
     }
 
-    /// Writes a row of finite numbers.
+    /// Writes a row; what is not finite is a value that is missing.
     ///
     /// # Errors
     /// As the writer underneath.
@@ -94,7 +94,11 @@ impl<W: Write> TextWriter<W> {
             if k > 0 {
                 self.line.push(b',');
             }
-            self.line.extend_from_slice(self.number.format_finite(value).as_bytes());
+            if value.is_finite() {
+                self.line.extend_from_slice(self.number.format_finite(value).as_bytes());
+            } else if self.is_json {
+                self.line.extend_from_slice(b"null");
+            }
         }
         self.line.push(if self.is_json { b']' } else { b'\n' });
         self.out.write_all(&self.line)
@@ -129,6 +133,14 @@ mod tests {
         let read: Vec<f64> =
             text.lines().skip(1).flat_map(|line| line.split(',')).map(|n| n.parse().unwrap()).collect();
         assert_eq!(read, values[..4]);
+    }
+
+    #[test]
+    fn what_is_missing_is_an_empty_cell_or_null() {
+        let rows: &[&[f64]] = &[&[0.0, f64::NAN], &[1.0, f64::INFINITY], &[2.0, 1.5]];
+        assert_eq!(written(TableFormat::Csv, rows), "t,a.x\n0.0,\n1.0,\n2.0,1.5\n");
+        let value: serde_json::Value = serde_json::from_str(&written(TableFormat::Json, rows)).unwrap();
+        assert_eq!(value["rows"], serde_json::json!([[0.0, null], [1.0, null], [2.0, 1.5]]));
     }
 
     #[test]

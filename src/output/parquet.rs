@@ -1,4 +1,5 @@
-//! A result table as Parquet: a column of 64-bit floating-point numbers for each of its own, none of them missing.
+//! A result table as Parquet: a column of 64-bit floating-point numbers for each of its own. All but the first, the time, may
+//! miss some.
 
 use parquet::basic::{Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
@@ -19,15 +20,19 @@ pub(super) struct ParquetWriter<W: Write + Send> {
     /// Row after row.
     gathered: Vec<f64>,
     column: Vec<f64>,
+    /// By row: 1 where the column has a number.
+    levels: Vec<i16>,
 }
 
 impl<W: Write + Send> ParquetWriter<W> {
     pub fn new(out: W, columns: &[String]) -> io::Result<ParquetWriter<W>> {
-        let field = |name: &String| {
+        let field = |(k, name): (usize, &String)| {
             let column = Type::primitive_type_builder(name, Physical::DOUBLE);
-            Ok(Arc::new(column.with_repetition(Repetition::REQUIRED).build()?))
+            let repetition = if k == 0 { Repetition::REQUIRED } else { Repetition::OPTIONAL };
+            Ok(Arc::new(column.with_repetition(repetition).build()?))
         };
-        let fields = columns.iter().map(field).collect::<Result<Vec<_>, ParquetError>>().map_err(into_io)?;
+        let fields =
+            columns.iter().enumerate().map(field).collect::<Result<Vec<_>, ParquetError>>().map_err(into_io)?;
         let schema = Type::group_type_builder("rows").with_fields(fields).build().map_err(into_io)?;
         let properties = WriterProperties::builder()
             .set_created_by(format!("mechc {}", env!("CARGO_PKG_VERSION")))
@@ -36,7 +41,7 @@ impl<W: Write + Send> ParquetWriter<W> {
             .set_statistics_enabled(EnabledStatistics::Chunk)
             .build();
         let file = SerializedFileWriter::new(out, Arc::new(schema), Arc::new(properties)).map_err(into_io)?;
-        Ok(ParquetWriter { file, columns: columns.len(), gathered: Vec::new(), column: Vec::new() })
+        Ok(ParquetWriter { file, columns: columns.len(), gathered: Vec::new(), column: Vec::new(), levels: Vec::new() })
     }
 
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
@@ -60,8 +65,16 @@ impl<W: Write + Send> ParquetWriter<W> {
         let mut k = 0;
         while let Some(mut column) = group.next_column().map_err(into_io)? {
             self.column.clear();
-            self.column.extend(self.gathered.iter().skip(k).step_by(self.columns));
-            column.typed::<DoubleType>().write_batch(&self.column, None, None).map_err(into_io)?;
+            let values = self.gathered.iter().copied().skip(k).step_by(self.columns);
+            self.levels.clear();
+            if k > 0 {
+                self.levels.extend(values.clone().map(|value| i16::from(value.is_finite())));
+                self.column.extend(values.filter(|value| value.is_finite()));
+            } else {
+                self.column.extend(values);
+            }
+            let levels = (k > 0).then_some(self.levels.as_slice());
+            column.typed::<DoubleType>().write_batch(&self.column, levels, None).map_err(into_io)?;
             column.close().map_err(into_io)?;
             k += 1;
         }
@@ -111,6 +124,19 @@ mod tests {
             .map(|row| [0, 1].map(|k| row.get_double(k).unwrap().to_bits()))
             .collect();
         assert_eq!(found, rows.map(|row| row.map(f64::to_bits)));
+    }
+
+    #[test]
+    fn what_is_missing_is_null() {
+        let columns = ["t".to_owned(), "gain".to_owned()];
+        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
+        for row in [[0.0, 1.5], [1.0, f64::NAN], [2.0, f64::INFINITY], [3.0, 2.5]] {
+            writer.row(&row).unwrap();
+        }
+        let reader = read(writer.finish().unwrap());
+        let found: Vec<Option<f64>> =
+            reader.get_row_iter(None).unwrap().map(|row| row.unwrap().get_double(1).ok()).collect();
+        assert_eq!(found, [Some(1.5), None, None, Some(2.5)]);
     }
 
     #[test]

@@ -1,9 +1,9 @@
 //! Laying a constraint system out as operations.
 
 use super::tables::{Place, Reached};
-use super::{Inputs, Op, Outputs, Program, Register, STAGES, Stage, Switch, TableLayout};
+use super::{Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TableId, Unary};
-use crate::ir::ConstraintSystem;
+use crate::ir::{self, ConstraintSystem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
@@ -20,16 +20,20 @@ impl Program {
             conditions: layout.place(Stage::Position, system.conditions.iter().map(|c| c.positive)),
             checks: layout.place(Stage::Position, system.checks.iter().map(|c| c.phi)),
             watches: layout.place(Stage::Position, system.watches.iter().map(|w| w.value)),
-            nu: layout.place(Stage::Velocity, system.nu.iter().copied()),
-            gamma: layout.place(Stage::Acceleration, system.gamma.iter().copied()),
-            jerk: layout.place(Stage::Jerk, system.jerk.iter().flatten().copied()),
-            measures: layout.place(Stage::Measures, system.measures.iter().map(|m| m.value)),
-            measures_d: layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first)),
-            measures_dd: layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second)),
-            terms: Vec::new(),
+            ..Outputs::default()
         };
         outputs.terms =
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
+        let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
+        outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
+        outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
+        outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
+        outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
+        outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));
+        // rims are asked for where nothing but time and position has been evaluated
+        (layout.register_of, layout.comparisons) = (at_position, comparisons);
+        outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
     }
 }
@@ -94,6 +98,13 @@ impl<'s> Layout<'s> {
             }
         }
         roots.iter().map(|id| self.register_of[id.index()]).collect()
+    }
+
+    fn rim(&mut self, rim: &ir::Rim) -> Rim {
+        let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
+        let terms = self.place(Stage::Rims, self.graph.terms(rim.gauge));
+        let found = self.place(Stage::Rims, [rim.gauge, rim.slope]);
+        Rim { gauge: found[0], slope: found[1], terms, on_time: !moves }
     }
 
     /// The stage in which a node is computed when `wanted` needs it first.

@@ -51,7 +51,7 @@ impl Enclosure {
     #[must_use]
     pub fn of_registers(program: &Program, registers: &Registers, roots: &[Register]) -> Enclosure {
         Enclosure {
-            operations: behind(program, roots, true),
+            operations: behind(program, roots, &[Stage::Time]),
             switches: Vec::new(),
             conditions: Vec::new(),
             watches: Vec::new(),
@@ -59,6 +59,16 @@ impl Enclosure {
             time: program.inputs.time,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
         }
+    }
+
+    /// For the ranges of rims, those that time alone decides or all others.
+    #[must_use]
+    pub fn of_rims(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
+        let rims = program.outputs.rims.iter().filter(|rim| rim.on_time == on_time);
+        let roots: Vec<Register> = rims.flat_map(|rim| [rim.gauge, rim.slope]).collect();
+        let stages: &[Stage] =
+            if on_time { &[Stage::Rims, Stage::Time] } else { &[Stage::Rims, Stage::Position, Stage::Time] };
+        Enclosure { operations: behind(program, &roots, stages), ..Enclosure::of_registers(program, registers, &[]) }
     }
 
     fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
@@ -75,7 +85,7 @@ impl Enclosure {
         let (conditions, watches) = (of(&program.outputs.conditions), of(&program.outputs.watches));
         let roots: Vec<Register> = switches.iter().chain(&conditions).chain(&watches).copied().collect();
         Enclosure {
-            operations: behind(program, &roots, on_time),
+            operations: behind(program, &roots, if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] }),
             switches,
             conditions,
             watches,
@@ -108,9 +118,7 @@ impl Enclosure {
         may_change: impl Fn(Register) -> bool,
     ) -> bool {
         if let Some(first) = self.coordinates {
-            for (k, [middle, reach]) in coordinates.iter().enumerate() {
-                self.values[first as usize + k] = wider(middle - reach, middle + reach);
-            }
+            self.set_all(first, coordinates);
         }
         if !self.run(program, registers, [from, to], may_change) {
             return false;
@@ -126,6 +134,13 @@ impl Enclosure {
     /// Encloses from one time (s) to another, what is frozen being what `registers` have now.
     pub fn enclose(&mut self, program: &Program, registers: &Registers, times: [f64; 2]) {
         self.run(program, registers, times, |_| true);
+    }
+
+    /// Lets a run of registers be anywhere in their intervals (middle and reach).
+    pub fn set_all(&mut self, first: Register, boxes: &[[f64; 2]]) {
+        for (k, [middle, reach]) in boxes.iter().enumerate() {
+            self.values[first as usize + k] = wider(middle - reach, middle + reach);
+        }
     }
 
     /// What a register was enclosed in: from the lowest to the highest value.
@@ -167,13 +182,12 @@ impl Enclosure {
     }
 }
 
-/// The operations behind some registers, those of time or those of position too.
-fn behind(program: &Program, roots: &[Register], on_time: bool) -> Vec<Op> {
+/// The operations behind some registers, of some stages, the last one first.
+fn behind(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
     let mut needed = vec![false; program.registers()];
     for &root in roots {
         needed[root as usize] = true;
     }
-    let stages: &[Stage] = if on_time { &[Stage::Time] } else { &[Stage::Position, Stage::Time] };
     let mut operations = Vec::new();
     for &op in stages.iter().flat_map(|&stage| program.stage(stage).iter().rev()) {
         let (reads, writes) = program.operands(op);
@@ -295,7 +309,7 @@ fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
     match function {
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
         Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
-        Binary::Pow if a.low > 0.0 => loosened(corners(a, b, value)),
+        Binary::Pow if a.low > 0.0 || (a.low >= 0.0 && b.low > 0.0) => loosened(corners(a, b, value)),
         Binary::Atan2 if b.low > 0.0 => loosened(corners(a, b, value)),
         Binary::Atan2 => Interval { low: -PI, high: PI },
         // the last is laid out as other operations

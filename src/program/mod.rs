@@ -30,7 +30,7 @@ impl Stage {
     /// A measure takes the branch it is on.
     #[must_use]
     pub fn can_switch(self) -> bool {
-        !matches!(self, Stage::Prologue | Stage::Measures)
+        !matches!(self, Stage::Prologue | Stage::Measures | Stage::Rims)
     }
 }
 
@@ -133,11 +133,21 @@ pub enum Stage {
     Jerk,
     /// The measures; needs all derivatives of `q`.
     Measures,
+    /// The rims, where they are asked for; needs `q̇`.
+    Rims,
 }
 
 /// All stages, in the order in which they may be run.
-pub const STAGES: [Stage; 7] =
-    [Stage::Prologue, Stage::Time, Stage::Position, Stage::Velocity, Stage::Acceleration, Stage::Jerk, Stage::Measures];
+pub const STAGES: [Stage; 8] = [
+    Stage::Prologue,
+    Stage::Time,
+    Stage::Position,
+    Stage::Velocity,
+    Stage::Acceleration,
+    Stage::Jerk,
+    Stage::Measures,
+    Stage::Rims,
+];
 
 /// One operation: reads registers, writes `to`.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -316,8 +326,23 @@ pub struct Outputs {
     pub checks: Vec<Register>,
     /// Quantities that keep their signs.
     pub watches: Vec<Register>,
+    /// Where formulas come to the end of what their functions take.
+    pub rims: Vec<Rim>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
+}
+
+/// Where a quantity stands at whose zero a formula may have an edge.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct Rim {
+    /// The quantity.
+    pub gauge: Register,
+    /// Its time derivative.
+    pub slope: Register,
+    /// The terms of its sum, against whose size its rounding is judged.
+    pub terms: Vec<Register>,
+    /// Whether it depends on time alone.
+    pub on_time: bool,
 }
 
 /// Operations that evaluate a constraint system.

@@ -1,6 +1,6 @@
 //! A motion that cannot go on: formulas without a value, jumps, haste.
 
-use super::{at, ceases_to_hold, in_units, named, named_all, no_contact, short, with_places};
+use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_places};
 use crate::analysis::kinematics::Fault;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConditionKind, ConstraintSystem, DeclarationKind};
@@ -11,24 +11,39 @@ const MOST_COLUMNS: usize = 12;
 /// A formula that has no value, or not one that it may have.
 pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
     match fault {
-        Fault::NotFinite { row } => {
-            let declaration = system.declaration_of(row);
-            let message =
-                format!("the formula of {} or a derivative of it is not finite at {}", named(system, row), at(t));
-            Diagnostic::new(Code::E0605, message).at(declaration.span, "infinite or not a number").datum("t", t)
-        }
+        Fault::NotFinite { row } => formula_not_finite(system, &[system.rows[row].declaration], t),
         Fault::Condition { index } => condition(system, index, t),
         Fault::Watch { index } => no_contact(system, index, t),
         Fault::Check { index } => ceases_to_hold(system, index, t),
-        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Edge { .. } => cannot_follow(system, t, None),
+        Fault::Singular | Fault::Uncertain | Fault::TooFar | Fault::Rim | Fault::Edge { .. } => {
+            cannot_follow(system, t, None)
+        }
     }
 }
 
-pub fn measure_not_finite(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
-    let measure = &system.measures[index];
-    Diagnostic::new(Code::E0605, format!("measure `{}` or a derivative of it is not finite at {}", measure.name, at(t)))
-        .at(measure.span, "infinite or not a number")
+/// A formula of some declarations that has no value, or a derivative that has none.
+pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[usize], t: f64) -> Diagnostic {
+    let named = named_all(system, declarations);
+    let message = format!("the formula of {named} or a derivative of it is not finite at {}", at(t));
+    with_places(Diagnostic::new(Code::E0605, message), system, declarations, ["infinite or not a number"; 2])
         .datum("t", t)
+}
+
+/// Whether a declaration is a contact that needs a tangent of its curve.
+pub fn has_tangent(system: &ConstraintSystem, declaration: usize) -> bool {
+    matches!(system.declarations[declaration].kind, DeclarationKind::Joint("cam" | "flat_follower"))
+}
+
+/// A warning that a measure has no value in some rows, the first of them at `t` (s).
+pub fn measure_without_value(system: &ConstraintSystem, index: usize, t: f64, rows: u64) -> Diagnostic {
+    let measure = &system.measures[index];
+    let message = format!("measure `{}` or a derivative of it has no value at {}", measure.name, at(t));
+    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
+    Diagnostic::new(Code::W0603, message)
+        .at(measure.span, format!("infinite or undefined {how_many}"))
+        .note("its cells are empty there; everything else is as good as ever")
+        .datum("t", t)
+        .datum("rows", rows as usize)
 }
 
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {

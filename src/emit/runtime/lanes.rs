@@ -106,6 +106,9 @@ pub mod lanes {
                 is_smooth: self.is_smooth.get(k).copied().unwrap_or(false),
                 steepness: of(&self.steepness, k),
                 step: of(&self.step, k),
+//# if rims
+                passed: [f64::NEG_INFINITY; RIMS],
+//# end
             }
         }
 
@@ -314,6 +317,11 @@ pub mod lanes {
     fn keeps_branch(k: usize, states: &States) -> bool {
         let (model, at) = (&states.models[k], states.other().lane(k));
         let t = at.t;
+//# if rims
+        if first_rim(states.now().t[k], t, model, &[f64::NEG_INFINITY; RIMS]).is_some() {
+            return false;
+        }
+//# end
 //# if sides
         let sides = &states.sides[k];
 //# end
@@ -410,14 +418,6 @@ pub mod lanes {
                     sum[k] += 0.0 * each[k];
                 }
             }
-//# if measures
-            let rates = self.rates.iter().chain(&self.accelerations);
-            for each in self.values.iter().chain(rates) {
-                for k in 0..LANES {
-                    sum[k] += 0.0 * each[k];
-                }
-            }
-//# end
             sum.map(|sum| sum == 0.0)
         }
 
@@ -432,6 +432,7 @@ pub mod lanes {
             at.measures.values = self.values.map(|each| of(&each, k));
             at.measures.rates = self.rates.map(|each| of(&each, k));
             at.measures.accelerations = self.accelerations.map(|each| of(&each, k));
+            at.measures.leave_out();
 //# end
             for (is_negative, signs) in at.is_negative.iter_mut().zip(&self.signs) {
                 *is_negative = signs.get(k).is_some_and(|sign| sign >> 63 == 1);

@@ -83,6 +83,9 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
                     is_second: false,
                     is_smooth: false,
                     step: LONGEST_STEP,
+//# if rims
+                    passed: [f64::NEG_INFINITY; RIMS],
+//# end
                 });
             }
             at.clone_from(&found);
@@ -154,7 +157,20 @@ pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> 
         };
 //# if of_time
         // what is fast may be over before the step's end
-        let next = first_edge(now, wanted, &state.model);
+        let $rimmed = first_edge(now, wanted, &state.model);
+//# end
+//# if rims
+        let next = match first_rim(now, $rim_end, &state.model, &state.passed) {
+            None => $rim_end,
+            Some((rim, at)) => {
+                let before = at - LEAD.copysign(left);
+                if (before - now) * left <= 0.0 {
+                    look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
 //# end
         let (is_last, size) = (next == t, (next - now).abs());
         match advance(state, next, is_last) {
@@ -423,6 +439,9 @@ fn reach(
 //# if sides
     at.sides = *sides;
 //# end
+//# if measures
+    at.measures.leave_out();
+//# end
     if at.is_finite() {
         Ok(())
     } else {
@@ -595,12 +614,7 @@ impl Solution {
 
     fn is_finite(&self) -> bool {
         let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-//# if measures
-        all.all(|value| value.is_finite()) && self.measures.is_finite()
-//# end
-//# if !measures
         all.all(|value| value.is_finite())
-//# end
     }
 }
 //# if newton

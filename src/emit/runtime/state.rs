@@ -48,6 +48,10 @@ pub struct State {
     steepness: f64,
     /// The step that goes well (s).
     step: f64,
+//# if rims
+    /// By rim: the time at which it was looked at last (s).
+    passed: [f64; RIMS],
+//# end
 }
 
 impl State {
@@ -108,7 +112,8 @@ impl State {
 //# end
 //# if measures
 
-    /// The measures, by the indices in [`measure`], and their first and second time derivatives.
+    /// The measures, by the indices in [`measure`], and their first and second time derivatives; `NAN` where
+    /// one has no value, and no step fails for that.
     #[must_use]
     pub fn measures(&self) -> &Measures {
         &self.at().measures
