@@ -58,8 +58,9 @@ pub struct Moved {
 }
 
 /// Assembles at time `t`.
-pub(super) fn assemble(kinematics: &mut Kinematics<'_>, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
-    let system = kinematics.system();
+pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
     let estimates = kinematics.estimates();
     // at a switch the later side counts
     let span = system.analysis.map_or(1.0, |[from, to, _]| to - from);
@@ -98,7 +99,7 @@ fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
 
 /// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
 /// places of the bodies on it. So they may be as far off as they like.
-fn explicit_first(kinematics: &mut Kinematics<'_>, estimates: &[f64]) -> Vec<f64> {
+fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
     let mut q = estimates.to_vec();
     let mut delta = vec![0.0; q.len()];
     for _ in 0..EXPLICIT_STEPS {
@@ -123,7 +124,7 @@ fn explicit_first(kinematics: &mut Kinematics<'_>, estimates: &[f64]) -> Vec<f64
 
 /// Where Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
 /// alone would let it point the other way.
-fn assembled(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
+fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     let q = newton(kinematics, start)?;
     let turned = kinematics.turned_lines();
     if turned.is_empty() {
@@ -139,7 +140,7 @@ fn assembled(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>>
 
 /// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
 /// Nonlinear Problems*, 2004, section 3.3): the judgement does not depend on how rows are scaled.
-fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
+fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
     let n = start.len();
     let (mut q, mut trial) = (start.to_vec(), start.to_vec());
     let (mut delta, mut next) = (vec![0.0; n], vec![0.0; n]);
@@ -177,13 +178,16 @@ fn newton(kinematics: &mut Kinematics<'_>, start: &[f64]) -> Option<Vec<f64>> {
 
 /// The assembled position, and whether the estimates had to be perturbed to find it.
 fn by_least_squares(
-    kinematics: &mut Kinematics<'_>,
+    kinematics: &mut Kinematics,
     estimates: &[f64],
     t: f64,
 ) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
     let mut nearest = None;
     let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
     for size in std::iter::once(0.0).chain(PERTURBATIONS) {
+        if kinematics.is_cancelled() {
+            break;
+        }
         let start: Vec<f64> = (0..estimates.len())
             .map(|k| estimates[k] + size * kinematics.linear().column_scale(k) * noise.next())
             .collect();
@@ -204,11 +208,11 @@ fn by_least_squares(
 }
 
 /// Which loop stays open.
-fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
+fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
     if let Err(fault) = kinematics.set_position(q) {
         return errors::no_value(kinematics.system(), fault, t);
     }
-    open_loop::explain(kinematics.determined(), q, t).unwrap_or_else(|| {
+    open_loop::explain(&kinematics.determined(), q, t).unwrap_or_else(|| {
         let _ = kinematics.factor();
         let open = |row: usize| kinematics.residual(row);
         let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
@@ -217,8 +221,9 @@ fn explain(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Diagnostic {
 }
 
 /// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
-fn refuse_vanishing_tangents(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
-    let system = kinematics.system();
+fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
     if kinematics.set_position(q).is_err() {
         return Ok(());
     }
@@ -231,8 +236,9 @@ fn refuse_vanishing_tangents(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64)
 }
 
 /// The equations must be independent where the motion starts.
-fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
-    let system = kinematics.system();
+fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
     kinematics.measure_slopes(q);
     let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
@@ -251,7 +257,7 @@ fn refuse_singular(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Result
 }
 
 /// Whether the equations are independent in a position nearby; none if there is no other one.
-fn independent_elsewhere(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
+fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
     independent_later(kinematics, q, t).or_else(|| {
         kinematics.set_time(t);
         independent_beside(kinematics, q, free)
@@ -260,13 +266,7 @@ fn independent_elsewhere(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64
 
 /// Whether the equations are independent beside a position, where its free motion leads if a driver lets go; none if it
 /// leads nowhere.
-fn independent_without(
-    kinematics: &mut Kinematics<'_>,
-    q: &[f64],
-    driver: usize,
-    free: &[f64],
-    t: f64,
-) -> Option<bool> {
+fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
     if q.len() > LARGEST_DENSE {
         return None;
     }
@@ -281,7 +281,7 @@ fn independent_without(
 }
 
 /// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
-fn independent_beside(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64]) -> Option<bool> {
+fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
     [BESIDE, -BESIDE].into_iter().find_map(|way| {
         let start = moved_along(kinematics, q, free, way);
         independent_at(kinematics, q, start)
@@ -289,12 +289,12 @@ fn independent_beside(kinematics: &mut Kinematics<'_>, q: &[f64], free: &[f64]) 
 }
 
 /// A position moved along a free motion, scaled.
-fn moved_along(kinematics: &Kinematics<'_>, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
+fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
     (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
 }
 
 /// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
-fn independent_later(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Option<bool> {
+fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
     let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
     NEARBY.into_iter().find_map(|part| {
         kinematics.set_time(t + part * span);
@@ -303,14 +303,14 @@ fn independent_later(kinematics: &mut Kinematics<'_>, q: &[f64], t: f64) -> Opti
 }
 
 /// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
-fn independent_at(kinematics: &mut Kinematics<'_>, q: &[f64], start: Vec<f64>) -> Option<bool> {
+fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Option<bool> {
     let near = least_squares(kinematics, start);
     let all: Vec<u32> = (0..q.len() as u32).collect();
     independent_where(kinematics, q, &near, &all)
 }
 
 /// Whether the equations are independent in a position where some of them hold; none if it is `q`, or they do not hold.
-fn independent_where(kinematics: &mut Kinematics<'_>, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
+fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
     let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
     let moved = (0..q.len()).any(far);
     let holds = kinematics.set_position(near).is_ok() && {
@@ -321,7 +321,7 @@ fn independent_where(kinematics: &mut Kinematics<'_>, q: &[f64], near: &[f64], r
 }
 
 /// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
-fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
+fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Vec<f64> {
     let determined = kinematics.determined();
     let n = q.len();
     if n <= LARGEST_DENSE {
@@ -346,12 +346,14 @@ fn least_squares(kinematics: &mut Kinematics<'_>, mut q: Vec<f64>) -> Vec<f64> {
     q
 }
 
-fn levenberg_marquardt(kinematics: &mut Kinematics<'_>, q: &mut [f64], rows: &[u32], columns: &[u32]) {
+fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u32], columns: &[u32]) {
+    let determined = kinematics.determined();
+    let system = determined.system();
     // where the equations have no value there, the position stays as it is
-    let _ = minimize(kinematics.system(), columns, q, None, |q, weights| {
+    let _ = minimize(system, columns, q, None, |q, weights| {
         kinematics.set_position(q).ok()?;
         let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));
-        Values { system: kinematics.system(), phi, phi_q }.linear(rows, columns, weights)
+        Values { system, phi, phi_q }.linear(rows, columns, weights)
     });
 }
 

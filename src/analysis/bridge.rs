@@ -101,11 +101,11 @@ fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
     at_start * constant + (at_end - at_start) * linear
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// Keeps the state that was just accepted if it is clear of every singular position.
     pub(super) fn keep_if_clear(&mut self) {
         if self.is_clear() {
-            self.clear.copy_from(self.state);
+            self.clear.copy_from(&self.state);
         }
     }
 
@@ -123,10 +123,16 @@ impl Motion<'_, '_> {
         self.fold = None;
         let bridge = if is_singular { self.bridge_ahead() } else { None };
         let Some(bridge) = bridge else {
-            return Err(Box::new(singular::explain_fold(self.kinematics, self.state, fault, [h, target], self.fold)));
+            return Err(Box::new(singular::explain_fold(
+                &mut self.kinematics,
+                &self.state,
+                fault,
+                [h, target],
+                self.fold,
+            )));
         };
         let middle = bridge.state_at(bridge.at);
-        let diagnostic = singular::explain_contact(self.kinematics, &middle, self.pass);
+        let diagnostic = singular::explain_contact(&mut self.kinematics, &middle, self.pass);
         if !self.pass {
             // rows before the singular position may lie on it
             self.bridge = Some(bridge);
@@ -138,7 +144,7 @@ impl Motion<'_, '_> {
         }
         self.state.copy_from(&bridge.to);
         self.clear.copy_from(&bridge.to);
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         self.begin_determinants();
         self.kinematics.sides(&mut self.sides);
         self.h = (bridge.to.t - bridge.from.t).min(self.span);
@@ -148,9 +154,9 @@ impl Motion<'_, '_> {
 
     /// A state beyond the singular position that the steps have come up to, if the motion goes on there.
     fn bridge_ahead(&mut self) -> Option<Bridge> {
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         // without a line of centres there is nothing beyond
-        if self.state.t <= self.clear.t || singular::centers_that_meet(self.kinematics).is_some() {
+        if self.state.t <= self.clear.t || singular::centers_that_meet(&self.kinematics).is_some() {
             return None;
         }
         self.come_closer();

@@ -86,7 +86,7 @@ impl Restless {
     pub(super) const NEVER: Restless = Restless { last: f64::NEG_INFINITY, length: 0.0, until: f64::NEG_INFINITY };
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// Whether a time is the last one, where the earlier side counts.
     fn is_last(&self, t: f64) -> bool {
         shortly_after(t) >= self.last
@@ -313,7 +313,7 @@ impl Motion<'_, '_> {
             Ok(Some(jump)) => self.say(jump),
             Err(fault) => {
                 let t = self.state.t;
-                Err(Box::new(singular::explain(self.kinematics, &self.before, fault, 0.0, t)))
+                Err(Box::new(singular::explain(&mut self.kinematics, &self.before, fault, 0.0, t)))
             }
         }
     }
@@ -336,8 +336,8 @@ impl Motion<'_, '_> {
     /// Whether a switch that changes where the position was set stands on its edge all the time, so that rounding decides:
     /// what it is decided by neither is off the edge nor has it moved since the state.
     pub(super) fn rests_on_edge(&mut self, switch: usize) -> bool {
-        let switch = &self.kinematics.switches()[switch];
-        let (there, off) = self.kinematics.edge(switch);
+        let switch = self.kinematics.switches()[switch];
+        let (there, off) = self.kinematics.edge(&switch);
         self.kinematics.set_time(self.state.t);
         let at = |motion: &mut Self, nudge: f64| {
             let linear = motion.kinematics.linear();
@@ -346,7 +346,7 @@ impl Motion<'_, '_> {
             }
             // what is wrong with a position shows where it is solved for
             let _ = motion.kinematics.set_position(&motion.middle);
-            motion.kinematics.edge(switch).0
+            motion.kinematics.edge(&switch).0
         };
         let (nudged, here) = (at(self, NUDGE), at(self, 0.0));
         let linear = self.kinematics.linear();
@@ -362,7 +362,7 @@ impl Motion<'_, '_> {
 
     /// Keeps the earlier side: the state, its row, the switches.
     fn remember(&mut self) {
-        self.before.copy_from(self.state);
+        self.before.copy_from(&self.state);
         for (old, switch) in self.switches_before.iter_mut().zip(self.kinematics.switches()) {
             *old = self.kinematics.switch(switch);
         }
@@ -418,8 +418,8 @@ impl Motion<'_, '_> {
         self.kinematics.factor()?;
         self.same_branch()?;
         self.begin_determinants();
-        self.kinematics.derivatives(self.state)?;
-        self.kinematics.write_row(self.state, &mut self.row);
+        self.kinematics.derivatives(&mut self.state)?;
+        self.kinematics.write_row(&self.state, &mut self.row);
         if self.compare(0.0, 0.0).is_none() {
             return Ok(None);
         }
@@ -431,7 +431,7 @@ impl Motion<'_, '_> {
     /// How much velocities and accelerations change within the rounding of the edge's time, on either side, scaled.
     fn change_of_a_moment(&mut self) -> Result<(f64, f64), Fault> {
         let moment = shortly_after(self.state.t) - self.state.t;
-        self.trial.copy_from(self.state);
+        self.trial.copy_from(&self.state);
         self.trial.t += moment;
         for (q, qd) in self.trial.q.iter_mut().zip(&self.state.qd) {
             *q += moment * qd;
@@ -451,7 +451,7 @@ impl Motion<'_, '_> {
 
     /// What jumps by more than `velocity` and `acceleration`, scaled, and more than rounding.
     fn compare(&self, velocity: f64, acceleration: f64) -> Option<Jump> {
-        let (before, now, system) = (&self.before, &*self.state, self.kinematics.system());
+        let (before, now, system) = (&self.before, &self.state, self.kinematics.system());
         let scaled = |k: usize, value: f64| value.abs() / self.kinematics.linear().column_scale(k);
         let largest =
             |a: &[f64], b: &[f64]| (0..a.len()).map(|k| f64::max(scaled(k, a[k]), scaled(k, b[k]))).fold(0.0, f64::max);

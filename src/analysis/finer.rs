@@ -85,7 +85,7 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
     coefficients
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// A finer curve over a bridge, if there is one that is exact.
     pub(super) fn finer_curve(&mut self, bridge: &Bridge) -> Option<Finer> {
         let way = OUTWARD * (bridge.to.t - bridge.from.t);

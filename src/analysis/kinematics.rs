@@ -3,10 +3,12 @@
 use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use super::yardstick::is_looked_at_beside;
+use crate::cancel::Cancel;
 use crate::ir::{Check, ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Rim, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
 use crate::structure::Determined;
+use std::sync::Arc;
 
 /// A time with the coordinates and their derivatives.
 #[derive(Clone, Debug)]
@@ -63,12 +65,13 @@ pub(super) enum Fault {
 }
 
 /// A mechanism's program with its registers and factors.
-pub(super) struct Kinematics<'d> {
-    determined: &'d Determined,
-    program: &'d Program,
+pub(super) struct Kinematics {
+    determined: Arc<Determined>,
+    program: Arc<Program>,
     registers: Registers,
     linear: BlockLu,
     tolerance: f64,
+    cancel: Cancel,
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
     bent: Vec<usize>,
     /// Rows whose slopes are looked at beside a position, these among them.
@@ -82,20 +85,15 @@ const ROUNDING: f64 = 8.0 * f64::EPSILON;
 /// How far beside a position the slope of a row that is bent is looked at, scaled.
 const BESIDE: f64 = 0.1;
 
-impl<'d> Kinematics<'d> {
-    pub fn new(determined: &'d Determined, program: &'d Program, tolerance: f64) -> Kinematics<'d> {
+impl Kinematics {
+    pub fn new(determined: Arc<Determined>, program: Arc<Program>, tolerance: f64, cancel: Cancel) -> Kinematics {
         let system = determined.system();
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
-        Kinematics {
-            determined,
-            program,
-            registers: program.start(&params),
-            linear: BlockLu::new(system, determined.blocks()),
-            tolerance,
-            bent: (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect(),
-            looked_at_beside: (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect(),
-            beside: vec![0.0; system.coordinates.len()],
-        }
+        let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
+        let bent = (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect();
+        let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
+        let beside = vec![0.0; system.coordinates.len()];
+        Kinematics { determined, program, registers, linear, tolerance, cancel, bent, looked_at_beside, beside }
     }
 
     /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
@@ -118,7 +116,8 @@ impl<'d> Kinematics<'d> {
     }
 
     fn look_beside(&mut self, q: &[f64]) {
-        let pattern = &self.system().phi_q;
+        let determined = self.determined();
+        let pattern = &determined.system().phi_q;
         // where a formula has no value it has no slope
         let lesser = |known: f64, found: f64| if found.is_finite() { f64::min(known, found) } else { known };
         let or_none = |least: f64| if least.is_finite() { least } else { 0.0 };
@@ -161,12 +160,18 @@ impl<'d> Kinematics<'d> {
         scaled.map(|x| x * x).sum::<f64>().sqrt()
     }
 
-    pub fn system(&self) -> &'d ConstraintSystem {
+    pub fn system(&self) -> &ConstraintSystem {
         self.determined.system()
     }
 
-    pub fn determined(&self) -> &'d Determined {
-        self.determined
+    /// Whether nobody waits for the result any more.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+
+    /// The mechanism, to be held while the state changes.
+    pub fn determined(&self) -> Arc<Determined> {
+        Arc::clone(&self.determined)
     }
 
     pub fn linear(&self) -> &BlockLu {
@@ -199,7 +204,7 @@ impl<'d> Kinematics<'d> {
     }
 
     /// Where the equations may have edges.
-    pub fn switches(&self) -> &'d [Switch] {
+    pub fn switches(&self) -> &[Switch] {
         self.program.switches()
     }
 
@@ -208,19 +213,21 @@ impl<'d> Kinematics<'d> {
         self.registers.get(switch.to)
     }
 
-    /// Sets the result of a switch that is frozen.
-    pub fn set_switch(&mut self, switch: &Switch, value: f64) {
-        self.registers.set(switch.to, value);
+    /// Gives the switches the results that they had.
+    pub fn set_switches(&mut self, kept: &[f64]) {
+        for (switch, kept) in self.program.switches().iter().zip(kept) {
+            self.registers.set(switch.to, *kept);
+        }
     }
 
     /// Where formulas come to the end of what their functions take.
-    pub fn rims(&self) -> &'d [Rim] {
+    pub fn rims(&self) -> &[Rim] {
         &self.program.outputs.rims
     }
 
     /// Room for proofs about rims of time, and of the motion.
     pub fn enclosures_of_rims(&self) -> [Enclosure; 2] {
-        [true, false].map(|on_time| Enclosure::of_rims(self.program, &self.registers, on_time))
+        [true, false].map(|on_time| Enclosure::of_rims(&self.program, &self.registers, on_time))
     }
 
     /// A rim's gauge and its slope where time, position and velocity were set.
@@ -243,7 +250,7 @@ impl<'d> Kinematics<'d> {
     pub fn enclose_motion(&self, enclosure: &mut Enclosure, times: [f64; 2], [q, qd]: [&[[f64; 2]]; 2]) {
         enclosure.set_all(self.program.inputs.coordinates[0], q);
         enclosure.set_all(self.program.inputs.coordinates[1], qd);
-        enclosure.enclose(self.program, &self.registers, times);
+        enclosure.enclose(&self.program, &self.registers, times);
     }
 
     /// Whether a switch would have another result now if it were not frozen.
@@ -269,7 +276,7 @@ impl<'d> Kinematics<'d> {
     /// Room for proofs about what time alone decides, and about what the motion decides.
     pub fn enclosures(&self) -> [Enclosure; 2] {
         let of = [Enclosure::of_time, Enclosure::of_motion];
-        of.map(|enclosure| enclosure(self.program, &self.registers))
+        of.map(|enclosure| enclosure(&self.program, &self.registers))
     }
 
     /// What time alone decides about the equations, unless it is a straight line.
@@ -285,12 +292,12 @@ impl<'d> Kinematics<'d> {
 
     pub fn enclosure_of(&self, signals: &[Signal]) -> Enclosure {
         let registers: Vec<Register> = signals.iter().map(|signal| signal.register).collect();
-        Enclosure::of_registers(self.program, &self.registers, &registers)
+        Enclosure::of_registers(&self.program, &self.registers, &registers)
     }
 
     /// Encloses signals from one time (s) to another.
     pub fn enclose(&self, enclosure: &mut Enclosure, times: [f64; 2]) {
-        enclosure.enclose(self.program, &self.registers, times);
+        enclosure.enclose(&self.program, &self.registers, times);
     }
 
     /// How much of the mechanism's size each signal moves an equation by, for each unit of its own; `nudge` is the part of
@@ -335,7 +342,7 @@ impl<'d> Kinematics<'d> {
         coordinates: &[[f64; 2]],
         may_change: impl Fn(Register) -> bool,
     ) -> bool {
-        enclosure.is_steady(self.program, &self.registers, times, coordinates, may_change)
+        enclosure.is_steady(&self.program, &self.registers, times, coordinates, may_change)
     }
 
     /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
@@ -411,17 +418,17 @@ impl<'d> Kinematics<'d> {
 
     /// What solves for rows, in orders that suit the position that was factored; none where it would be too large.
     pub fn solver(&self) -> Option<Solver> {
-        Solver::new(self.determined, self.program, self)
+        Solver::new(&self.determined, &self.program, self)
     }
 
     /// As [`Kinematics::solver`], to be written as code.
     pub fn solver_for_code(&self) -> Option<Solver> {
-        Solver::for_code(self.determined, self.program, self)
+        Solver::for_code(&self.determined, &self.program, self)
     }
 
     /// The program with its registers, whose switches stand as they are in this step.
-    pub fn program(&self) -> (&'d Program, &Registers) {
-        (self.program, &self.registers)
+    pub fn program(&self) -> (&Program, &Registers) {
+        (&self.program, &self.registers)
     }
 
     /// By row, one over what may be left of it: its tolerance and what the coordinates' rounding makes, where the position was
@@ -543,7 +550,7 @@ impl<'d> Kinematics<'d> {
     /// Velocity, acceleration and, where needed, jerk of a state whose position was set and factored.
     pub fn derivatives(&mut self, state: &mut State) -> Result<(), Fault> {
         let linear = &mut self.linear;
-        rates(self.program, &mut self.registers, state, |registers, right, x| {
+        rates(&self.program, &mut self.registers, state, |registers, right, x| {
             linear.solve(|row| registers.get(right[row]), x);
         });
         self.all_finite(state)
@@ -583,7 +590,7 @@ impl<'d> Kinematics<'d> {
 
     /// Writes a result row of a state whose derivatives were just computed.
     pub fn write_row(&mut self, state: &State, row: &mut [f64]) {
-        let (program, registers) = (self.program, &mut self.registers);
+        let (program, registers) = (&*self.program, &mut self.registers);
         let [_, _, qdd, _] = program.inputs.coordinates;
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Measures, registers);
@@ -614,7 +621,7 @@ impl<'d> Kinematics<'d> {
         if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
             return false;
         }
-        rates(self.program, &mut self.registers, state, |registers, right, x| {
+        rates(&self.program, &mut self.registers, state, |registers, right, x| {
             pivoting.solve(|row| registers.get(right[row]), x);
         });
         let is_finite = self.all_finite(state).is_ok();
@@ -626,7 +633,7 @@ impl<'d> Kinematics<'d> {
 
     /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
-        let (program, registers) = (self.program, &mut self.registers);
+        let (program, registers) = (&*self.program, &mut self.registers);
         let [_, qd, qdd, qddd] = program.inputs.coordinates;
         // what measures share with the right sides is computed there, and has to be of these derivatives
         program.run(Stage::Velocity, registers);
@@ -676,7 +683,7 @@ impl<'d> Kinematics<'d> {
     }
 }
 
-impl Equations for Kinematics<'_> {
+impl Equations for Kinematics {
     fn set_position(&mut self, q: &[f64]) -> bool {
         Kinematics::set_position(self, q).is_ok()
     }
@@ -690,7 +697,7 @@ impl Equations for Kinematics<'_> {
     }
 }
 
-impl Values for Kinematics<'_> {
+impl Values for Kinematics {
     fn entry(&self, position: usize) -> f64 {
         let pattern = &self.system().phi_q;
         let column = pattern.entries()[position].0 as usize;

@@ -18,6 +18,7 @@ use super::touch::Before;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
 use crate::solver::Solver;
+use std::sync::Arc;
 
 /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
 /// from other coordinates: the upper end of a tall lift goes far.
@@ -47,10 +48,10 @@ pub(super) const MOST_STEPS: u64 = 1_000_000;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 #[allow(clippy::struct_excessive_bools)] // what has begun, what is wanted, what the row is worth: nothing of them follows from another
-pub struct Motion<'m, 'd> {
-    pub(super) rims: Rims<'d>,
-    pub(super) kinematics: &'m mut Kinematics<'d>,
-    pub(super) state: &'m mut State,
+pub struct Motion {
+    pub(super) rims: Rims,
+    pub(super) kinematics: Kinematics,
+    pub(super) state: State,
     pub(super) trial: State,
     pub(super) delta: Vec<f64>,
     pub(super) middle: Vec<f64>,
@@ -114,7 +115,7 @@ pub struct Motion<'m, 'd> {
     /// Whether it is near a position that may be a bifurcation to pass.
     pub(super) is_near: bool,
     pub(super) row: Vec<f64>,
-    pub(super) output: Output<'m>,
+    pub(super) output: Output,
 }
 
 /// How well a step went.
@@ -124,27 +125,24 @@ pub(super) struct Accepted {
     pub motion: f64,
 }
 
-impl<'m, 'd> Motion<'m, 'd> {
-    pub(super) fn new(
-        kinematics: &'m mut Kinematics<'d>,
-        state: &'m mut State,
-        solver: Option<&'m Solver>,
-        times: Times,
-    ) -> Motion<'m, 'd> {
+impl Motion {
+    pub(super) fn new(mut kinematics: Kinematics, state: State, solver: Option<Arc<Solver>>, times: Times) -> Motion {
         let span = times.span();
-        let output = Output::new(kinematics, state, solver, times);
+        let output = Output::new(&kinematics, &state, solver, times);
         let n = state.q.len();
         let blocks = kinematics.linear().blocks();
         let watches = kinematics.system().watches.len();
         let smallest = SMALLEST_STEP * span;
+        let signals = Signals::new(&mut kinematics, &state);
+        let rims = Rims::new(&kinematics, &state);
         let switches = kinematics.switches();
         let [in_time, along] = kinematics.enclosures();
         Motion {
-            rims: Rims::new(kinematics, state),
+            rims,
             // what happens in no time at all is measured by the second
             span: if span > 0.0 { span } else { 1.0 },
             last: state.t + span,
-            signals: Signals::new(kinematics, state),
+            signals,
             in_time,
             along,
             curve: vec![[0.0; 6]; n],
@@ -234,16 +232,16 @@ impl<'m, 'd> Motion<'m, 'd> {
     /// Derivatives at the start.
     pub(super) fn begin(&mut self) -> Result<(), Box<Diagnostic>> {
         self.begun = true;
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         if !self.kinematics.switches().is_empty() {
             // which way it goes on decides on which side of an edge it begins
-            let _ = self.kinematics.derivatives(self.state);
+            let _ = self.kinematics.derivatives(&mut self.state);
             self.settle(Some(behind_start(self.state.t, self.span)));
-            self.kinematics.restore(self.state);
+            self.kinematics.restore(&self.state);
         }
         self.begin_determinants();
         self.kinematics.sides(&mut self.sides);
-        if let Err(fault) = self.kinematics.derivatives(self.state) {
+        if let Err(fault) = self.kinematics.derivatives(&mut self.state) {
             return Err(Box::new(self.explain_start(fault)));
         }
         Ok(())
@@ -251,7 +249,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     pub(super) fn explain_start(&mut self, fault: Fault) -> Diagnostic {
         let t = self.state.t;
-        singular::explain(self.kinematics, self.state, fault, 0.0, t)
+        singular::explain(&mut self.kinematics, &self.state, fault, 0.0, t)
     }
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
@@ -265,7 +263,7 @@ impl<'m, 'd> Motion<'m, 'd> {
         self.keep_away()?;
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
-            self.is_certain = Self::trustworthy(self.kinematics, &self.trial).is_ok();
+            self.is_certain = Self::trustworthy(&mut self.kinematics, &self.trial).is_ok();
             self.is_near = self.pass && !self.is_clear();
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
@@ -352,7 +350,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// What is printed must not be rounding: `q` is known to eps/σ, and a position that is wrong by so much has
     /// derivatives that are wrong by as much again as the equations amplify, which near a dead point is 1/σ too.
-    pub(super) fn trustworthy(kinematics: &mut Kinematics<'_>, state: &State) -> Result<(), Fault> {
+    pub(super) fn trustworthy(kinematics: &mut Kinematics, state: &State) -> Result<(), Fault> {
         let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
         let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
         if uncertain > ACCURACY { Err(Fault::Uncertain) } else { Ok(()) }
@@ -392,7 +390,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     /// The quintic with value, slope and curvature of both ends, by its coefficients.
     pub(super) fn draw_curve(&mut self, h: f64) {
-        let (a, b) = (&*self.state, &self.trial);
+        let (a, b) = (&self.state, &self.trial);
         for (k, curve) in self.curve.iter_mut().enumerate() {
             let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);
             // what is left of value, slope and half the curvature at the end
@@ -407,7 +405,7 @@ impl<'m, 'd> Motion<'m, 'd> {
 
     pub(super) fn accept(&mut self, h: f64, accepted: &Accepted) {
         if !self.kinematics.switches().is_empty() {
-            let (a, b, linear) = (&*self.state, &self.trial, self.kinematics.linear());
+            let (a, b, linear) = (&self.state, &self.trial, self.kinematics.linear());
             let change = |a: &[f64], b: &[f64]| {
                 let scaled = |k: usize| (b[k] - a[k]).abs() / linear.column_scale(k);
                 (0..a.len()).map(scaled).fold(0.0, f64::max)

@@ -41,12 +41,14 @@ pub use determine::determine;
 pub use march::Motion;
 pub use times::Times;
 
+use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
 use kinematics::{Kinematics, State};
+use std::sync::Arc;
 
 /// Bounds each row of Φ unless told otherwise, scaled.
 pub const TOLERANCE: f64 = 1e-12;
@@ -60,33 +62,34 @@ fn aslant(column: usize) -> f64 {
 }
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
-pub struct Started<'d> {
-    kinematics: Kinematics<'d>,
+pub struct Started {
+    kinematics: Kinematics,
     state: State,
     moved: Moved,
     /// What solves for the rows; none where it would be too large.
-    solver: Option<Solver>,
+    solver: Option<Arc<Solver>>,
 }
 
 /// Assembles a mechanism at time `t` (s).
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start<'d>(
-    determined: &'d Determined,
-    program: &'d Program,
+pub fn start(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
     t: f64,
     tolerance: f64,
-) -> Result<Started<'d>, Box<Diagnostic>> {
-    let mut kinematics = Kinematics::new(determined, program, tolerance);
+    cancel: &Cancel,
+) -> Result<Started, Box<Diagnostic>> {
+    let mut kinematics = Kinematics::new(determined, program, tolerance, cancel.clone());
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
-    let solver = kinematics.solver();
+    let solver = kinematics.solver().map(Arc::new);
     Ok(Started { kinematics, state, moved, solver })
 }
 
-impl<'d> Started<'d> {
+impl Started {
     /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {
@@ -119,7 +122,7 @@ impl<'d> Started<'d> {
     /// What solves for rows; none where it would be too large.
     #[must_use]
     pub fn solver(&self) -> Option<&Solver> {
-        self.solver.as_ref()
+        self.solver.as_deref()
     }
 
     /// The same operations, to be written as code.
@@ -146,13 +149,13 @@ impl<'d> Started<'d> {
 
     /// The motion from the start on, a row for each of some times, which do not come before the start.
     #[must_use]
-    pub fn motion(&mut self, times: &Times) -> Motion<'_, 'd> {
-        Motion::new(&mut self.kinematics, &mut self.state, self.solver.as_ref(), times.clone())
+    pub fn into_motion(self, times: &Times) -> Motion {
+        Motion::new(self.kinematics, self.state, self.solver, times.clone())
     }
 }
 
 /// Names of a result's columns, in order.
-fn columns(system: &ConstraintSystem) -> Vec<String> {
+pub(crate) fn columns(system: &ConstraintSystem) -> Vec<String> {
     let coordinates = || system.coordinates.iter().map(|coordinate| coordinate.name.clone());
     let mut columns = vec!["t".to_owned()];
     columns.extend(coordinates());

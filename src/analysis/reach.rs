@@ -48,7 +48,7 @@ struct Fold<'b> {
     extent: f64,
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// When the mechanism comes to the end of its reach, if at some time on a bridge no position meets the equations to their
     /// tolerance. Where that cannot be told they are taken to be met.
     pub(super) fn end_of_reach(&mut self, bridge: &Bridge) -> Option<f64> {

@@ -54,8 +54,8 @@ struct Met {
 }
 
 /// What is known of the rims.
-pub(super) struct Rims<'d> {
-    all: &'d [Rim],
+pub(super) struct Rims {
+    all: Vec<Rim>,
     of_time: Vec<usize>,
     of_motion: Vec<usize>,
     in_time: Enclosure,
@@ -72,18 +72,19 @@ pub(super) struct Rims<'d> {
     limits: Limits,
 }
 
-impl<'d> Rims<'d> {
-    pub fn new(kinematics: &Kinematics<'d>, state: &State) -> Rims<'d> {
-        let all = kinematics.rims();
+impl Rims {
+    pub fn new(kinematics: &Kinematics, state: &State) -> Rims {
+        let all = kinematics.rims().to_vec();
         let of = |on_time: bool| (0..all.len()).filter(|&k| all[k].on_time == on_time).collect();
+        let (of_time, of_motion) = (of(true), of(false));
         let [in_time, along] = kinematics.enclosures_of_rims();
         Rims {
+            passed: vec![state.t; all.len()],
             all,
-            of_time: of(true),
-            of_motion: of(false),
+            of_time,
+            of_motion,
             in_time,
             along,
-            passed: vec![state.t; all.len()],
             met: None,
             end: None,
             boxes: vec![[0.0; 2]; state.q.len()],
@@ -94,7 +95,7 @@ impl<'d> Rims<'d> {
     }
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// When the next step has to end for a rim of time, or for the end of the motion, if it comes to one before `reach` (s).
     pub(super) fn next_rim(&mut self, reach: f64) -> Option<f64> {
         let end = self.rims.end.as_ref().map(|(t, _)| t - (shortly_after(*t) - t) * (LAST_MOMENT / 4.0));
@@ -312,9 +313,9 @@ impl Motion<'_, '_> {
         self.rims.passed[rim] = t;
         let verdict = if self.is_reached(rim, t) { self.look_at_sides(rim, t) } else { Verdict::Smooth };
         self.restore_switches();
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         // the state was computed once, so that this cannot fail now
-        let _ = self.kinematics.derivatives(self.state);
+        let _ = self.kinematics.derivatives(&mut self.state);
         let (system, behind) = (self.kinematics.system(), &self.kinematics.system().rims[rim].declarations);
         let limits = &self.rims.limits;
         let why = match verdict {
@@ -406,7 +407,7 @@ impl Motion<'_, '_> {
     fn state_at(&mut self, rim: usize, t: f64, is_after: bool) -> Option<f64> {
         self.restore_switches();
         self.kinematics.settle_time(t);
-        let near = self.rims.limits.nearest(is_after).unwrap_or(self.state);
+        let near = self.rims.limits.nearest(is_after).unwrap_or(&self.state);
         let h = t - near.t;
         self.trial.t = t;
         for (k, q) in self.trial.q.iter_mut().enumerate() {
@@ -487,9 +488,7 @@ impl Motion<'_, '_> {
     }
 
     fn restore_switches(&mut self) {
-        for (kept, switch) in self.rims.switches.iter().zip(self.kinematics.switches()) {
-            self.kinematics.set_switch(switch, *kept);
-        }
+        self.kinematics.set_switches(&self.rims.switches);
     }
 }
 

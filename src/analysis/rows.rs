@@ -13,6 +13,7 @@ use super::singular;
 use super::times::Times;
 use crate::diag::Diagnostic;
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
+use std::sync::Arc;
 
 /// Times that are solved at once.
 const LANES: usize = 16;
@@ -29,7 +30,7 @@ const REFINED: f64 = 1e-8;
 const STEPS_AHEAD: usize = 1_000;
 
 /// The output times, and the rows that are ready.
-pub(super) struct Output<'m> {
+pub(super) struct Output {
     times: Times,
     /// The number of the time that comes next.
     next: u64,
@@ -41,7 +42,7 @@ pub(super) struct Output<'m> {
     careful_until: f64,
     /// Whether a step may go over several output times.
     may_leap: bool,
-    rows: Option<Rows<'m>>,
+    rows: Option<Rows>,
     /// By measure.
     missing: Vec<Missing>,
     /// The edge that the last step ended at, if its later side has not been taken yet.
@@ -73,8 +74,8 @@ impl Missing {
 }
 
 /// Rows within a step, a few at a time.
-struct Rows<'m> {
-    solver: &'m Solver,
+struct Rows {
+    solver: Arc<Solver>,
     /// The registers of each thread.
     lanes: Vec<Lanes<LANES>>,
     values: Vec<f64>,
@@ -103,12 +104,12 @@ struct Rows<'m> {
     bends: Vec<Bend>,
 }
 
-impl Rows<'_> {
+impl Rows {
     /// Solves at one time, of a step from a time and of a length; says whether it holds.
-    fn solve_alone(&mut self, kinematics: &Kinematics<'_>, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
+    fn solve_alone(&mut self, kinematics: &Kinematics, curve: &[[f64; 6]], [from, length, t]: [f64; 3]) -> bool {
         let batch = Batch { times: [t], from, length, curve, bends: &[], bounds: &self.bounds };
         let (program, registers) = kinematics.program();
-        let [holds] = self.alone.run(self.solver, program, registers, &batch, &mut self.alone_row);
+        let [holds] = self.alone.run(&self.solver, program, registers, &batch, &mut self.alone_row);
         holds
     }
 
@@ -147,8 +148,8 @@ pub(super) struct Bookmark {
     h: f64,
 }
 
-impl<'m> Output<'m> {
-    pub fn new(kinematics: &Kinematics<'_>, state: &State, solver: Option<&'m Solver>, times: Times) -> Output<'m> {
+impl Output {
+    pub fn new(kinematics: &Kinematics, state: &State, solver: Option<Arc<Solver>>, times: Times) -> Output {
         // what was left out of the equations is looked at wherever a row is printed
         let may_leap = kinematics.system().checks.is_empty();
         let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
@@ -167,18 +168,17 @@ fn threads(solver: &Solver) -> usize {
     std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS))
 }
 
-impl<'m> Rows<'m> {
-    fn new(kinematics: &Kinematics<'_>, state: &State, solver: &'m Solver) -> Rows<'m> {
-        let threads = threads(solver);
+impl Rows {
+    fn new(kinematics: &Kinematics, state: &State, solver: Arc<Solver>) -> Rows {
+        let threads = threads(&solver);
         Rows {
-            solver,
-            lanes: vec![Lanes::new(solver); threads],
+            lanes: vec![Lanes::new(&solver); threads],
             values: vec![0.0; threads * LANES * solver.layout().stride],
             holds: vec![[false; LANES]; threads],
-            alone: Lanes::new(solver),
+            alone: Lanes::new(&solver),
             alone_row: vec![0.0; solver.layout().stride],
             rest: vec![[0.0; 6]; kinematics.system().coordinates.len()],
-            pivoting: Pivoting::new(kinematics.determined()),
+            pivoting: Pivoting::new(&kinematics.determined()),
             first: 0,
             end: 0,
             last: 0,
@@ -196,11 +196,12 @@ impl<'m> Rows<'m> {
             before: state.clone(),
             is_smooth: false,
             bends: vec![Bend::NONE; solver.tears().len()],
+            solver,
         }
     }
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// The row of the next output time, in the order of `Started::columns`; none behind the last one, and where the motion
     /// could not go on.
     ///
@@ -213,6 +214,11 @@ impl Motion<'_, '_> {
         let t = self.output.times.at(self.output.next);
         let place = match self.reach(t) {
             Ok(place) => place,
+            // who cancelled does not wait for a reason
+            Err(_) if self.kinematics.is_cancelled() => {
+                self.output.has_stopped = true;
+                return None;
+            }
             Err(diagnostic) => {
                 self.output.has_stopped = true;
                 return Some(Err(diagnostic));
@@ -308,7 +314,7 @@ impl Motion<'_, '_> {
     fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         self.output.steps += 1;
         if self.output.steps > MOST_STEPS {
-            return Err(Box::new(singular::explain_haste(self.kinematics, self.state, MOST_STEPS, t)));
+            return Err(Box::new(singular::explain_haste(&mut self.kinematics, &self.state, MOST_STEPS, t)));
         }
         Ok(())
     }
@@ -437,7 +443,7 @@ impl Motion<'_, '_> {
             let (slope, bend) = (h * self.state.qd[k], 0.5 * h * h * self.state.qdd[k]);
             self.curve[k] = [self.state.q[k], slope, bend, 0.0, 0.0, 0.0];
         }
-        if !rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, t]) {
+        if !rows.solve_alone(&self.kinematics, &self.curve, [self.state.t, h, t]) {
             // one that is far off wants a shorter step, and not more care
             let size = rows.alone.first_correction();
             return Some(size).filter(|size| *size > LARGEST_CORRECTION && !self.is_short(h));
@@ -463,7 +469,7 @@ impl Motion<'_, '_> {
             return f64::NAN;
         };
         if rows.last - rows.first < ENOUGH {
-            rows.solve_alone(self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
+            rows.solve_alone(&self.kinematics, &self.curve, [self.state.t, h, self.state.t + probe * h]);
             return rows.alone.first_correction();
         }
         self.solve_batch();
@@ -507,7 +513,7 @@ impl Motion<'_, '_> {
         }
         (rows.length, rows.is_smooth) = (h, !to_edge);
         self.kinematics.write_bounds(&mut rows.bounds);
-        origin.state.copy_from(self.state);
+        origin.state.copy_from(&self.state);
         origin.clear.copy_from(&self.clear);
         origin.determinants.copy_from_slice(&self.determinants);
         origin.sides.copy_from_slice(&self.sides);
@@ -587,7 +593,7 @@ impl Motion<'_, '_> {
             && self.same_branch().is_ok()
             && self.kinematics.derivatives(&mut self.trial).is_ok()
             && self.is_clear()
-            && Self::trustworthy(self.kinematics, &self.trial).is_ok();
+            && Self::trustworthy(&mut self.kinematics, &self.trial).is_ok();
         if is_solved {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
@@ -606,7 +612,7 @@ impl Motion<'_, '_> {
         }
         let batch = Batch { times: [t], from: t, length: 1.0, curve: &rows.rest, bends: &[], bounds: &rows.bounds };
         let (program, registers) = self.kinematics.program();
-        let [holds] = rows.alone.run(rows.solver, program, registers, &batch, &mut rows.alone_row);
+        let [holds] = rows.alone.run(&rows.solver, program, registers, &batch, &mut rows.alone_row);
         let printed = self.row.len();
         let mut is_solved = holds;
         if !holds && let Some(pivoting) = &mut rows.pivoting {
@@ -614,7 +620,7 @@ impl Motion<'_, '_> {
             let n = self.trial.q.len();
             self.trial.q.copy_from_slice(&self.row[1..=n]);
             is_solved = self.kinematics.pivoted_row(pivoting, &mut self.trial, &mut rows.alone_row[..printed]);
-            self.kinematics.restore(self.state);
+            self.kinematics.restore(&self.state);
         }
         let refined = &rows.alone_row[..printed];
         // where both do not agree the position is too near to a singular one for the grid
@@ -661,7 +667,7 @@ impl Motion<'_, '_> {
                 None => {}
             }
             // a step that failed leaves the factors of where it failed
-            self.kinematics.restore(self.state);
+            self.kinematics.restore(&self.state);
             if self.state.t >= ahead || (is_certain && self.state.t > t && self.is_clear()) {
                 break;
             }
@@ -689,7 +695,7 @@ impl Motion<'_, '_> {
         self.row = row;
         self.kinematics.restore(&here.state);
         self.refine(here.state.t);
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         self.plain = Some(here);
         false
     }
@@ -750,7 +756,7 @@ impl Motion<'_, '_> {
         if !self.kinematics.switches().is_empty() {
             self.settle(Some(behind_start(self.state.t, self.span)));
         }
-        self.kinematics.restore(self.state);
+        self.kinematics.restore(&self.state);
         self.begin_determinants();
         // as they were accepted, should the position be so near to a singular one that they are rounding
         self.determinants.copy_from_slice(&to.determinants);
@@ -758,9 +764,13 @@ impl Motion<'_, '_> {
 
     /// The row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
-        self.kinematics.restore(self.state);
-        match self.kinematics.derivatives(self.state).and_then(|()| Self::trustworthy(self.kinematics, self.state)) {
-            Ok(()) => self.kinematics.write_row(self.state, &mut self.row),
+        self.kinematics.restore(&self.state);
+        match self
+            .kinematics
+            .derivatives(&mut self.state)
+            .and_then(|()| Self::trustworthy(&mut self.kinematics, &self.state))
+        {
+            Ok(()) => self.kinematics.write_row(&self.state, &mut self.row),
             Err(fault) => return Err(Box::new(self.explain_start(fault))),
         }
         Ok(())

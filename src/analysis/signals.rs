@@ -26,7 +26,7 @@ pub(super) struct Signals {
 
 impl Signals {
     /// With what the signals do to the equations of a state.
-    pub fn new(kinematics: &mut Kinematics<'_>, state: &State) -> Signals {
+    pub fn new(kinematics: &mut Kinematics, state: &State) -> Signals {
         let all = kinematics.signals();
         kinematics.restore(state);
         // what follows without iteration has no branches: there only a formula may end
@@ -39,7 +39,7 @@ impl Signals {
     }
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// Looks for what signals do between the ends of a step of length `h`, whose curve must have been drawn.
     pub(super) fn look_at_signals(&mut self, h: f64) -> Result<(), Fault> {
         if self.signals.all.is_empty() {

@@ -18,19 +18,20 @@ const SEEN: f64 = 1e-3;
 const TAKES_PART: f64 = 1e-3;
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
-pub(super) fn explain(kinematics: &mut Kinematics<'_>, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
+pub(super) fn explain(kinematics: &mut Kinematics, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {
     explain_fold(kinematics, state, fault, [h, target], None)
 }
 
 /// The same, where it may be known when the mechanism comes to the end of its reach, `fold` (s).
 pub(super) fn explain_fold(
-    kinematics: &mut Kinematics<'_>,
+    kinematics: &mut Kinematics,
     state: &State,
     fault: Fault,
     [h, target]: [f64; 2],
     fold: Option<f64>,
 ) -> Diagnostic {
-    let system = kinematics.system();
+    let determined = kinematics.determined();
+    let system = determined.system();
     if let Fault::NotFinite { .. } | Fault::Condition { .. } = fault {
         return errors::no_value(system, fault, state.t + h);
     }
@@ -85,9 +86,10 @@ fn time_of_fold(system: &ConstraintSystem, state: &State, right: &[f64]) -> f64 
 }
 
 /// What is said of a singular position beyond which the motion goes on; `passed` is whether it does.
-pub(super) fn explain_contact(kinematics: &mut Kinematics<'_>, state: &State, passed: bool) -> Diagnostic {
+pub(super) fn explain_contact(kinematics: &mut Kinematics, state: &State, passed: bool) -> Diagnostic {
     kinematics.restore(state);
-    let (system, singular) = (kinematics.system(), kinematics.worst());
+    let singular = kinematics.worst();
+    let system = kinematics.system();
     let (joints, columns) = (joints_in(system, &singular.left), columns_in(&singular.right));
     match driver_in(system, &singular.left) {
         Some(row) => errors::driver_rests(system, row, &joints, state.t, passed),
@@ -97,22 +99,23 @@ pub(super) fn explain_contact(kinematics: &mut Kinematics<'_>, state: &State, pa
 }
 
 /// The watch over a line of centres that vanishes, or nearly so, where the position was set.
-pub(super) fn centers_that_meet(kinematics: &Kinematics<'_>) -> Option<usize> {
+pub(super) fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
     let watches = &kinematics.system().watches;
     let meet = |k: &usize| watches[*k].kind == WatchKind::LineOfCenters && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(meet)
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
-fn flat_contact(kinematics: &Kinematics<'_>) -> Option<usize> {
+fn flat_contact(kinematics: &Kinematics) -> Option<usize> {
     let watches = &kinematics.system().watches;
     let flat = |k: &usize| watches[*k].kind == WatchKind::Curvature && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(flat).map(|k| watches[k].declaration)
 }
 
 /// The diagnosis where so many steps did not get to `target`.
-pub(super) fn explain_haste(kinematics: &mut Kinematics<'_>, state: &State, steps: u64, target: f64) -> Diagnostic {
-    let system = kinematics.system();
+pub(super) fn explain_haste(kinematics: &mut Kinematics, state: &State, steps: u64, target: f64) -> Diagnostic {
+    let determined = kinematics.determined();
+    let system = determined.system();
     match without_value(kinematics, state, target) {
         Some(fault) => errors::no_value(system, fault, target),
         None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state, target)),
@@ -120,7 +123,7 @@ pub(super) fn explain_haste(kinematics: &mut Kinematics<'_>, state: &State, step
 }
 
 /// Why a formula has no value at a time, the position being as it is.
-fn without_value(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Option<Fault> {
+fn without_value(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
     kinematics.set_time(t);
     kinematics.set_position(&state.q).err()
 }
@@ -273,8 +276,9 @@ fn columns_in(right: &[f64]) -> Vec<usize> {
 }
 
 /// The row of the driver that asks for the fastest motion from the state on, be it up to a time `t` just ahead (s) by a jump.
-fn fastest_driver(kinematics: &mut Kinematics<'_>, state: &State, t: f64) -> Option<usize> {
-    let system = kinematics.system();
+fn fastest_driver(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<usize> {
+    let determined = kinematics.determined();
+    let system = determined.system();
     kinematics.restore(state);
     // the speeds that are asked for are known though those of the mechanism may not be
     let _ = kinematics.derivatives(&mut state.clone());

@@ -34,7 +34,7 @@ impl Before {
     pub(super) const UNKNOWN: Before = Before { h: 0.0, smallest_pivot: 0.0 };
 }
 
-impl Motion<'_, '_> {
+impl Motion {
     /// Takes the determinants where the state was factored, there being none before to compare with.
     pub(super) fn begin_determinants(&mut self) {
         self.kinematics.linear().determinants(&mut self.determinants);

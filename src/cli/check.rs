@@ -6,23 +6,16 @@ use super::files;
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
-use crate::analysis::{self, Started};
+use crate::analysis::Times;
 use crate::diag::readable;
-use crate::ir::{ConstraintSystem, DeclarationKind};
-use crate::program::Program;
-use crate::source::Sources;
-use crate::structure::{self, Determined};
+use crate::stages::{Assembly, Compiled, RunOptions};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let determined =
-        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
-    let system = determined.system();
-    let program = Program::new(system);
-    let t = system.analysis.map_or(0.0, |[from, ..]| from);
-    let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
-    reporter.print(&started.remarks());
-    let report = report(&determined, started, t, &reporter.sources);
-    files::print(&report)
+    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+    let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
+    let (run, said) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
+    let run = reporter.settle(run, said)?;
+    files::print(&report(&compiled, run.assembly()))
 }
 
 /// As many as a reader compares with a drawing.
@@ -31,38 +24,29 @@ fn nine_digits(value: f64) -> f64 {
 }
 
 /// Each driver with its equation as it is written.
-fn drivers(system: &ConstraintSystem, sources: &Sources) -> String {
-    let drivers: Vec<(&str, String)> = system
-        .declarations
-        .iter()
-        .filter(|declaration| declaration.kind == DeclarationKind::Driver)
-        .filter_map(|driver| Some((driver.name.as_str(), sources.text(driver.written?))))
-        .map(|(name, text)| (name, text.split_whitespace().collect::<Vec<&str>>().join(" ")))
-        .collect();
+fn drivers(compiled: &Compiled) -> String {
+    let drivers = compiled.drivers();
     let width = drivers.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     drivers.iter().fold(String::new(), |all, (name, text)| all + &format!("  {name:<width$}  {text}\n"))
 }
 
-fn report(determined: &Determined, mut started: Started<'_>, t: f64, sources: &Sources) -> String {
-    let system = determined.system();
-    let moved = started.moved().in_words(system);
-    let conditioning = started.conditioning();
-    let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", system.name);
-    text += &structure::table(system);
+fn report(compiled: &Compiled, assembly: &Assembly) -> String {
+    let mut text = format!("mechanism {} is determined: NDOF = 0\n\n", compiled.name());
+    text += &compiled.counts();
     text += "\n";
-    let drivers = drivers(system, sources);
+    let drivers = drivers(compiled);
     if !drivers.is_empty() {
         text += &format!("\ndrivers\n{drivers}");
     }
     text += "\norder of solution\n";
-    text += &structure::order_of_solution(determined);
-    text += &format!("\nat t = {} s\n  {moved}\n", readable(t));
-    text += &format!("  distance to a singular position: {conditioning:.2} (1 is far, 0 is singular)\n");
-    for (coordinate, q) in system.coordinates.iter().zip(started.q()) {
+    text += &compiled.order_of_solution();
+    text += &format!("\nat t = {} s\n  {}\n", readable(assembly.t), assembly.moved);
+    text += &format!("  distance to a singular position: {:.2} (1 is far, 0 is singular)\n", assembly.conditioning);
+    for (name, q, unit) in &assembly.coordinates {
         // less than an atom is nothing
         let q = if q.abs() < 1e-12 { 0.0 } else { *q };
-        let value = format!("{} {}", readable(nine_digits(q)), coordinate.kind.unit());
-        text += &format!("  {} = {}\n", coordinate.name, value.trim_end());
+        let value = format!("{} {unit}", readable(nine_digits(q)));
+        text += &format!("  {name} = {}\n", value.trim_end());
     }
     text
 }

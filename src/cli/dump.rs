@@ -5,15 +5,20 @@ use super::failure::Failure;
 use super::files::Output;
 use super::input;
 use super::report::Reporter;
-use crate::lower;
-use crate::syntax;
 
 pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let text = match arguments.stage {
-        Stage::Ast => syntax::format(&input::tree(&arguments.input, reporter)?),
-        Stage::Model => input::model(&arguments.input, reporter)?.to_string(),
+        Stage::Ast => {
+            let parsed = input::parsed(&arguments.input, reporter)?;
+            let faults = parsed.faults().clone();
+            if faults.has_errors() {
+                return Err(faults.into());
+            }
+            parsed.formatted()
+        }
+        Stage::Model => input::model(&arguments.input, reporter)?.model_text().unwrap_or_default(),
         // the equations can be looked at even where they are too many or too few
-        Stage::Ir => lower::lower(&input::model(&arguments.input, reporter)?).to_string(),
+        Stage::Ir => input::model(&arguments.input, reporter)?.equations_text().unwrap_or_default(),
     };
     Output::write(&arguments.output, &text, &reporter.sources)
 }

@@ -8,10 +8,8 @@ use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
 use crate::diag::{Code, Diagnostic};
-use crate::emit::{self, MARK, Motion, Unit};
-use crate::program::Program;
-use crate::source::Sources;
-use crate::structure::Determined;
+use crate::emit::MARK;
+use crate::stages::{Compiled, RustOptions};
 use std::path::Path;
 
 /// The forms by their endings.
@@ -26,74 +24,37 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     if arguments.lanes.is_some() {
         can_have_lanes(arguments, format)?;
     }
-    let determined =
-        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
+    let options = RustOptions {
+        with_motion: arguments.with == Content::Solver,
+        lanes: arguments.lanes,
+        ..RustOptions::of(&*file)
+    };
     if let Some(folder) = &arguments.folder {
-        return package(&determined, arguments, folder, &file, reporter);
+        return package(&compiled, folder, &options, reporter);
     }
     let text = match format {
-        EmitFormat::Rust => rust(&determined, arguments, &file, reporter)?,
-        EmitFormat::Latex => emit::latex(determined.system(), &file),
-        EmitFormat::Json => emit::json(determined.system(), &reporter.sources, &file),
+        EmitFormat::Rust => {
+            let (text, said) = compiled.rust(&options);
+            reporter.settle(text, said)?
+        }
+        EmitFormat::Latex => compiled.latex(&file),
+        EmitFormat::Json => compiled.json(&file),
     };
     Output::write(&arguments.output, &text, &reporter.sources)
 }
 
-fn rust(
-    determined: &Determined,
-    arguments: &EmitArguments,
-    file: &str,
-    reporter: &mut Reporter,
-) -> Result<String, Failure> {
-    let program = Program::new(determined.system());
-    let motion = match arguments.with {
-        Content::Equations => None,
-        Content::Solver => Some(motion(determined, &program, reporter)?),
-    };
-    let sources = &reporter.sources;
-    Ok(emit::rust(&unit(determined, &program, sources, file, motion, arguments)?))
-}
-
-/// What is emitted.
-fn unit<'u>(
-    determined: &'u Determined,
-    program: &'u Program,
-    sources: &'u Sources,
-    file: &'u str,
-    motion: Option<Motion>,
-    arguments: &EmitArguments,
-) -> Result<Unit<'u>, Failure> {
-    let (system, lanes, largest_straight) = (determined.system(), arguments.lanes, emit::LARGEST_STRAIGHT);
-    let unit = Unit { system, program, sources, file, motion, lanes, largest_straight };
-    if lanes.is_some() && emit::is_large(&unit) {
-        return Err(Diagnostic::new(
-            Code::E0706,
-            format!("lanes are for mechanisms of up to {largest_straight} operations"),
-        )
-        .help("leave `--lanes` out")
-        .into());
-    }
-    Ok(unit)
-}
-
 /// A crate: where the motion stops on its way, it is written with what there is, as a table is.
-fn package(
-    determined: &Determined,
-    arguments: &EmitArguments,
-    folder: &str,
-    file: &str,
-    reporter: &mut Reporter,
-) -> Result<(), Failure> {
-    let program = Program::new(determined.system());
-    let motion = Some(motion(determined, &program, reporter)?);
-    let (reference, said) = crate::reference(determined, &program)?;
-    let sources = &reporter.sources;
-    let unit = unit(determined, &program, sources, file, motion, arguments)?;
-    let name = folder_name(folder).unwrap_or_else(|| determined.system().name.clone());
-    let crate_files = emit::package(&unit, &reference, &name);
-    files::write_all(folder, crate_files.iter().map(|file| (file.path, file.text.as_str())), MARK, sources)?;
+fn package(compiled: &Compiled, folder: &str, options: &RustOptions, reporter: &Reporter) -> Result<(), Failure> {
+    let name = folder_name(folder).unwrap_or_else(|| compiled.name().to_owned());
+    let (crate_files, said) = compiled.package(&name, options);
+    let Some(crate_files) = crate_files else {
+        return Err(said.into());
+    };
+    let texts = crate_files.iter().map(|file| (file.path, file.text.as_str()));
+    files::write_all(folder, texts, MARK, &reporter.sources)?;
     if said.has_errors() {
         return Err(said.into());
     }
@@ -105,12 +66,6 @@ fn package(
 fn folder_name(folder: &str) -> Option<String> {
     let named = |path: &Path| path.file_name().map(|name| name.to_string_lossy().into_owned());
     named(Path::new(folder)).or_else(|| named(&Path::new(folder).canonicalize().ok()?))
-}
-
-fn motion(determined: &Determined, program: &Program, reporter: &Reporter) -> Result<Motion, Failure> {
-    let (motion, remarks) = crate::motion(determined, program)?;
-    reporter.print(&remarks);
-    Ok(motion.ok_or_else(too_large)?)
 }
 
 /// What has no lanes.
@@ -136,9 +91,4 @@ fn can_be_a_crate(arguments: &EmitArguments) -> Result<(), Failure> {
             .into());
     }
     Ok(())
-}
-
-fn too_large() -> Diagnostic {
-    Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
-        .help("leave it out with `--with equations`, in a file that `-o` names")
 }

@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use super::interrupts;
 use crate::diag::{Code, Diagnostic};
-use crate::source::{FileId, Sources, Span};
+use crate::source::{FileId, Sources};
+use crate::world::{self, Contents, World};
 use std::fs::{self, File};
 use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
@@ -19,57 +20,21 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
     } else {
         (name, fs::read(name))
     };
-    let bytes = bytes.map_err(|error| cannot_read(shown, &error))?;
-    text_of(shown, bytes, sources).map_err(Failure::from)
+    let bytes = bytes.map_err(|error| world::cannot_read(shown, &error))?;
+    world::take_in(shown, &bytes, sources).map_err(Failure::from)
 }
 
-fn text_of(shown: &str, bytes: Vec<u8>, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
-    if bytes.len() > u32::MAX as usize {
-        return Err(Box::new(cannot_read(shown, &io::Error::other("it is larger than 4 GB"))));
+/// The files of this machine.
+pub(super) struct Disk;
+
+impl World for Disk {
+    fn read(&self, path: &Path) -> io::Result<Contents> {
+        Ok(Contents { bytes: fs::read(path)?.into(), version: 0 })
     }
-    String::from_utf8(bytes).map(|text| sources.add(shown, text)).map_err(|error| {
-        let at = error.utf8_error().valid_up_to();
-        Box::new(not_utf8(shown, error.as_bytes(), at, sources))
-    })
-}
-
-/// The text of a file that a table names, beside the file that names it or in the current folder.
-pub(super) fn read_table(name: &str, beside: &str, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
-    let path = match Path::new(beside).parent() {
-        Some(folder) if beside != "-" => folder.join(name),
-        _ => PathBuf::from(name),
-    };
-    let shown = path.to_string_lossy().into_owned();
-    let bytes = fs::read(&path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
-    text_of(&shown, bytes, sources)
-}
-
-fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
-    Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error)))
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
-    Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", reason(error)))
-}
-
-/// The system's words, without its number.
-fn reason(error: &io::Error) -> String {
-    let text = error.to_string();
-    let text = text.split(" (os error").next().unwrap_or(&text);
-    let mut chars = text.chars();
-    chars.next().map_or(String::new(), |first| first.to_lowercase().chain(chars).collect())
-}
-
-/// Shows the text up to the byte that is not UTF-8.
-fn not_utf8(name: &str, bytes: &[u8], at: usize, sources: &mut Sources) -> Diagnostic {
-    let valid = String::from_utf8_lossy(&bytes[..at]).into_owned();
-    let file = sources.add(name, valid);
-    let end = sources.get(file).text.len() as u32;
-    let span = Span { file, start: end, end };
-    let byte = bytes.get(at).copied().unwrap_or_default();
-    Diagnostic::new(Code::E0102, format!("`{name}` is not UTF-8"))
-        .at(span, format!("the byte {byte:#04x} follows here"))
-        .help("save the file as UTF-8 in your editor")
+    Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", world::reason(error)))
 }
 
 /// Where results go: standard output, or a file that is replaced whole at the end.

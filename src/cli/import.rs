@@ -4,11 +4,8 @@ use super::arguments::ImportArguments;
 use super::failure::Failure;
 use super::files::{self, Output};
 use super::report::Reporter;
-use crate::check::Surroundings;
-use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::source::Sources;
-use crate::syntax::ast;
-use crate::{check, import, syntax};
+use crate::diag::{Code, Diagnostic};
+use crate::stages;
 
 pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if arguments.model == "-" && arguments.acf.as_deref() == Some("-") {
@@ -18,26 +15,7 @@ pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Re
     }
     let model = files::read(&arguments.model, &mut reporter.sources)?;
     let settings = arguments.acf.as_ref().map(|acf| files::read(acf, &mut reporter.sources)).transpose()?;
-    let (file, mut said) = import::import(model, settings, &reporter.sources);
-    if let Some(file) = &file {
-        said.extend(without_value(file, &reporter.sources));
-    }
-    match file.filter(|_| !said.has_errors()) {
-        None => Err(said.into()),
-        Some(file) => {
-            reporter.print(&said);
-            Output::write(&arguments.output, &syntax::format(&file), &reporter.sources)
-        }
-    }
-}
-
-/// Formulas that have no value, which only the checker can tell; the tree's places are those of the model file, so that
-/// it points there. Whatever else it may say of the mechanism is for `mechc check` to say.
-fn without_value(file: &ast::File, sources: &Sources) -> Diagnostics {
-    let mut found = Diagnostics::default();
-    for mechanism in &file.mechanisms {
-        let (_, said) = check::check(mechanism, &Surroundings::default(), sources);
-        found.extend(said.into_iter().filter(|one| matches!(one.code, Code::E0404 | Code::E0410)));
-    }
-    found
+    let (text, said) = stages::imported(model, settings, &reporter.sources);
+    let text = reporter.settle(text, said)?;
+    Output::write(&arguments.output, &text, &reporter.sources)
 }

@@ -46,6 +46,17 @@ impl Reporter {
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
     }
 
+    /// What a stage gave, its remarks printed; or why it gave nothing.
+    pub fn settle<T>(&self, made: Option<T>, said: Diagnostics) -> Result<T, Failure> {
+        match made {
+            None => Err(said.into()),
+            Some(made) => {
+                self.print(&said);
+                Ok(made)
+            }
+        }
+    }
+
     /// Says something that is no diagnostic.
     pub fn say(text: &str) {
         let _ = std::io::stderr().lock().write_all(text.as_bytes());

@@ -8,28 +8,28 @@ use super::input;
 use super::progress::Progress;
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
-use crate::analysis::{self, Started, Times};
+use crate::analysis::Times;
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::output::{TableFormat, TableWriter};
-use crate::program::Program;
 use crate::source::Sources;
+use crate::stages::{Run, RunOptions};
 use std::io::IsTerminal;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let format = format(arguments)?;
     let mut timings = Timings::new(arguments.timings);
-    let determined = input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
-    let times = times(arguments, determined.system().analysis, &mut reporter.sources)?;
+    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
+    let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.sources)?;
     if format == TableFormat::Parquet && output.is_terminal() {
         return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
     }
-    let program = Program::new(determined.system());
+    compiled.prepare();
     timings.end(Phase::Program);
-    let mut started = analysis::start(&determined, &program, times.from(), arguments.tolerance)?;
-    reporter.print(&started.remarks());
-    let table = Table { output, format, timings };
-    let ended = table.write(&mut started, &times, arguments.pass_bifurcations)?;
+    let RunArguments { tolerance, pass_bifurcations, .. } = *arguments;
+    let (run, said) = compiled.run(&times, &RunOptions { tolerance, pass_bifurcations, ..RunOptions::default() });
+    let run = reporter.settle(run, said)?;
+    let ended = Table { output, format, timings }.write(run)?;
     reporter.print(&ended.remarks);
     Reporter::say(&ended.timings);
     ended.result
@@ -54,23 +54,19 @@ struct Table {
 
 impl Table {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
-    fn write(mut self, started: &mut Started<'_>, times: &Times, pass: bool) -> Result<Ended, Failure> {
-        let columns = started.columns();
+    fn write(mut self, mut run: Run) -> Result<Ended, Failure> {
+        let (columns, count) = (run.columns().to_vec(), run.times().len());
         if std::io::stderr().is_terminal()
-            && let Some(text) = beforehand(times.len(), columns.len(), self.format)
+            && let Some(text) = beforehand(count, columns.len(), self.format)
         {
             Reporter::say(&text);
         }
-        let mut progress = Progress::new(times.len(), self.output.is_standard());
-        let mut motion = started.motion(times);
-        if pass {
-            motion.pass_bifurcations();
-        }
+        let mut progress = Progress::new(count, self.output.is_standard());
         let (mut stopped, mut rows) = (Ok(()), 0);
         let timings = &mut self.timings;
         let written = (|| {
             let mut table = TableWriter::new(self.output.writer(), self.format, &columns)?;
-            while let Some(row) = motion.next_row() {
+            while let Some(row) = run.next_row() {
                 timings.end(Phase::Solve);
                 match row {
                     Ok(row) => table.row(row)?,
@@ -91,7 +87,7 @@ impl Table {
         }
         self.output.close()?;
         self.timings.end(Phase::Write);
-        Ok(Ended { remarks: motion.take_remarks(), timings: self.timings.text(rows), result: stopped })
+        Ok(Ended { remarks: run.take_remarks(), timings: self.timings.text(rows), result: stopped })
     }
 }
 

@@ -8,8 +8,18 @@
 
 mod checked;
 mod compiled;
+mod constant;
+mod emitted;
+mod formula;
+mod imported;
 mod parsed;
+mod run;
 
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
+pub use constant::seconds;
+pub use emitted::RustOptions;
+pub use formula::{Formula, NAMES};
+pub use imported::imported;
 pub use parsed::Parsed;
+pub use run::{Assembly, Run, RunOptions};

@@ -1,0 +1,136 @@
+//! A compiled mechanism as code for others.
+
+use super::{Compiled, RunOptions};
+use crate::analysis::{self, Times};
+use crate::cancel::Cancel;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::emit::{self, File, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::solver::BlockTables;
+use std::sync::Arc;
+
+/// Rows and numbers at most that a crate is tested against.
+const MOST_ROWS: usize = 20;
+const MOST_NUMBERS: usize = 20_000;
+
+/// What Rust code is to hold.
+#[derive(Clone, Debug)]
+pub struct RustOptions {
+    /// The name of the file, for the header.
+    pub file: String,
+    /// Whether it assembles the mechanism and follows its motion, beside evaluating the equations.
+    pub with_motion: bool,
+    /// How many variants or times are solved at once, beside one alone.
+    pub lanes: Option<usize>,
+    /// Beyond so many operations they are written as tables instead of lines.
+    pub largest_straight: usize,
+}
+
+impl RustOptions {
+    /// All of one mechanism, from a file.
+    #[must_use]
+    pub fn of(file: impl Into<String>) -> RustOptions {
+        RustOptions { file: file.into(), with_motion: true, lanes: None, largest_straight: LARGEST_STRAIGHT }
+    }
+}
+
+impl Compiled {
+    /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
+    #[must_use]
+    pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
+        let mut said = Diagnostics::default();
+        match self.unit(options, &mut said) {
+            Ok(unit) => (Some(emit::rust(&unit)), said),
+            Err(why) => (None, (*why).into()),
+        }
+    }
+
+    /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
+    /// first second. Where the motion stops on its way, what is said tells why.
+    #[must_use]
+    pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
+        let mut said = Diagnostics::default();
+        let made = self.unit(options, &mut said).and_then(|unit| {
+            let reference = self.reference(&mut said)?;
+            Ok(emit::package(&unit, &reference, name))
+        });
+        match made {
+            Ok(files) => (Some(files), said),
+            Err(why) => (None, (*why).into()),
+        }
+    }
+
+    fn unit<'u>(&'u self, options: &'u RustOptions, said: &mut Diagnostics) -> Result<Unit<'u>, Box<Diagnostic>> {
+        let motion = if options.with_motion { Some(self.motion(said)?) } else { None };
+        let (system, program, sources) = (self.system(), &**self.program(), self.sources());
+        let RustOptions { file, lanes, largest_straight, .. } = options;
+        let (lanes, largest_straight) = (*lanes, *largest_straight);
+        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight };
+        if lanes.is_some() && emit::is_large(&unit) {
+            let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
+            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
+        }
+        Ok(unit)
+    }
+
+    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s.
+    fn motion(&self, said: &mut Diagnostics) -> Result<Motion, Box<Diagnostic>> {
+        let from = self.analysis().map_or(0.0, |[from, ..]| from);
+        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        let mut started = analysis::start(determined, program, from, analysis::TOLERANCE, &Cancel::default())?;
+        said.extend(started.remarks());
+        let solver = started.solver_for_code().ok_or_else(|| Box::new(too_large()))?;
+        Ok(Motion {
+            solver,
+            blocks: BlockTables::new(self.determined()),
+            q: started.q().to_vec(),
+            bounds: started.bounds(),
+            from,
+            to: self.times().map(|times| times.at(times.len().saturating_sub(1))),
+            tolerance: analysis::TOLERANCE,
+        })
+    }
+
+    /// The motion over the file's analysis, or over the first second where it has none.
+    fn reference(&self, said: &mut Diagnostics) -> Result<Reference, Box<Diagnostic>> {
+        let [from, to, every] = self.analysis().unwrap_or([0.0, 1.0, 0.1]);
+        let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
+        // without an analysis the last time is left out: only that of an analysis belongs to what was before an edge
+        let count = if self.analysis().is_some() { times.len() } else { times.len() - 1 };
+        let (run, remarks) = self.run(&times, &RunOptions::default());
+        let Some(mut run) = run else {
+            return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
+        };
+        let columns = run.columns().to_vec();
+        let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
+        // spread evenly, the first and the last among them
+        let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
+        let (mut rows, mut last, mut number) = (Vec::new(), Vec::new(), 0);
+        let (mut stopped, mut why) = (None, None);
+        while number < count
+            && let Some(row) = run.next_row()
+        {
+            match row {
+                Ok(row) if is_wanted(number) => rows.push(row.to_vec()),
+                Ok(row) => row.clone_into(&mut last),
+                Err(diagnostic) if number == 0 => return Err(diagnostic),
+                Err(diagnostic) => {
+                    stopped = Some(diagnostic.message.clone());
+                    why = Some(*diagnostic);
+                    break;
+                }
+            }
+            number += 1;
+        }
+        if rows.last().map(|row| row[0]) < last.first().copied() {
+            rows.push(last);
+        }
+        said.extend(run.take_remarks());
+        said.extend(why);
+        Ok(Reference { columns, rows, steps: number - 1, every, stopped })
+    }
+}
+
+fn too_large() -> Diagnostic {
+    Diagnostic::new(Code::E0706, "the solver of this mechanism would take too many operations")
+        .help("leave it out with `--with equations`, in a file that `-o` names")
+}
