@@ -46,6 +46,7 @@ pub mod output;
 
 pub mod import;
 
+#[cfg(feature = "cli")]
 pub mod cli;
 
 use analysis::Times;
