@@ -56,3 +56,28 @@ fn rooms_know_only_those_before_them() {
     }
     assert!(seen > 30, "only {seen} files were looked at");
 }
+
+/// What a file may use of the platform: threads, which are gone without their feature.
+const PLATFORM: &[(&str, &str)] = &[("analysis/rows.rs", "std::thread")];
+
+#[test]
+fn rooms_know_no_files_threads_clock_or_environment() {
+    let mut allowed = 0;
+    for path in files("src", "rs") {
+        let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").to_owned();
+        // the command line, and what becomes part of an emitted crate
+        if ["cli", "emit/package", "main.rs"].iter().any(|place| inside.starts_with(place)) {
+            continue;
+        }
+        let text = fs::read_to_string(&path).expect("a text");
+        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            for used in ["fs", "thread", "time", "env", "net", "process", "io::stdout", "io::stderr", "io::stdin"] {
+                let used = format!("std::{used}");
+                let is_allowed = PLATFORM.iter().any(|&(place, known)| inside.ends_with(place) && used == known);
+                allowed += usize::from(is_allowed && line.contains(&used));
+                assert!(is_allowed || !line.contains(&used), "{}: {used} is for the command line", inside.display());
+            }
+        }
+    }
+    assert!(allowed > 0, "nothing was found where something is");
+}

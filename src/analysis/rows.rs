@@ -18,7 +18,9 @@ use std::sync::Arc;
 /// Times that are solved at once.
 const LANES: usize = 16;
 /// A solver with so many operations is worth a thread for every so many times, up to as many threads.
+#[cfg(feature = "threads")]
 const WORTH_A_THREAD: usize = 20_000;
+#[cfg(feature = "threads")]
 const MOST_THREADS: usize = 8;
 /// A step below this part of the span is short.
 const SHORT: f64 = 1e-4;
@@ -160,12 +162,18 @@ impl Output {
 }
 
 /// How many threads a solver is worth.
+#[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
     if solver.operations() < WORTH_A_THREAD {
         // asking for the processors takes as long as a hundred steps of a four-bar
         return 1;
     }
     std::thread::available_parallelism().map_or(1, |n| n.get().min(MOST_THREADS))
+}
+
+#[cfg(not(feature = "threads"))]
+fn threads(_: &Solver) -> usize {
+    1
 }
 
 impl Rows {
@@ -566,16 +574,17 @@ impl Motion {
         };
         let rows = values.chunks_exact_mut(LANES * solver.layout().stride);
         let all = lanes.iter_mut().zip(rows).zip(holds).enumerate().take(parts);
-        if parts == 1 {
-            all.for_each(|(part, ((lanes, values), holds))| solve(part, lanes, values, holds));
-        } else {
+        #[cfg(feature = "threads")]
+        if parts > 1 {
             let solve = &solve;
             std::thread::scope(|scope| {
                 for (part, ((lanes, values), holds)) in all {
                     scope.spawn(move || solve(part, lanes, values, holds));
                 }
             });
+            return;
         }
+        all.for_each(|(part, ((lanes, values), holds))| solve(part, lanes, values, holds));
     }
 
     /// Writes the row of a time within the last step by solving from its curve, with pivots that suit it; whether it holds.

@@ -1,7 +1,9 @@
-//! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and as Parquet.
+//! Result tables: as text, where numbers are the shortest decimals that read back to the same `f64`, and, with the feature `parquet`, as Parquet.
 
+#[cfg(feature = "parquet")]
 mod parquet;
 
+#[cfg(feature = "parquet")]
 use parquet::ParquetWriter;
 use std::io::{self, Write};
 
@@ -14,6 +16,7 @@ pub enum TableFormat {
     /// `{"columns": […], "rows": [[…], …]}`
     Json,
     /// Apache Parquet, for programs that read tables by columns.
+    #[cfg(feature = "parquet")]
     Parquet,
 }
 
@@ -24,6 +27,7 @@ pub struct TableWriter<W: Write + Send> {
 
 enum Form<W: Write + Send> {
     Text(TextWriter<W>),
+    #[cfg(feature = "parquet")]
     Parquet(Box<ParquetWriter<W>>),
 }
 
@@ -36,6 +40,7 @@ impl<W: Write + Send> TableWriter<W> {
         let form = match format {
             TableFormat::Csv => Form::Text(TextWriter::new(out, false, columns)?),
             TableFormat::Json => Form::Text(TextWriter::new(out, true, columns)?),
+            #[cfg(feature = "parquet")]
             TableFormat::Parquet => Form::Parquet(Box::new(ParquetWriter::new(out, columns)?)),
         };
         Ok(TableWriter { form })
@@ -48,6 +53,7 @@ impl<W: Write + Send> TableWriter<W> {
     pub fn row(&mut self, values: &[f64]) -> io::Result<()> {
         match &mut self.form {
             Form::Text(text) => text.row(values),
+            #[cfg(feature = "parquet")]
             Form::Parquet(parquet) => parquet.row(values),
         }
     }
@@ -59,6 +65,7 @@ impl<W: Write + Send> TableWriter<W> {
     pub fn finish(self) -> io::Result<W> {
         match self.form {
             Form::Text(text) => text.finish(),
+            #[cfg(feature = "parquet")]
             Form::Parquet(parquet) => parquet.finish(),
         }
     }
