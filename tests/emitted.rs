@@ -450,7 +450,7 @@ fn stand_alone_and_agree(all: Vec<Emitted>) -> Option<String> {
         }
         if !ends_well {
             let error = next();
-            let errors = [" LockUp", " Bifurcation", " Divergence", " NotANumber", " Inconsistent"];
+            let errors = [" LockUp", " Bifurcation", " Divergence", " NotANumber", " Inconsistent", " NotSmooth"];
             assert!(errors.contains(&error), "{name}: {error}");
         }
     }

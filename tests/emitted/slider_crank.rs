@@ -203,7 +203,7 @@ pub mod measure_acceleration {
 /// How many they are.
 pub const ACCELERATIONS: usize = 2;
 
-/// The measures with their time derivatives.
+/// The measures with their time derivatives; `NAN` where one has no value.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Measures {
     /// By the indices in [`measure`].
@@ -527,7 +527,8 @@ impl State {
         Pose::of(&self.at().qdd, body)
     }
 
-    /// The measures, by the indices in [`measure`], and their first and second time derivatives.
+    /// The measures, by the indices in [`measure`], and their first and second time derivatives; `NAN` where
+    /// one has no value, and no step fails for that.
     #[must_use]
     pub fn measures(&self) -> &Measures {
         &self.at().measures
@@ -688,9 +689,14 @@ impl Measures {
         [&self.values, &self.rates, &self.accelerations]
     }
 
-    fn is_finite(&self) -> bool {
-        let mut all = self.lists().into_iter().flatten();
-        all.all(|value| value.is_finite())
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
+        for value in self.values.iter_mut().chain(rest) {
+            if !value.is_finite() {
+                *value = f64::NAN;
+            }
+        }
     }
 }
 
@@ -999,6 +1005,7 @@ fn reach(
         }
         at.first = first;
     }
+    at.measures.leave_out();
     if at.is_finite() {
         Ok(())
     } else {
@@ -1122,7 +1129,7 @@ impl Solution {
 
     fn is_finite(&self) -> bool {
         let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-        all.all(|value| value.is_finite()) && self.measures.is_finite()
+        all.all(|value| value.is_finite())
     }
 }
 
@@ -1853,12 +1860,6 @@ pub mod lanes {
                     sum[k] += 0.0 * each[k];
                 }
             }
-            let rates = self.rates.iter().chain(&self.accelerations);
-            for each in self.values.iter().chain(rates) {
-                for k in 0..LANES {
-                    sum[k] += 0.0 * each[k];
-                }
-            }
             sum.map(|sum| sum == 0.0)
         }
 
@@ -1872,6 +1873,7 @@ pub mod lanes {
             at.measures.values = self.values.map(|each| of(&each, k));
             at.measures.rates = self.rates.map(|each| of(&each, k));
             at.measures.accelerations = self.accelerations.map(|each| of(&each, k));
+            at.measures.leave_out();
             for (is_negative, signs) in at.is_negative.iter_mut().zip(&self.signs) {
                 *is_negative = signs.get(k).is_some_and(|sign| sign >> 63 == 1);
             }

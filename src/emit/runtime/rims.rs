@@ -37,15 +37,22 @@ fn first_rim(from: f64, to: f64, m: &Model, passed: &[f64; RIMS]) -> Option<(usi
                 break;
             }
             let (value, slope) = gauge(rim, middle, p);
-            let is_before = if is_crossed { sign * value > 0.0 } else { way * slope < 0.0 };
+            let is_before = if is_crossed {
+                sign * value > 0.0
+            } else {
+                way * slope < 0.0
+            };
             if is_before {
                 near = middle;
             } else {
                 far = middle;
             }
         }
-        let is_new = passed.get(rim).is_none_or(|passed| (far - passed).abs() > 1e-9 * SPAN);
-        let is_first = found.is_none_or(|(_, known): (usize, f64)| (far - known) * (to - from) < 0.0);
+        let is_new = passed
+            .get(rim)
+            .is_none_or(|passed| (far - passed).abs() > 1e-9 * SPAN);
+        let is_first =
+            found.is_none_or(|(_, known): (usize, f64)| (far - known) * (to - from) < 0.0);
         if is_new && is_first && is_zero(rim, far, p) {
             found = Some((rim, far));
         }
@@ -144,4 +151,3 @@ fn look(t: f64, near: &Solution, m: &Model, at: &mut Solution) -> bool {
     }
     reach(&guess, near, t, m, at).is_ok()
 }
-
