@@ -250,12 +250,13 @@ impl Yardstick {
         for &column in columns {
             self.column_scale[column as usize] = self.size[column as usize];
         }
-        rows.iter().for_each(|&row| self.row_scale[row as usize] = 1.0);
         let sweeps = if rows.len() == 1 { 0 } else { SWEEPS };
         for sweep in 0..=sweeps {
             let mean = if sweep < sweeps / 2 { Mean::OfExtremes } else { Mean::Norm };
             let gathered = &mut self.gathered;
-            rows.iter().for_each(|&row| gathered[row as usize] = mean.of_none());
+            for &row in rows {
+                gathered[row as usize] = mean.of_none();
+            }
             for (entry, magnitude) in entries.iter().zip(magnitudes) {
                 let scaled = magnitude * self.column_scale[entry.column as usize];
                 mean.gather(&mut gathered[entry.row as usize], scaled);
@@ -266,7 +267,9 @@ impl Yardstick {
             if sweep == sweeps {
                 break;
             }
-            columns.iter().for_each(|&column| gathered[column as usize] = mean.of_none());
+            for &column in columns {
+                gathered[column as usize] = mean.of_none();
+            }
             for (entry, magnitude) in entries.iter().zip(magnitudes) {
                 mean.gather(&mut gathered[entry.column as usize], magnitude / self.row_scale[entry.row as usize]);
             }

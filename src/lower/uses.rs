@@ -31,7 +31,9 @@ impl Uses {
             }
         }
         for k in 0..model.equations.len() {
-            of_equation(model, k).into_iter().for_each(|point| uses.points[point.index()] = true);
+            for point in of_equation(model, k) {
+                uses.points[point.index()] = true;
+            }
         }
         uses
     }
