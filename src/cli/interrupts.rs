@@ -1,9 +1,9 @@
 //! What is half done when the user interrupts it is taken away: temporary files, and folders that are still empty.
 
-use std::fs;
 use std::path::PathBuf;
-use std::process;
 use std::sync::{Mutex, MutexGuard, PoisonError};
+#[cfg(unix)]
+use std::{fs, process};
 
 /// Files and folders that are not yet what they are meant to be, in the order in which they were made.
 static UNFINISHED: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());

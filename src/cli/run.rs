@@ -103,7 +103,7 @@ fn beforehand(rows: u64, columns: usize, format: TableFormat) -> Option<String> 
     let number = if format == TableFormat::Parquet { IN_PARQUET } else { IN_TEXT };
     let bytes = rows as f64 * columns as f64 * number;
     let (size, unit) = if bytes < 1e12 { (bytes / 1e9, "GB") } else { (bytes / 1e12, "TB") };
-    let size = if size < 1e4 { format!("{size:.0}") } else { readable(format!("{size:.1e}").parse().unwrap_or(size)) };
+    let size = if size < 1e4 { format!("{size:.0}") } else { format!("{size:.1e}") };
     (bytes >= LARGE).then(|| format!("writing {rows} rows of {columns} columns, about {size} {unit}\n"))
 }
 
