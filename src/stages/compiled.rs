@@ -139,3 +139,13 @@ impl Compiled {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }
 }
+
+/// For tests of what is inside.
+#[cfg(feature = "rooms")]
+#[doc(hidden)]
+impl Compiled {
+    #[must_use]
+    pub fn inside(&self) -> (Arc<Determined>, Arc<Program>) {
+        (Arc::clone(&self.determined), Arc::clone(self.program()))
+    }
+}

@@ -1,4 +1,4 @@
-//! The pipeline as tests use it: a text in, diagnostics and rows out.
+//! The pipeline as tests use it, through the façade: a text in, diagnostics and rows out.
 
 #![allow(dead_code)] // each test file uses its part
 
@@ -6,15 +6,20 @@ pub mod reading;
 pub mod shape;
 pub mod tex;
 
-use mechc::analysis::{self, Times};
-use mechc::check::Surroundings;
-use mechc::diag::{Color, Diagnostic, Diagnostics, Format, Severity, render};
-use mechc::program::Program;
-use mechc::source::Sources;
-use mechc::structure::Determined;
-use mechc::syntax::ast::{ItemKind, Mechanism, TableRows};
-use mechc::{check, syntax};
+use mechc::{
+    Cancel, Choice, Color, Compiled, Contents, Diagnostic, Diagnostics, Format, Parsed, Redundant, RunOptions,
+    Severity, Sources, Times, World, render,
+};
 use std::path::{Path, PathBuf};
+
+/// The files of this machine.
+pub struct Disk;
+
+impl World for Disk {
+    fn read(&self, path: &Path) -> std::io::Result<Contents> {
+        Ok(Contents { bytes: std::fs::read(path)?.into(), version: 0 })
+    }
+}
 
 /// What became of a text.
 pub struct Outcome {
@@ -61,134 +66,97 @@ impl Outcome {
     }
 }
 
-/// Checks and proves the first mechanism of a text.
-pub fn compile(sources: &mut Sources, name: &str, text: &str) -> (Option<Determined>, Diagnostics) {
-    compile_at(sources, name, text, Path::new(name), 0)
+/// Checks and proves the first mechanism of a text; the files that it names are beside its name.
+pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
+    compile_at(Parsed::of(name, text), 0)
 }
 
 /// Checks and proves a mechanism of a text that is in a file, by its number.
-pub fn compile_at(
-    sources: &mut Sources,
-    name: &str,
-    text: &str,
-    path: &Path,
-    number: usize,
-) -> (Option<Determined>, Diagnostics) {
-    let file = sources.add(name, text);
-    let parsed = syntax::parse(sources, file);
-    if !parsed.faults.is_empty() {
-        return (None, parsed.faults);
-    }
-    let tree = parsed.tree;
-    let diagnostics = check::check_file(&tree);
-    if diagnostics.has_errors() {
-        return (None, diagnostics);
-    }
-    let surroundings = surroundings(&tree.mechanisms[number], path, sources);
-    mechc::compile(&tree.mechanisms[number], &surroundings, sources)
+pub fn compile_number(path: &Path, text: &str, number: usize) -> (Option<Compiled>, Outcome) {
+    let mut sources = Sources::default();
+    let file = sources.add(path.display().to_string(), text);
+    compile_at(Parsed::of_source(sources, file, path), number)
 }
 
-/// The files that a mechanism's tables name, beside the file it is in.
-pub fn surroundings(mechanism: &Mechanism, beside: &Path, sources: &mut Sources) -> Surroundings {
-    let mut surroundings = Surroundings::default();
-    for item in &mechanism.items {
-        if let ItemKind::Table { rows: TableRows::File { path, .. }, .. } = &item.kind {
-            let at = beside.parent().unwrap_or(Path::new("")).join(&path.text);
-            if let Ok(text) = std::fs::read_to_string(at) {
-                surroundings.files.insert(path.text.clone(), Ok(sources.add(path.text.clone(), text)));
-            }
-        }
-    }
-    surroundings
+/// The compiled mechanism of a text that is right.
+pub fn compiled(name: &str, text: &str) -> Compiled {
+    let (compiled, outcome) = compile(name, text);
+    compiled.unwrap_or_else(|| panic!("{name}:\n{}", outcome.text()))
+}
+
+fn compile_at(parsed: Parsed, number: usize) -> (Option<Compiled>, Outcome) {
+    // of a text that cannot be read the faults are all there is to say
+    let mechanism = parsed.mechanisms().nth(number).map(str::to_owned);
+    let checked = parsed.check(&Choice { mechanism, ..Choice::default() }, &Disk);
+    let mut diagnostics = checked.diagnostics().clone();
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    diagnostics.extend(said);
+    let outcome = Outcome { sources: checked.sources().clone(), diagnostics, columns: Vec::new(), rows: Vec::new() };
+    (compiled, outcome)
 }
 
 /// Runs the first mechanism of a text over its analysis; its tables' files are beside the file that it is named after.
 pub fn run(name: &str, text: &str, span: Span) -> Outcome {
-    let mut sources = Sources::default();
-    let compiled = compile(&mut sources, name, text);
-    analyse(sources, compiled, span)
+    analyse(compile(name, text), span)
 }
 
 /// Runs one of the mechanisms of a file.
 pub fn run_number(path: &Path, text: &str, number: usize, span: Span) -> Outcome {
-    let mut sources = Sources::default();
-    let compiled = compile_at(&mut sources, &path.display().to_string(), text, path, number);
-    analyse(sources, compiled, span)
+    analyse(compile_number(path, text, number), span)
 }
 
 /// The names of the mechanisms in a text.
 pub fn mechanisms(text: &str) -> Vec<String> {
-    let mut sources = Sources::default();
-    let file = sources.add("text", text);
-    let tree = syntax::parse(&sources, file).tree;
-    tree.mechanisms.iter().map(|mechanism| mechanism.name.text.clone()).collect()
+    Parsed::of("text", text).mechanisms().map(str::to_owned).collect()
 }
 
 /// As [`run`], the tables' files being in a folder.
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
     let mut sources = Sources::default();
-    let compiled = compile_at(&mut sources, name, text, &folder.join(name), 0);
-    analyse(sources, compiled, span)
+    let file = sources.add(name, text);
+    analyse(compile_at(Parsed::of_source(sources, file, &folder.join(name)), 0), span)
 }
 
 /// Runs what was compiled over its analysis.
-pub fn analyse(sources: Sources, compiled: (Option<Determined>, Diagnostics), span: Span) -> Outcome {
-    let (determined, mut diagnostics) = compiled;
-    let (mut columns, mut rows) = (Vec::new(), Vec::new());
-    if let Some(determined) = determined
-        && let Some([from, to, every]) = determined.system().analysis
+pub fn analyse((compiled, mut outcome): (Option<Compiled>, Outcome), span: Span) -> Outcome {
+    if let Some(compiled) = compiled
+        && let Some([from, to, every]) = compiled.analysis()
     {
         let times = Times::grid(from, span.to.unwrap_or(to), span.every.unwrap_or(every)).expect("a grid");
-        if let Err(diagnostic) = follow(&determined, &times, &mut diagnostics, &mut columns, &mut rows) {
-            diagnostics.push(*diagnostic);
-        }
+        follow(&compiled, &times, &RunOptions::default(), &mut outcome);
     }
-    Outcome { sources, diagnostics, columns, rows }
+    outcome
 }
 
-fn follow(
-    determined: &Determined,
-    times: &Times,
-    diagnostics: &mut Diagnostics,
-    columns: &mut Vec<String>,
-    rows: &mut Vec<Vec<f64>>,
-) -> Result<(), Box<Diagnostic>> {
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(determined, &program, times.from(), analysis::TOLERANCE)?;
-    diagnostics.extend(started.remarks());
-    *columns = started.columns();
-    let mut motion = started.motion(times);
-    let mut result = Ok(());
-    while let Some(row) = motion.next_row() {
+/// Follows a motion to its last row, or to where it stops.
+pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome: &mut Outcome) {
+    outcome.columns = compiled.columns();
+    let (run, said) = compiled.run(times, options);
+    outcome.diagnostics.extend(said);
+    let Some(mut run) = run else { return };
+    let mut why = None;
+    for row in run.by_ref() {
         match row {
-            Ok(row) => rows.push(row.to_vec()),
-            Err(why) => result = Err(why),
+            Ok(row) => outcome.rows.push(row),
+            Err(diagnostic) => why = Some(*diagnostic),
         }
     }
-    diagnostics.extend(motion.take_remarks());
-    result
+    outcome.diagnostics.extend(run.take_remarks());
+    outcome.diagnostics.extend(why);
 }
 
 /// A run that goes on beyond bifurcations, with another output step if one is given; and the times of those it has passed (s).
 pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
-    let mut sources = Sources::default();
-    let (determined, _) = compile(&mut sources, "text", text);
-    let determined = determined.expect("determined");
-    let [from, to, step] = determined.system().analysis.expect("an analysis");
+    let (compiled, mut outcome) = compile("text", text);
+    let compiled = compiled.expect("determined");
+    let [from, to, step] = compiled.analysis().expect("an analysis");
     let times = Times::grid(from, to, every.unwrap_or(step)).expect("a grid");
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-    let columns = started.columns();
-    let mut motion = started.motion(&times);
-    motion.pass_bifurcations();
-    let mut rows = Vec::new();
-    while let Some(row) = motion.next_row() {
-        rows.push(row.expect("it goes on").to_vec());
-    }
-    let remarks = motion.take_remarks();
-    assert!(remarks.iter().all(|remark| remark.code.as_str() == "W0602"));
-    let passed = remarks.iter().map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
-    (Outcome { sources, diagnostics: remarks, columns, rows }, passed)
+    outcome.diagnostics = Diagnostics::default();
+    follow(&compiled, &times, &RunOptions { pass_bifurcations: true, ..RunOptions::default() }, &mut outcome);
+    assert!(outcome.diagnostics.iter().all(|remark| remark.code.as_str() == "W0602" || !is_error(remark)));
+    let passed = outcome.diagnostics.iter().filter(|remark| remark.code.as_str() == "W0602");
+    let passed = passed.map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
+    (outcome, passed)
 }
 
 /// All files below a folder with an ending, in order.
