@@ -25,6 +25,9 @@ const FAR_FRAME: f64 = 4.0;
 /// smaller of both.
 const LEAST_LEVER: f64 = 0.1;
 
+/// A moment about a centroid that is less than this part of its terms is what rounding leaves.
+const ROUNDING: f64 = 1e-10;
+
 /// No entry, or no body.
 const NONE: u32 = u32::MAX;
 
@@ -233,7 +236,10 @@ impl Yardstick {
             EntryKind::Turn { lever, about: NONE } => f64::max(here.abs(), lever * math::hypot(x, y)),
             EntryKind::Turn { lever, about } => {
                 let [right, up] = self.centroids[about as usize].from_origin;
-                return f64::max((here + up * x - right * y).abs(), lever * math::hypot(x, y));
+                let (turn, terms) = (here + up * x - right * y, here.abs() + (up * x).abs() + (right * y).abs());
+                // what rounding leaves of an equation that holds at the centroid is no slope
+                let own = if turn.abs() > ROUNDING * terms { turn.abs() } else { 0.0 };
+                return f64::max(own, lever * math::hypot(x, y));
             }
             EntryKind::Other => here.abs(),
         };
