@@ -10,9 +10,6 @@ use pest::iterators::Pair;
 use std::ops::Range;
 use unicode_normalization::UnicodeNormalization;
 
-/// Stack that the deepest text may take, in bytes.
-const STACK: usize = 16 << 20;
-
 /// The longest name, in characters.
 const LONGEST_NAME: usize = 200;
 
@@ -54,11 +51,9 @@ impl Piece<'_> {
         let text = &self.source.text[self.range.clone()];
         let reader = Reader { source: self.source, file: self.file, base: self.range.start };
         depth::measure(text, self.file, self.range.start).map_err(Refused::Else)?;
-        stacker::maybe_grow(STACK, STACK, || {
-            let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
-            let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
-            make(&reader, pair).map_err(Refused::Else)
-        })
+        let pairs = Grammar::parse(rule, text).map_err(|error| Refused::ByGrammar(Box::new(error)))?;
+        let pair = pairs.into_iter().next().ok_or_else(|| Refused::Else(reader.truncated()))?;
+        make(&reader, pair).map_err(Refused::Else)
     }
 
     /// What is to be said of a piece that was refused; with a look at what was meant, if that is wanted.

@@ -20,6 +20,9 @@ use rustc_hash::FxHashSet;
 use std::convert::Infallible;
 use std::ops::Range;
 
+/// Stack that the deepest text may take, in bytes.
+const STACK: usize = 16 << 20;
+
 /// How many faults of a text are worth a look for what was meant.
 const MOST_MENDS: usize = 100;
 
@@ -47,7 +50,8 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         bad_names: FxHashSet::default(),
         has_told_the_end: false,
     };
-    let mechanisms = reading.file();
+    // once for the whole text: a stack of its own takes longer than most declarations
+    let mechanisms = stacker::maybe_grow(STACK, STACK, || reading.file());
     let mut faults = reading.faults;
     if mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
@@ -63,8 +67,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 pub fn parse_expression(sources: &Sources, file: FileId) -> Result<Expr, Diagnostics> {
     let source = sources.get(file);
     let piece = Piece { source, file, range: 0..source.text.len() };
-    piece
-        .read(Rule::expression_only, |reader, pair| reader.whole_formula(pair))
+    stacker::maybe_grow(STACK, STACK, || piece.read(Rule::expression_only, |reader, pair| reader.whole_formula(pair)))
         .map_err(|refused| (*piece.fault(refused, true)).into())
 }
 
