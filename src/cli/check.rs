@@ -2,10 +2,10 @@
 
 use super::arguments::CheckArguments;
 use super::failure::Failure;
-use super::files::Output;
-use super::input;
+use super::files::{self, Output};
 use super::report::Reporter;
 use super::timings::Timings;
+use super::{fix, input};
 use crate::analysis::{self, Started};
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -13,14 +13,22 @@ use crate::source::Sources;
 use crate::structure::{self, Determined};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let input = &arguments.input;
+    let file =
+        if arguments.fix { fix::fix(input, reporter)? } else { files::read(&input.file, &mut reporter.sources)? };
     let determined =
-        input::determined(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+        input::determined_text(file, input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     let system = determined.system();
     let program = Program::new(system);
     let t = system.analysis.map_or(0.0, |[from, ..]| from);
     let started = analysis::start(&determined, &program, t, analysis::TOLERANCE)?;
     reporter.print(&started.remarks());
     let report = report(&determined, started, t, &reporter.sources);
+    if arguments.fix && input.file == "-" {
+        // the mended text is there
+        Reporter::say(&report);
+        return Ok(());
+    }
     Output::write("-", &report)
 }
 

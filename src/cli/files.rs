@@ -9,6 +9,11 @@ use std::path::{Path, PathBuf};
 
 /// The text of a file, or of standard input for `-`.
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
+    read_with_mark(name, sources).map(|(file, _)| file)
+}
+
+/// As [`read`], and whether the text begins with a byte-order mark.
+pub(super) fn read_with_mark(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
     let (shown, bytes) = if name == "-" {
         let mut bytes = Vec::new();
         ("<stdin>", io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
@@ -16,7 +21,8 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
         (name, fs::read(name))
     };
     let bytes = bytes.map_err(|error| cannot_read(shown, &error))?;
-    text_of(shown, bytes, sources).map_err(Failure::from)
+    let has_mark = bytes.starts_with("\u{feff}".as_bytes());
+    text_of(shown, bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
 }
 
 fn text_of(shown: &str, bytes: Vec<u8>, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {

@@ -10,7 +10,7 @@ use crate::check::{self, Setting, Surroundings, TableFiles};
 use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
 use crate::lower;
 use crate::model::{Dimension, Mechanism};
-use crate::source::Sources;
+use crate::source::{FileId, Sources};
 use crate::structure::Determined;
 use crate::syntax::{self, ast};
 
@@ -21,7 +21,19 @@ pub(super) fn determined(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Determined, Failure> {
-    let file = tree(input, reporter)?;
+    let file = files::read(&input.file, &mut reporter.sources)?;
+    determined_text(file, input, allow_redundant, reporter, timings)
+}
+
+/// As [`determined`], of a text that has been read.
+pub(super) fn determined_text(
+    file: FileId,
+    input: &Input,
+    allow_redundant: bool,
+    reporter: &mut Reporter,
+    timings: &mut Timings,
+) -> Result<Determined, Failure> {
+    let file = tree_of(file, reporter)?;
     timings.end(Phase::Parse);
     let model = checked(&file, input, reporter)?;
     timings.end(Phase::Check);
@@ -40,6 +52,10 @@ pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Mechanism,
 /// The tree of a command's file.
 pub(super) fn tree(input: &Input, reporter: &mut Reporter) -> Result<ast::File, Failure> {
     let file = files::read(&input.file, &mut reporter.sources)?;
+    tree_of(file, reporter)
+}
+
+fn tree_of(file: FileId, reporter: &Reporter) -> Result<ast::File, Failure> {
     let parsed = syntax::parse(&reporter.sources, file);
     if parsed.faults.is_empty() { Ok(parsed.tree) } else { Err(parsed.faults.into()) }
 }
@@ -82,7 +98,7 @@ fn chosen<'t>(tree: &'t ast::File, input: &Input) -> Result<&'t ast::Mechanism, 
 }
 
 /// The files that a mechanism's tables name.
-fn table_files(mechanism: &ast::Mechanism, beside: &str, sources: &mut Sources) -> TableFiles {
+pub(super) fn table_files(mechanism: &ast::Mechanism, beside: &str, sources: &mut Sources) -> TableFiles {
     let mut files = TableFiles::default();
     for item in &mechanism.items {
         if let ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } = &item.kind

@@ -9,6 +9,7 @@ mod emit;
 mod explain;
 mod failure;
 mod files;
+mod fix;
 mod formula;
 mod import;
 mod input;

@@ -223,7 +223,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         if let ExprKind::Literal { unit: Some((_, 1)), .. } = base.kind {
             let literal = &self.reader.text(base.span);
             if !literal.contains('^') {
-                return Err(Box::new(errors::unit_power(self.reader.span(&operator), literal)));
+                return Err(Box::new(errors::unit_power(self.reader.span(&operator), base.span, literal)));
             }
         }
         let exponent = self.signed(depth + 1)?;
