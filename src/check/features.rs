@@ -229,7 +229,7 @@ impl Checker<'_> {
         if let Some(value) = e.bare_number()
             && value.abs() > std::f64::consts::TAU
         {
-            self.report(errors::degrees(e.span, value));
+            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
         }
     }
 
