@@ -44,10 +44,13 @@ pub fn unit_power(span: Span, literal: Span, text: &str) -> Diagnostic {
 }
 
 /// A chain of comparisons: `a < b < c`.
-pub fn chained_comparison(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0309, "comparisons do not form chains")
-        .at(span, "a second comparison")
-        .help("join two comparisons with `and`: `a < b and b < c`")
+pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0309, "comparisons do not form chains").at(span, "a second comparison").fix(Fix::append(
+        middle,
+        format!(" and {text}"),
+        "join two comparisons with `and`: `a < b and b < c`",
+        Applies::Probably,
+    ))
 }
 
 /// A declaration of the mechanism within the braces of a body.
