@@ -239,3 +239,67 @@ fn what_can_only_have_meant_one_thing_is_made_that() {
         }
     }
 }
+
+/// Slips of the pen: what stands in a text, and what is typed instead.
+const SLIPS: &[(&str, &str)] = &[
+    (" = ", " == "),
+    ("\n", ";\n"),
+    ("^", "**"),
+    ("//", "#"),
+    (" * ", " × "),
+    (" / ", " ÷ "),
+    ("-", "−"),
+    (" deg", "°"),
+    (".", ","),
+    (")\n", "\n"),
+    (") ", " "),
+    ("]", ""),
+    (": ", " "),
+    (" = ", " "),
+    (", ", "; "),
+    ("= ", "= +"),
+    ("}\n", "\n"),
+    ("revolute(", "revolute{"),
+];
+
+/// Longer texts hold nothing that the shorter ones do not (bytes).
+const LONGEST: usize = 4_000;
+
+/// A text but for its white space and comments.
+fn without_blanks(text: &str) -> String {
+    text.lines().filter_map(|line| line.split("//").next()).flat_map(str::split_whitespace).collect()
+}
+
+#[test]
+fn a_slip_is_undone_or_left_to_its_writer() {
+    let mut undone = vec![0; SLIPS.len()];
+    let mut state = 1_u64;
+    for path in files("examples", "mech").into_iter().chain(files("tests/cases", "mech")) {
+        let text = fs::read_to_string(&path).expect("a text");
+        let text = text.trim_start_matches('\u{feff}');
+        if text.len() > LONGEST {
+            continue;
+        }
+        for (k, (right, wrong)) in SLIPS.iter().enumerate() {
+            let places: Vec<usize> = text.match_indices(right).map(|(at, _)| at).collect();
+            if places.is_empty() {
+                continue;
+            }
+            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            let at = places[(state >> 33) as usize % places.len()];
+            let slipped = format!("{}{wrong}{}", &text[..at], &text[at + right.len()..]);
+            let now = mended(&slipped);
+            let mut sources = Sources::default();
+            let file = sources.add("text.mech", now.as_str());
+            // what still has faults was left to its writer, and what needed no change was no slip
+            if !syntax::parse(&sources, file).faults.is_empty() || now == slipped {
+                continue;
+            }
+            assert_eq!(without_blanks(&now), without_blanks(text), "{}: `{right}` typed as `{wrong}`", path.display());
+            undone[k] += 1;
+        }
+    }
+    let never: Vec<&(&str, &str)> =
+        SLIPS.iter().zip(&undone).filter(|(_, count)| **count == 0).map(|(slip, _)| slip).collect();
+    assert!(never.len() <= 2, "never undone: {never:?}, of {undone:?}");
+}

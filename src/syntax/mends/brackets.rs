@@ -71,11 +71,12 @@ impl<'a> Fault<'a> {
         if before.last().is_some_and(|token| is_operator(token.text)) {
             return None;
         }
-        // where the last part is a formula, it may have ended within it
-        let (innermost, _) = opened.last()?;
-        let last_part = before.iter().rev().take_while(|token| token.start > *innermost && token.text != ",");
-        let is_single = !last_part.clone().any(|token| is_operator(token.text) || token.text == "(");
-        let applies = if is_single && open.count() == 1 { Applies::Always } else { Applies::Probably };
+        let (innermost, bracket) = opened.last()?;
+        let inside: Vec<&str> =
+            before.iter().filter(|token| token.start > *innermost).map(|token| token.text).collect();
+        let is_sure =
+            open.count() == 1 && if *bracket == "(" { is_plain_list(&inside) } else { inside.ends_with(&[")"]) };
+        let applies = if is_sure { Applies::Always } else { Applies::Probably };
         Some(Fix::replace(self.span(end..end), closers.clone(), format!("close it with `{closers}`"), applies))
     }
 
@@ -121,6 +122,14 @@ impl<'a> Fault<'a> {
         let line = &self.text[start..];
         &line[..line.len() - line.trim_start().len()]
     }
+}
+
+/// Whether tokens are words and numbers with commas between: of anything else a part may belong behind the parenthesis.
+fn is_plain_list(tokens: &[&str]) -> bool {
+    tokens.iter().enumerate().all(|(k, token)| {
+        let is_sign = *token == "-" && (k == 0 || tokens[k - 1] == ",");
+        is_sign || !is_operator(token) && *token != "("
+    })
 }
 
 fn is_operator(token: &str) -> bool {
