@@ -317,3 +317,87 @@ fn a_table_that_cannot_be_read() {
     assert!(thousands.contains("E0416") && thousands.contains("way.csv:3:1"), "{thousands}");
     assert!(thousands.contains("without separators between their thousands"), "{thousands}");
 }
+
+/// A mechanism with mistakes that leave no doubt of what is meant, in a file of another system.
+const DRAFT: &str = "\u{feff}mechanism disc {\r\n    # the wheel\r\n    param r = 2 ** 3;\r\n    ground { point O = (0, 0) }\r\n    \
+    body wheel {   point O = (0, 0   }\r\n    joint axle: revolute(ground.O, wheel.O)\r\n    driver motor: rotation(axle) == r * t\r\n}";
+
+fn mended_draft() -> String {
+    let mended = DRAFT.replace("# the", "// the").replace("**", "^").replace(';', "").replace("(0, 0 ", "(0, 0) ");
+    mended.replace("==", "=")
+}
+
+#[test]
+fn mistakes_without_doubt_are_mended_in_the_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("disc.mech");
+    let name = file.to_string_lossy().into_owned();
+    fs::write(&file, DRAFT).unwrap();
+    let output = mechc().args(["check", &name, "--fix"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(0));
+    assert!(String::from_utf8_lossy(&output.stdout).starts_with("mechanism disc is determined"));
+    let told = String::from_utf8(output.stderr).unwrap();
+    let lines: Vec<&str> = told.lines().map(|line| line.trim_start_matches(name.as_str())).collect();
+    assert_eq!(lines.iter().filter(|line| line.starts_with(":3: ")).count(), 2, "{told}");
+    assert!(lines.contains(&":2: a comment begins with `//`") && lines.contains(&":5: close it with `)`"), "{told}");
+    assert_eq!(lines.len(), 5, "{told}");
+    assert_eq!(fs::read_to_string(&file).unwrap(), mended_draft());
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing else is left behind");
+    // nothing is left to do: the file is not even written
+    let written = fs::metadata(&file).unwrap().modified().unwrap();
+    mechc().args(["check", &name, "--fix"]).assert().success().stderr("");
+    assert_eq!(fs::metadata(&file).unwrap().modified().unwrap(), written);
+}
+
+#[test]
+fn what_is_left_is_told_and_gives_the_exit_code() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("disc.mech");
+    let name = file.to_string_lossy().into_owned();
+    fs::write(&file, DRAFT.replace("wheel.O)", "wheel.P)")).unwrap();
+    let told = failure(&["check", &name, "--fix", "--message-format", "short"], 1);
+    assert!(
+        told.contains("`wheel` has no point `P`") && told.contains(":7: an equation is written with one `=`"),
+        "{told}"
+    );
+    assert_eq!(fs::read_to_string(&file).unwrap(), mended_draft().replace("wheel.O)", "wheel.P)"));
+    fs::write(&file, DRAFT).unwrap();
+    let told = mechc().args(["check", &name, "--fix", "--message-format", "json"]).output().unwrap().stderr;
+    let lines: Vec<serde_json::Value> =
+        String::from_utf8(told).unwrap().lines().map(|line| serde_json::from_str(line).expect("an object")).collect();
+    assert!(lines.iter().all(|line| line["fixed"]["applies"] == "always"), "{lines:?}");
+    assert_eq!(lines[0]["fixed"]["edits"][0]["start"]["line"], 2);
+}
+
+#[test]
+fn standard_input_is_mended_to_standard_output() {
+    let output = mechc().args(["check", "-", "--fix"]).write_stdin(DRAFT).output().unwrap();
+    assert_eq!((output.status.code(), String::from_utf8(output.stdout).unwrap()), (Some(0), mended_draft()));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("<stdin>:2: a comment") && told.contains("mechanism disc is determined"), "{told}");
+    // what has no mistake comes out as it is, and so does what cannot be mended
+    for (text, code) in [(mended_draft(), 0), (mended_draft().replace("wheel.O)", "wheel.P)"), 1)] {
+        let output = mechc().args(["check", "-", "--fix"]).write_stdin(text.clone()).output().unwrap();
+        assert_eq!((output.status.code(), String::from_utf8(output.stdout).unwrap()), (Some(code), text));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_mended_file_is_replaced_as_results_are() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let (file, link) = (folder.path().join("disc.mech"), folder.path().join("link.mech"));
+    let (name, link_name) = (file.to_string_lossy().into_owned(), link.to_string_lossy().into_owned());
+    fs::write(&file, DRAFT).unwrap();
+    std::os::unix::fs::symlink("disc.mech", &link).unwrap();
+    let with_mode = |mode| fs::set_permissions(&file, fs::Permissions::from_mode(mode)).unwrap();
+    with_mode(0o444);
+    assert!(failure(&["check", &name, "--fix"], 4).contains("E0702"), "it may not be written");
+    assert_eq!(fs::read_to_string(&file).unwrap(), DRAFT);
+    with_mode(0o640);
+    mechc().args(["check", &link_name, "--fix"]).assert().success();
+    assert!(fs::symlink_metadata(&link).unwrap().is_symlink());
+    assert_eq!(fs::read_to_string(&file).unwrap(), mended_draft());
+    assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
+}

@@ -95,7 +95,8 @@ impl Started {
     pub fn remarks(&self) -> Diagnostics {
         let mut diagnostics = Diagnostics::default();
         let (system, state) = (self.kinematics.system(), &self.state);
-        diagnostics.extend(errors::far_estimates(system, &self.moved, state.t));
+        let from = self.kinematics.estimates();
+        diagnostics.extend(errors::far_estimates(system, &self.moved, [&from, &state.q], state.t));
         diagnostics.extend(system.fits.iter().filter_map(|fit| errors::misfit(system, fit, &state.q, state.t)));
         diagnostics
     }

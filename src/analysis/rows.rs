@@ -321,7 +321,8 @@ impl Motion {
 
     fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         self.output.steps += 1;
-        if self.output.steps > MOST_STEPS {
+        // who cancelled does not read why
+        if self.output.steps > MOST_STEPS || self.kinematics.is_cancelled() {
             return Err(Box::new(singular::explain_haste(&mut self.kinematics, &self.state, MOST_STEPS, t)));
         }
         Ok(())

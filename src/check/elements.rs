@@ -164,7 +164,8 @@ impl Checker<'_> {
             return;
         };
         if end < start {
-            self.report(errors::ends_before_start(to.span, start, end));
+            let texts = [from.span, to.span].map(|span| self.sources.text(span));
+            self.report(errors::ends_before_start([from.span, to.span], texts, start, end));
             return;
         }
         self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });

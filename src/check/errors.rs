@@ -1,14 +1,16 @@
 //! What is said of a mechanism that does not pass.
 
+use super::mends::{is_bare_number, with_factors, with_unit};
 use super::names::Entity;
-use crate::diag::{Code, Diagnostic, nearest, readable};
+use super::renames::renamed;
+use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::Name;
 use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
 
-fn meant(wanted: &str, names: &[&str]) -> Option<String> {
-    nearest(wanted, names.iter().copied()).map(|name| format!("was `{name}` meant?"))
+fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
+    nearest(&wanted.text, names.iter().copied()).map(|name| Fix::meant(wanted.span, name))
 }
 
 // ---- names
@@ -16,7 +18,7 @@ fn meant(wanted: &str, names: &[&str]) -> Option<String> {
 pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     Diagnostic::new(Code::E0201, format!("there is no {what} `{}`", name.text))
         .at(name.span, "not declared")
-        .help_if(meant(&name.text, known))
+        .fix_if(meant(name, known))
 }
 
 /// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
@@ -37,15 +39,13 @@ pub fn names_in_option(name: &Name) -> Diagnostic {
 
 /// A name in a formula of time that stands alone.
 pub fn names_in_formula(name: &Name) -> Diagnostic {
-    let nearest =
-        meant(&name.text, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
-    Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
-        .at(name.span, "not known here")
-        .help_if(
-            nearest.or_else(|| {
-                Some("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it".to_owned())
-            }),
-        )
+    let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
+    let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
+        .at(name.span, "not known here");
+    match nearest {
+        Some(fix) => diagnostic.fix(fix),
+        None => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
+    }
 }
 
 pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> Diagnostic {
@@ -53,9 +53,12 @@ pub fn unknown_feature(what: &str, owner: &str, name: &Name, known: &[&str]) -> 
         [] => format!("`{owner}` has none"),
         _ => format!("`{owner}` has {}", list(known)),
     };
-    Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
-        .at(name.span, "not declared there")
-        .help_if(meant(&name.text, known).or(Some(listed)))
+    let diagnostic = Diagnostic::new(Code::E0201, format!("`{owner}` has no {what} `{}`", name.text))
+        .at(name.span, "not declared there");
+    match meant(name, known) {
+        Some(fix) => diagnostic.fix(fix),
+        None => diagnostic.help(listed),
+    }
 }
 
 /// With the arguments as they were written.
@@ -63,12 +66,12 @@ pub fn unknown_function(name: &Name, own: &[&str], arguments: &[&str]) -> Diagno
     let diagnostic =
         Diagnostic::new(Code::E0201, format!("there is no function `{}`", name.text)).at(name.span, "not known");
     if let Some(said) = said_otherwise(&name.text, arguments) {
-        return diagnostic.help(said).help_if(meant(&name.text, own));
+        return diagnostic.help(said).fix_if(meant(name, own));
     }
     let mut known: Vec<&str> = own.to_vec();
     known.extend(FUNCTIONS.iter().map(|function| function.word.name));
     known.extend(QUANTITIES.iter().map(|quantity| quantity.word.name));
-    diagnostic.help_if(meant(&name.text, &known))
+    diagnostic.fix_if(meant(name, &known))
 }
 
 /// How to say what is called as a function, if it is something else here.
@@ -88,25 +91,34 @@ fn said_otherwise(name: &str, arguments: &[&str]) -> Option<String> {
 
 pub fn unknown_joint(kind: &Name, arguments: &[&str]) -> Diagnostic {
     let known: Vec<&str> = JOINTS.iter().map(|joint| joint.word.name).collect();
-    let said = Synonym::of(Place::Joint, &kind.text).map(|synonym| synonym.say(arguments));
-    Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
-        .at(kind.span, "not declared")
-        .help(said.or_else(|| meant(&kind.text, &known)).unwrap_or_else(|| format!("the joints are {}", list(&known))))
+    let diagnostic = Diagnostic::new(Code::E0201, format!("there is no kind of joint `{}`", kind.text))
+        .at(kind.span, "not declared");
+    match (Synonym::of(Place::Joint, &kind.text), meant(kind, &known)) {
+        (Some(synonym), _) => diagnostic.help(synonym.say(arguments)),
+        (None, Some(fix)) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help(format!("the joints are {}", list(&known))),
+    }
 }
 
 /// A word after a number that is no unit.
 pub fn not_a_unit(name: &Name, number: &str, is_a_name: bool) -> Diagnostic {
-    let product = is_a_name.then(|| format!("was `{number} * {}` meant?", name.text));
-    Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
-        .at(name.span, "only a unit may follow a number")
-        .help(product.unwrap_or_else(|| meant_unit(&name.text)))
+    let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
+        .at(name.span, "only a unit may follow a number");
+    if is_a_name {
+        let words = format!("was `{number} * {}` meant?", name.text);
+        return diagnostic.fix(Fix::insert(name.span, "* ", words, Applies::Probably));
+    }
+    meant_unit(diagnostic, name)
 }
 
 /// Which unit was meant, or all of them.
-fn meant_unit(name: &str) -> String {
-    let said = Synonym::of(Place::Unit, name).map(|synonym| synonym.say(&[]));
+fn meant_unit(diagnostic: Diagnostic, name: &Name) -> Diagnostic {
     let units: Vec<&str> = Unit::names().collect();
-    said.or_else(|| meant(name, &units)).unwrap_or_else(|| format!("the units are {}", units.join(" ")))
+    match (Synonym::of(Place::Unit, &name.text), meant(name, &units)) {
+        (Some(synonym), _) => diagnostic.help(synonym.say(&[])),
+        (None, Some(fix)) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help(format!("the units are {}", units.join(" "))),
+    }
 }
 
 pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
@@ -116,7 +128,8 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
         .help("give one of the two another name")
 }
 
-pub fn reserved(name: &Name) -> Diagnostic {
+/// With a name that is free, and where the name stands besides.
+pub fn reserved(name: &Name, free: &str, uses: &[Span]) -> Diagnostic {
     let what = match Constant::named(&name.text) {
         Some(constant) => constant.stands_for.noun(),
         None if Unit::named(&name.text).is_some() => "a unit",
@@ -125,7 +138,7 @@ pub fn reserved(name: &Name) -> Diagnostic {
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .help(format!("choose another name, `{}_1` say", name.text))
+        .fix(renamed(name, uses, free, format!("choose another name, `{free}` say")))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {
@@ -157,11 +170,11 @@ pub fn circle(names: &[&Name]) -> Diagnostic {
         })
 }
 
-pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>) -> Diagnostic {
+pub fn hidden_name(argument: &Name, declared: Span, free: Option<&str>, uses: &[Span]) -> Diagnostic {
     Diagnostic::new(Code::E0207, format!("the argument `{}` hides a name of the mechanism", argument.text))
         .at(argument.span, "this argument")
         .also(declared, "declared here")
-        .help_if(free.map(|free| format!("rename the argument: `{free}`, say")))
+        .fix_if(free.map(|free| renamed(argument, uses, free, format!("rename the argument: `{free}`, say"))))
 }
 
 // ---- kinds and arguments
@@ -180,7 +193,7 @@ pub fn wrong_kind(span: Span, wanted: &str, found: &str) -> Diagnostic {
 pub fn not_callable(name: &Name, entity: Entity) -> Diagnostic {
     Diagnostic::new(Code::E0302, format!("`{}` is {}, and cannot be called", name.text, entity.noun()))
         .at(name.span, "called here")
-        .help("a product is written with `*`")
+        .fix(Fix::append(name.span, " * ", "a product is written with `*`", Applies::Probably))
 }
 
 pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnostic {
@@ -277,23 +290,25 @@ pub struct Part {
 }
 
 /// The text of a part is told where it is a bare number.
-pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2]) -> Diagnostic {
-    let bare = |text: &str| text.parse::<f64>().is_ok();
-    let help = [(first, second, texts[0]), (second, first, texts[1])].into_iter().find_map(|(one, other, text)| {
+pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
+    let [one, other] = [(first, texts[0]), (second, texts[1])];
+    let fix = [(one, other), (other, one)].into_iter().find_map(|((one, text), (other, other_text))| {
         if !one.dimension.is(Dimension::PURE) {
             return None;
         }
-        if bare(text) {
-            return Some(format!("a unit is missing: `{text} {}`", usual_unit(other.dimension)));
+        if is_bare_number(text) {
+            return with_unit(one.span, text, &usual_unit(other.dimension));
         }
-        other
-            .dimension
-            .is(Dimension::RATE)
-            .then(|| "a rate times a time is a pure number, as an angle is: `… * t`".to_owned())
+        let words = "a rate times a time is a pure number, as an angle is: `… * t`";
+        other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
+    // where time may not stand it is no more than an explanation
+    let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
+    let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
     Diagnostic::new(Code::E0401, format!("{what} {} and {}", first.dimension.in_words(), second.dimension.in_words()))
         .at(second.span, second.dimension.in_words())
         .also(first.span, first.dimension.in_words())
+        .fix_if(fix)
         .help_if(help)
 }
 
@@ -315,7 +330,8 @@ pub fn told(value: f64, dimension: Dimension) -> String {
     format!("{} {unit}", readable(rounded)).trim_end().to_owned()
 }
 
-pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnostic {
+/// The text is that of the part.
+pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part, text: &str) -> Diagnostic {
     let units = |d: Dimension| {
         if d.is(Dimension::LENGTH) {
             Some("`mm`, `m`")
@@ -327,20 +343,34 @@ pub fn wrong_dimension(place: &str, wanted: Dimension, found: Part) -> Diagnosti
     };
     let is_angle =
         place.contains("angle") || place.contains("`sin`") || place.contains("`cos`") || place.contains("`tan`");
+    let factors = |factors: [&str; 2], words: &str| Some(with_factors(found.span, text, factors, words));
+    let mut fix = None;
     let help = if wanted.is(Dimension::PURE) && is_angle && found.dimension.is(Dimension::TIME) {
-        Some("an angular speed makes an angle of a time: `1 rad/s * t`".to_owned())
+        let words = "an angular speed makes an angle of a time: `1 rad/s * t`";
+        fix = factors(["1 rad/s * ", ""], words);
+        Some(words.to_owned())
     } else if wanted.is(Dimension::PURE) && is_angle {
         Some("units of angle: `deg`, `rad`".to_owned())
     } else if wanted.is(Dimension::PURE) {
-        Some(format!("divide it by {} to get a pure number", one(found.dimension)))
+        let words = format!("divide it by {} to get a pure number", one(found.dimension));
+        let unit = one(found.dimension).trim_matches('`').to_owned();
+        let unit = if unit.contains('/') { format!("({unit})") } else { unit };
+        // an exponent binds more tightly than what divides it
+        let [open, close] = if place.contains("exponent") { ["(", ")"] } else { ["", ""] };
+        fix = factors([open, &format!(" / {unit}{close}")], &words);
+        Some(words)
     } else if place.contains("phase") {
         Some("it is measured along the pitch circles: an angle times a radius, as `30 deg * 20 mm`".to_owned())
     } else {
+        if found.dimension.is(Dimension::PURE) && units(wanted).is_some() {
+            fix = with_unit(found.span, text, &usual_unit(wanted));
+        }
         units(wanted).map(|units| format!("units of {}: {units}", wanted.in_words().trim_start_matches("a ")))
     };
     Diagnostic::new(Code::E0402, format!("{place} must be {}, found {}", wanted.in_words(), found.dimension.in_words()))
         .at(found.span, found.dimension.in_words())
         .help_if(help)
+        .change(fix)
 }
 
 /// `1 s`, `1 m`, `1 m/s`.
@@ -385,9 +415,9 @@ pub fn curve_is_a_point(name: &Name, argument: &str, at: Span) -> Diagnostic {
 // ---- tables
 
 pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
-    Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
-        .at(name.span, "the unit of a column")
-        .help(meant_unit(&name.text))
+    let diagnostic =
+        Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text)).at(name.span, "the unit of a column");
+    meant_unit(diagnostic, name)
 }
 
 pub fn row_of(span: Span, found: usize) -> Diagnostic {
@@ -458,7 +488,12 @@ pub fn center_on_the_rack(arguments: [Span; 2]) -> Diagnostic {
 pub fn side_without_phase(side: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0302, format!("expected a phase before `{side}`"))
         .at(span, "the third argument is a length")
-        .help(format!("write the phase too: `rack_pinion(c, a, 0 mm, {side})`"))
+        .fix(Fix::insert(
+            span,
+            "0 mm, ",
+            format!("write the phase too: `rack_pinion(c, a, 0 mm, {side})`"),
+            Applies::Probably,
+        ))
 }
 
 pub fn no_side(span: Span) -> Diagnostic {
@@ -474,14 +509,28 @@ pub fn step_not_positive(span: Span, value: f64) -> Diagnostic {
         .help("`every` is the time from one row to the next")
 }
 
-pub fn ends_before_start(span: Span, from: f64, to: f64) -> Diagnostic {
+/// With the places and the texts of the start and the end.
+pub fn ends_before_start(spans: [Span; 2], texts: [&str; 2], from: f64, to: f64) -> Diagnostic {
     let is_duration = to > 0.0;
-    let end = told(from + to, Dimension::TIME);
+    let after = readable(from + to);
     let [from, to] = [from, to].map(readable);
+    let edit = |k: usize, text: &str| Edit { span: spans[k], text: text.to_owned() };
+    let message = format!("the other way round: `from {to} s to {from} s`");
+    let edits = vec![edit(0, texts[1]), edit(1, texts[0])];
+    let other_way = Fix { message, edits, applies: Applies::Probably };
+    let unit = if texts.iter().all(|text| is_bare_number(text)) { "" } else { " s" };
+    let end = Fix::replace(
+        spans[1],
+        format!("{after}{unit}"),
+        format!("`to` is a time, and no duration: `from {from} s to {after} s`"),
+        Applies::Probably,
+    );
     Diagnostic::new(Code::E0408, format!("the analysis ends at {to} s, before its start at {from} s"))
-        .at(span, "the end")
+        .at(spans[1], "the end")
+        .change(is_duration.then_some(end))
+        .change(Some(other_way))
         .help(if is_duration {
-            format!("`to` is a time, and no duration: `from {from} s to {end}`; or the other way round: `from {to} s to {from} s`")
+            format!("`to` is a time, and no duration: `from {from} s to {after} s`; or the other way round: `from {to} s to {from} s`")
         } else {
             format!("the other way round: `from {to} s to {from} s`")
         })
@@ -503,11 +552,17 @@ pub fn too_large(span: Span) -> Diagnostic {
         .help("functions that call each other several times with different arguments multiply; name common parts")
 }
 
-pub fn degrees(span: Span, value: f64) -> Diagnostic {
+/// The text is that of the number.
+pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
     let value = readable(value);
+    let words = format!("write `{value} deg`, or `{value} rad` if radians are meant");
+    let unit = |unit: &str| Fix::append(span, format!(" {unit}"), format!("write `{value} {unit}`"), Applies::Probably);
+    let is_bare = is_bare_number(text);
     Diagnostic::new(Code::W0401, format!("{value} rad is more than a turn; degrees were probably meant"))
         .at(span, "a bare number is in radians")
-        .help(format!("write `{value} deg`, or `{value} rad` if radians are meant"))
+        .help(words)
+        .change(is_bare.then(|| unit("deg")))
+        .change(is_bare.then(|| unit("rad")))
 }
 
 // ---- the whole

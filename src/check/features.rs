@@ -66,7 +66,12 @@ impl Checker<'_> {
 
     fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
         let zero = self.model.graph.constant(0.0);
-        let id = self.model.add_body(Body { declared: declared(name), docs: item.docs.clone(), pose: [zero; 3] });
+        let pose_span = match &item.kind {
+            ItemKind::Body { pose, .. } => pose.as_ref().map(|pose| pose.span),
+            _ => None,
+        };
+        let declared = declared(name);
+        let id = self.model.add_body(Body { declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
         self.bodies.push(id);
         self.features.insert(Frame::Body(id), Space::new());
         Frame::Body(id)
@@ -234,7 +239,7 @@ impl Checker<'_> {
         if let Some(value) = e.bare_number()
             && value.abs() > std::f64::consts::TAU
         {
-            self.report(errors::degrees(e.span, value));
+            self.report(errors::degrees(e.span, value, self.sources.text(e.span)));
         }
     }
 

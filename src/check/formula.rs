@@ -322,7 +322,7 @@ impl Checker<'_> {
             (Dim::Of(x), Dim::Of(y)) if context.judged && !x.is(y) => {
                 let [x, y] = [(a.0, x), (b.0, y)].map(|(span, dimension)| Part { span, dimension });
                 let texts = [a.0, b.0].map(|span| self.sources.text(span));
-                self.report(errors::unlike(what, x, y, texts));
+                self.report(errors::unlike(what, x, y, texts, context.time));
                 None
             }
             (Dim::Any, other) | (other, _) => Some(other),
@@ -340,7 +340,8 @@ impl Checker<'_> {
     ) -> Option<()> {
         match found {
             Dim::Of(dimension) if context.judged && !dimension.is(wanted) => {
-                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }));
+                let text = self.sources.text(span);
+                self.report(errors::wrong_dimension(place, wanted, Part { span, dimension }, text));
                 None
             }
             _ => Some(()),

@@ -11,9 +11,11 @@ mod errors;
 mod features;
 mod formula;
 mod joints;
+mod mends;
 mod names;
 mod profiles;
 mod quantities;
+mod renames;
 mod symbols;
 mod table_file;
 mod tables;
@@ -373,7 +375,12 @@ impl<'a> Checker<'a> {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
                         let place = format!("the parameter `{}`", name.text);
                         let part = errors::Part { span: setting.value.span, dimension: found };
-                        self.report(errors::wrong_dimension(&place, wanted, part));
+                        self.report(errors::wrong_dimension(
+                            &place,
+                            wanted,
+                            part,
+                            self.sources.text(setting.value.span),
+                        ));
                         return None;
                     }
                     (Dim::Of(wanted), _) => Value { dim: Dim::Of(wanted), ..given },

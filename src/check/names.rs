@@ -1,5 +1,6 @@
 //! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
 
+use super::renames::{uses_in, uses_of_argument};
 use super::{Checker, errors};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
@@ -122,7 +123,8 @@ impl Checker<'_> {
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             if is_taken(&name.text) || callable && is_called(&name.text) {
-                self.report(errors::reserved(name));
+                let uses = uses_in(mechanism, name, entity);
+                self.report(errors::reserved(name, &self.name_beside(name), &uses));
             }
             // declared all the same, so that its uses are not reported too
             if let Err(first) = self.space.declare(name, entity) {
@@ -131,11 +133,11 @@ impl Checker<'_> {
         }
         for item in &mechanism.items {
             match &item.kind {
-                ItemKind::Function { argument, .. } => self.argument_name(argument),
+                ItemKind::Function { argument, value, .. } => self.argument_name(argument, value),
                 ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
                     for feature in features {
-                        if let FeatureKind::Curve { argument, .. } = &feature.kind {
-                            self.argument_name(argument);
+                        if let FeatureKind::Curve { argument, at, .. } = &feature.kind {
+                            self.argument_name(argument, at);
                         }
                     }
                 }
@@ -173,13 +175,14 @@ impl Checker<'_> {
     }
 
     /// The argument of a function or curve may not be a name of the mechanism's space.
-    fn argument_name(&mut self, argument: &Name) {
+    fn argument_name(&mut self, argument: &Name, formula: &Expr) {
+        let uses = || uses_of_argument(argument, formula);
         if is_taken(&argument.text) {
-            self.report(errors::reserved(argument));
+            self.report(errors::reserved(argument, &self.name_beside(argument), &uses()));
         } else if let Some(declared) = self.space.span(&argument.text) {
             let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
             let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
-            self.report(errors::hidden_name(argument, declared, free));
+            self.report(errors::hidden_name(argument, declared, free, &uses()));
         }
     }
 

@@ -31,9 +31,16 @@ pub(super) struct Arguments {
 #[derive(Subcommand, Debug)]
 pub(super) enum Command {
     /// Is it a determined mechanism? Says what was found
-    #[command(long_about = "Is it a determined mechanism?\n\n\
+    #[command(
+        long_about = "Is it a determined mechanism?\n\n\
         Checks the file, counts coordinates and equations, assembles the mechanism at its first time, and prints what \
-        was found: bodies, joints, drivers, the NDOF table, and how far the estimates were off.")]
+        was found: bodies, joints, drivers, the NDOF table, and how far the estimates were off.\n\n\
+        With --fix, mistakes that leave no doubt of what was meant (`**` for `^`, a parenthesis that is not closed) are \
+        mended in the file first, and what is left is told. Standard input goes to standard output, mended, and the report \
+        to standard error.",
+        after_help = "Examples:\n  mechc check linkage.mech\n  mechc check linkage.mech --fix\n  \
+        mechc check - --fix < draft.mech > linkage.mech"
+    )]
     Check(CheckArguments),
     /// The kinematic analysis, as a table
     #[command(
@@ -155,6 +162,10 @@ pub(super) struct CheckArguments {
     /// Leave redundant equations out
     #[arg(long)]
     pub allow_redundant: bool,
+
+    /// Write what the text can only have meant into FILE, say what was changed, and check that
+    #[arg(long)]
+    pub fix: bool,
 }
 
 #[derive(Args, Debug)]

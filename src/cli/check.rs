@@ -3,19 +3,27 @@
 use super::arguments::CheckArguments;
 use super::failure::Failure;
 use super::files;
-use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
+use super::{fix, input};
 use crate::analysis::Times;
 use crate::diag::readable;
 use crate::stages::{Assembly, Compiled, RunOptions};
 
 pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+    let input = &arguments.input;
+    let parsed = if arguments.fix { fix::fix(input, reporter)? } else { input::parsed(input, reporter)? };
+    let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
     let (run, said) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
     let run = reporter.settle(run, said)?;
-    files::print(&report(&compiled, run.assembly()))
+    let report = report(&compiled, run.assembly());
+    if arguments.fix && input.file == "-" {
+        // the mended text is there
+        Reporter::say(&report);
+        return Ok(());
+    }
+    files::print(&report)
 }
 
 /// As many as a reader compares with a drawing.

@@ -24,7 +24,9 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     if arguments.lanes.is_some() {
         can_have_lanes(arguments, format)?;
     }
-    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+    let (input, mut timings) = (&arguments.input, Timings::new(false));
+    let parsed = input::parsed(input, reporter)?;
+    let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut timings)?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     let options = RustOptions {

@@ -14,6 +14,11 @@ const STANDARD_INPUT: &str = "<stdin>";
 
 /// The text of a file, or of standard input for `-`.
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
+    read_with_mark(name, sources).map(|(file, _)| file)
+}
+
+/// As [`read`], and whether the text begins with a byte-order mark.
+pub(super) fn read_with_mark(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
     let (shown, bytes) = if name == "-" {
         let mut bytes = Vec::new();
         (STANDARD_INPUT, io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
@@ -21,7 +26,8 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
         (name, fs::read(name))
     };
     let bytes = bytes.map_err(|error| world::cannot_read(shown, &error))?;
-    world::take_in(shown, &bytes, sources).map_err(Failure::from)
+    let has_mark = bytes.starts_with("\u{feff}".as_bytes());
+    world::take_in(shown, &bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
 }
 
 /// The files of this machine.
@@ -96,6 +102,11 @@ impl Output {
             return Err(output.failure(&error));
         }
         output.close()
+    }
+
+    /// Writes a whole text in the place of the one that was read there.
+    pub fn replace(name: &str, text: &str) -> Result<(), Failure> {
+        Output::write(name, text, &Sources::default())
     }
 
     /// Whether it is standard output, and that a terminal.

@@ -10,16 +10,15 @@ use crate::source::Sources;
 use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
 use std::path::Path;
 
-/// Reads, checks and proves the mechanism of a command; prints its warnings.
+/// Checks and proves the mechanism of a command; prints its warnings.
 pub(super) fn compiled(
+    parsed: &Parsed,
     input: &Input,
     allow_redundant: bool,
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
-    let parsed = parsed(input, reporter)?;
-    timings.end(Phase::Parse);
-    let checked = checked(&parsed, input, reporter)?;
+    let checked = checked(parsed, input, reporter)?;
     timings.end(Phase::Check);
     let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
@@ -37,9 +36,12 @@ pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, F
 /// Reads the file of a command.
 pub(super) fn parsed(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Failure> {
     let file = files::read(&input.file, &mut reporter.sources)?;
-    // what standard input names is in the current folder
-    let path = if input.file == "-" { Path::new("") } else { Path::new(&input.file) };
-    Ok(Parsed::of_source(reporter.sources.clone(), file, path))
+    Ok(Parsed::of_source(reporter.sources.clone(), file, path(input)))
+}
+
+/// Beside which the files are that a command's file names: the current folder for standard input.
+pub(super) fn path(input: &Input) -> &Path {
+    if input.file == "-" { Path::new("") } else { Path::new(&input.file) }
 }
 
 fn checked(parsed: &Parsed, input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {

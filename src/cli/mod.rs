@@ -10,6 +10,7 @@ mod endings;
 mod explain;
 mod failure;
 mod files;
+mod fix;
 mod formula;
 mod import;
 mod input;

@@ -2,7 +2,7 @@
 
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
-use crate::diag::{Color, Diagnostics, Format, Severity, render};
+use crate::diag::{Color, Diagnostics, Fix, Format, Severity, render, render_made};
 use crate::source::Sources;
 use std::io::{IsTerminal, Write};
 
@@ -55,6 +55,12 @@ impl Reporter {
                 Ok(made)
             }
         }
+    }
+
+    /// Says which changes of a text were made.
+    pub fn made(&self, fixes: &[Fix]) {
+        let text: String = fixes.iter().map(|fix| render_made(fix, &self.sources, self.format)).collect();
+        Reporter::say(&text);
     }
 
     /// Says something that is no diagnostic.

@@ -18,7 +18,9 @@ use std::io::IsTerminal;
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let format = format(arguments)?;
     let mut timings = Timings::new(arguments.timings);
-    let compiled = input::compiled(&arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
+    let parsed = input::parsed(&arguments.input, reporter)?;
+    timings.end(Phase::Parse);
+    let compiled = input::compiled(&parsed, &arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.sources)?;
     if format == TableFormat::Parquet && output.is_terminal() {

@@ -14,7 +14,7 @@ pub use codes::Code;
 pub use fix::{Applies, Edit, Fix, fixed};
 pub use nearest::nearest;
 pub use number::readable;
-pub use render::{Color, Format, render};
+pub use render::{Color, Format, render, render_made};
 
 use crate::source::Span;
 use rustc_hash::FxHashSet;
@@ -128,6 +128,13 @@ impl Diagnostic {
     pub fn fix(mut self, fix: Fix) -> Diagnostic {
         self.help.push(fix.message.clone());
         self.fixes.push(fix);
+        self
+    }
+
+    /// The change of the text for what the help says already.
+    #[must_use]
+    pub fn change(mut self, fix: Option<Fix>) -> Diagnostic {
+        self.fixes.extend(fix);
         self
     }
 

@@ -46,6 +46,19 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color:
     }
 }
 
+/// A fix that was made, as a line of text: `file:line: message`.
+#[must_use]
+pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
+    if format == Format::Json {
+        return format!("{}\n", json!({ "fixed": fix_as_json(fix, sources) }));
+    }
+    let place = fix.edits.first().map_or(String::new(), |edit| {
+        let source = sources.get(edit.span.file);
+        format!("{}:{}: ", source.name, source.position(edit.span.start).0)
+    });
+    format!("{place}{}\n", fix.message)
+}
+
 impl Severity {
     fn as_str(self) -> &'static str {
         match self {

@@ -93,6 +93,8 @@ pub struct Body {
     pub name: String,
     /// The name's place.
     pub span: Span,
+    /// Where its pose is written, if it is.
+    pub pose_span: Option<Span>,
 }
 
 /// A point fixed in a body or in the ground.

@@ -70,7 +70,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         bodies: model
             .bodies
             .iter()
-            .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span })
+            .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span, pose_span: body.pose_span })
             .collect(),
         points,
         coordinates: lowering.coordinates,

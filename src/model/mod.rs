@@ -171,6 +171,8 @@ pub struct Body {
     pub docs: Vec<String>,
     /// The pose as written: x (m), y (m), phi (rad).
     pub pose: [ExprId; 3],
+    /// Where the pose is written, if it is.
+    pub pose_span: Option<Span>,
 }
 
 /// A point fixed in a frame.

@@ -33,35 +33,47 @@ pub struct Checked {
 
 impl Checked {
     pub(super) fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
-        let mut sources = parsed.sources().clone();
-        let mut diagnostics = parsed.faults().clone();
-        let is_read = diagnostics.is_empty();
-        diagnostics.extend(check::check_file(parsed.tree()));
-        let mut model = None;
-        let number = match chosen(parsed, choice.mechanism.as_deref()) {
-            Ok(number) => Some(number),
-            // a mechanism that cannot be read may be the one
+        match chosen(parsed, choice.mechanism.as_deref()) {
+            Ok(number) => Checked::of_number(parsed, number, &choice.set, world),
             Err(why) => {
-                diagnostics.extend(is_read.then_some(*why));
-                None
-            }
-        };
-        if let Some(number) = number {
-            let tree = &parsed.tree().mechanisms[number];
-            let settings = settings(&choice.set, tree, &mut sources);
-            let files = table_files(parsed, tree, world, &mut sources);
-            match settings {
-                Err(why) => diagnostics.extend(why),
-                Ok(settings) => {
-                    let (found, said) = check::check(tree, &Surroundings { settings, files }, &sources);
-                    diagnostics.extend(said);
-                    model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
-                }
+                let mut diagnostics = parsed.faults().clone();
+                // a mechanism that cannot be read may be the one
+                let is_read = diagnostics.is_empty();
+                diagnostics.extend(check::check_file(parsed.tree()));
+                diagnostics.extend((is_read && !diagnostics.has_errors()).then_some(*why));
+                Checked::with(parsed.clone(), None, None, diagnostics)
             }
         }
+    }
+
+    /// The mechanism of a number, with settings from outside.
+    pub(super) fn of_number(parsed: &Parsed, number: usize, set: &[String], world: &dyn World) -> Checked {
+        let mut sources = parsed.sources().clone();
+        let mut diagnostics = parsed.faults().clone();
+        diagnostics.extend(check::check_file(parsed.tree()));
+        let tree = &parsed.tree().mechanisms[number];
+        let settings = settings(set, tree, &mut sources);
+        let files = table_files(parsed, tree, world, &mut sources);
+        let mut model = None;
+        match settings {
+            Err(why) => diagnostics.extend(why),
+            Ok(settings) => {
+                let (found, said) = check::check(tree, &Surroundings { settings, files }, &sources);
+                diagnostics.extend(said);
+                model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
+            }
+        }
+        Checked::with(parsed.with_sources(sources), Some(number), model, diagnostics)
+    }
+
+    fn with(
+        parsed: Parsed,
+        number: Option<usize>,
+        model: Option<Arc<Mechanism>>,
+        mut diagnostics: Diagnostics,
+    ) -> Checked {
         diagnostics.sort_by_place();
-        let (parsed, diagnostics) = (parsed.with_sources(sources), Arc::new(diagnostics));
-        Checked { parsed, number, model, diagnostics, symbols: Arc::default() }
+        Checked { parsed, number, model, diagnostics: Arc::new(diagnostics), symbols: Arc::default() }
     }
 
     /// The texts that its diagnostics speak of.

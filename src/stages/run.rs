@@ -42,7 +42,7 @@ pub struct Run {
     columns: Arc<[String]>,
     assembly: Assembly,
     times: Times,
-    number: u64,
+    cancel: Cancel,
     has_ended: bool,
 }
 
@@ -62,7 +62,8 @@ impl Run {
             motion.pass_bifurcations();
         }
         let columns = compiled.columns().into();
-        (Some(Run { motion, columns, assembly, times: times.clone(), number: 0, has_ended: false }), remarks)
+        let (times, cancel) = (times.clone(), options.cancel.clone());
+        (Some(Run { motion, columns, assembly, times, cancel, has_ended: false }), remarks)
     }
 
     /// The names of the numbers of a row.
@@ -88,11 +89,10 @@ impl Run {
     /// # Errors
     /// Why the motion cannot go on; nothing comes behind that.
     pub fn next_row(&mut self) -> Option<Result<&[f64], Box<Diagnostic>>> {
-        if self.has_ended {
+        if self.has_ended || self.cancel.is_cancelled() {
             return None;
         }
         let row = self.motion.next_row();
-        self.number += 1;
         self.has_ended = !matches!(row, Some(Ok(_)));
         row
     }
@@ -117,4 +117,43 @@ fn assembly(compiled: &Compiled, started: &mut analysis::Started, t: f64) -> Ass
     let coordinates = system.coordinates.iter().zip(started.q());
     let coordinates = coordinates.map(|(c, &q)| (c.name.clone(), q, c.kind.unit())).collect();
     Assembly { t, coordinates, moved: started.moved().in_words(system), conditioning }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
+
+    fn compiled(cancel: &Cancel) -> Option<Compiled> {
+        let text = include_str!("../../examples/hoeken.mech");
+        let checked = Parsed::of("hoeken.mech", text).check(&Choice::default(), &Memory::default());
+        checked.compile(Redundant::Refused, cancel).0
+    }
+
+    #[test]
+    fn what_is_cancelled_gives_nothing_and_says_nothing() {
+        let cancel = Cancel::default();
+        let compiled_now = compiled(&cancel).expect("it is determined");
+        let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
+        let times = Times::grid(0.0, 1e9, 1.0).expect("a grid");
+        let mut run = compiled_now.run(&times, &options).0.expect("it assembles");
+        assert!(run.next_row().is_some_and(|row| row.is_ok()));
+        // a thread, as an editor would have one
+        let far = std::thread::spawn(move || run.by_ref().map(|row| row.is_ok()).collect::<Vec<bool>>());
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        cancel.cancel();
+        assert!(far.join().expect("it ends").into_iter().all(|is_row| is_row), "it was told why");
+        let (run, said) = compiled_now.run(&times, &options);
+        assert!(run.is_none() && said.is_empty());
+        assert!(compiled(&cancel).is_none());
+    }
+
+    #[test]
+    fn stages_go_to_other_threads() {
+        fn goes<T: Send + Sync + Clone>() {}
+        goes::<Parsed>();
+        goes::<crate::Checked>();
+        goes::<Compiled>();
+        fn moves<T: Send>() {}
+        moves::<crate::Run>();
+    }
 }

@@ -2,8 +2,9 @@
 
 use super::DEEPEST;
 use super::grammar::Rule;
-use super::mends::Fault;
-use crate::diag::{Code, Diagnostic};
+use super::mends::{Fault, Mend};
+use super::tokens::tokens;
+use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
 
@@ -32,20 +33,29 @@ pub fn quantity_as_exponent(span: Span) -> Diagnostic {
 }
 
 /// A unit's power that is not a whole number: `50 mm^x`.
-pub fn unit_power(span: Span, literal: &str) -> Diagnostic {
-    misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power")
-        .help(format!("to raise the whole quantity, write `({literal})^…`"))
+pub fn unit_power(span: Span, literal: Span, text: &str) -> Diagnostic {
+    let [before, behind] = [(literal.start, "("), (literal.end, ")")]
+        .map(|(at, text)| Edit { span: Span { start: at, end: at, ..literal }, text: text.to_owned() });
+    misplaced(span, "the power of a unit is a whole number", "after a unit this is the unit's power").fix(Fix {
+        message: format!("to raise the whole quantity, write `({text})^…`"),
+        edits: vec![before, behind],
+        applies: Applies::Probably,
+    })
 }
 
 /// A chain of comparisons: `a < b < c`.
-pub fn chained_comparison(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0309, "comparisons do not form chains")
-        .at(span, "a second comparison")
-        .help("join two comparisons with `and`: `a < b and b < c`")
+pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0309, "comparisons do not form chains").at(span, "a second comparison").fix(Fix::append(
+        middle,
+        format!(" and {text}"),
+        "join two comparisons with `and`: `a < b and b < c`",
+        Applies::Probably,
+    ))
 }
 
 /// A declaration of the mechanism within the braces of a body.
 pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
+    fault.fixes.clear();
     fault.help = vec![format!("a `{word}` stands in the mechanism: put it behind the `}}` of this body or ground")];
     fault
 }
@@ -87,7 +97,7 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some('"') => "an unclosed string".to_owned(),
         Some(_) => format!("`{word}`"),
     };
-    let fault = Fault { text, at: found.start, found: word, expected: rules };
+    let fault = Fault { text, file, at: found.start, found: word, expected: rules };
     // of one thing it can be said where it goes
     let label = if expected.split('`').count() == 3 && expected.starts_with('`') && expected.ends_with('`') {
         format!("{expected} goes here")
@@ -102,7 +112,11 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    diagnostic.help_if(fault.mend())
+    match fault.mend(&expected) {
+        Some(Mend::Words(words)) => diagnostic.help(words),
+        Some(Mend::Fix(fix)) => diagnostic.fix(fix),
+        None => diagnostic,
+    }
 }
 
 /// Arguments in braces or square brackets: `revolute{A, B}`.
@@ -112,11 +126,38 @@ fn other_bracket(error: &Error<Rule>, text: &str, behind: usize, file: FileId) -
     if !expects(error, Rule::call) && !expects(error, Rule::expr) {
         return None;
     }
-    let at = (text.len() - rest.len()) as u32;
-    Some(
-        misplaced(Span { file, start: at, end: at + 1 }, &format!("expected `(`, found `{bracket}`"), "`(` goes here")
-            .help("arguments stand in round brackets"),
-    )
+    let at = text.len() - rest.len();
+    let span = |at: usize| Span { file, start: at as u32, end: at as u32 + 1 };
+    let words = "arguments stand in round brackets";
+    let fault = misplaced(span(at), &format!("expected `(`, found `{bracket}`"), "`(` goes here");
+    Some(match partner(text, at) {
+        Some(end) => {
+            let edits = [(at, "("), (end, ")")].map(|(at, text)| Edit { span: span(at), text: text.to_owned() });
+            fault.fix(Fix { message: words.to_owned(), edits: edits.into(), applies: Applies::Always })
+        }
+        None => fault.help(words),
+    })
+}
+
+/// The bracket that closes one, if all between them are closed, on its line.
+fn partner(text: &str, at: usize) -> Option<usize> {
+    let (mut open, line) = (Vec::new(), text[at..].lines().next()?);
+    for token in tokens(line) {
+        match token.text {
+            "(" | "[" | "{" => open.push(token.text),
+            ")" | "]" | "}" => {
+                let is_pair = matches!((open.pop()?, token.text), ("(", ")") | ("[", "]") | ("{", "}"));
+                if !is_pair {
+                    return None;
+                }
+            }
+            _ => {}
+        }
+        if open.is_empty() {
+            return Some(at + token.start);
+        }
+    }
+    None
 }
 
 /// An equation written with `==`, which the grammar took for a comparison.
@@ -124,11 +165,13 @@ fn double_equals(error: &Error<Rule>, text: &str, offset: usize, file: FileId) -
     if !expects(error, Rule::equals) {
         return None;
     }
-    let before = &text[..offset];
-    let start = ["driver", "constraint"].iter().filter_map(|word| before.rfind(word)).max()?;
-    let at = start + before[start..].find("==")?;
-    let span = Span { file, start: at as u32, end: at as u32 + 2 };
-    Some(misplaced(span, "expected `=`, found `==`", "this compares").help("an equation is written with one `=`"))
+    let before = tokens(&text[..offset]);
+    let start = before.iter().rposition(|token| ["driver", "constraint"].contains(&token.text))?;
+    // behind an `if` it may be its comparison
+    let at = before[start..].iter().take_while(|token| token.text != "if").find(|token| token.text == "==")?;
+    let span = Span { file, start: at.start as u32, end: at.end() as u32 };
+    let fix = Fix::replace(span, "=", "an equation is written with one `=`", Applies::Always);
+    Some(misplaced(span, "expected `=`, found `==`", "this compares").fix(fix))
 }
 
 fn expects(error: &Error<Rule>, rule: Rule) -> bool {

@@ -167,7 +167,11 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         };
         let right = self.sum(depth)?;
         if let Some(second) = self.infix(OPERATORS) {
-            return Err(Box::new(errors::chained_comparison(self.reader.span(&second))));
+            return Err(Box::new(errors::chained_comparison(
+                self.reader.span(&second),
+                right.span,
+                self.reader.text(right.span),
+            )));
         }
         let span = left.span.to(right.span);
         Ok(Expr { kind: ExprKind::Compare(Box::new(left), comparison, Box::new(right)), span })
@@ -223,7 +227,7 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
         if let ExprKind::Literal { unit: Some((_, 1)), .. } = base.kind {
             let literal = &self.reader.text(base.span);
             if !literal.contains('^') {
-                return Err(Box::new(errors::unit_power(self.reader.span(&operator), literal)));
+                return Err(Box::new(errors::unit_power(self.reader.span(&operator), base.span, literal)));
             }
         }
         let exponent = self.signed(depth + 1)?;

@@ -48,6 +48,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         faults: Diagnostics::default(),
         bad_names: FxHashSet::default(),
         has_told_the_end: false,
+        last_told: None,
     };
     // once for the whole text: a stack of its own takes longer than most declarations
     let mechanisms = stacker::maybe_grow(STACK, STACK, || reading.file());
@@ -82,6 +83,8 @@ struct Reading<'a> {
     bad_names: FxHashSet<&'a str>,
     /// That the text ends too early is said once, not for each block that is open.
     has_told_the_end: bool,
+    /// The byte at which the last fault was.
+    last_told: Option<usize>,
 }
 
 impl Reading<'_> {
@@ -375,7 +378,9 @@ impl Reading<'_> {
 
     fn tell(&mut self, fault: Box<Diagnostic>) {
         let at = fault_at(&fault);
-        if !self.outline.uses_bad_name(at, &self.bad_names) {
+        // a word that ends one declaration and begins none is met twice
+        let is_told = self.last_told.replace(at) == Some(at);
+        if !is_told && !self.outline.uses_bad_name(at, &self.bad_names) {
             self.faults.push(*fault);
         }
         self.bad_names.extend(self.outline.bad_name(at));

@@ -3,7 +3,7 @@
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::assembly::Moved;
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
-use crate::diag::{Code, Diagnostic, readable};
+use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
 use crate::math;
 
@@ -93,13 +93,17 @@ pub fn cannot_assemble(system: &ConstraintSystem, row: usize, residual: f64, t: 
 }
 
 /// A remark where assembly moved a body so far that its branch may not be the one meant.
-pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option<Diagnostic> {
+///
+/// From the estimates to the assembled position.
+pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, [from, to]: [&[f64]; 2], t: f64) -> Option<Diagnostic> {
+    let assembled = || assembled_poses(system, from, to);
     if moved.perturbed {
         let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
         return Some(
             Diagnostic::new(Code::N0601, message)
                 .at(system.span, "one of several positions was taken")
-                .help("give estimates in `at` that are nearer to the position meant"),
+                .help("give estimates in `at` that are nearer to the position meant")
+                .change(assembled()),
         );
     }
     let (far, turned) = (moved.length > system.length, moved.angle > std::f64::consts::FRAC_PI_2);
@@ -113,8 +117,34 @@ pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, t: f64) -> Option
     Some(
         Diagnostic::new(Code::N0601, format!("body `{}` was {how} by the assembly at {}", body.name, at(t)))
             .at(body.span, "far from its estimate")
-            .help("if this is not the branch meant, give better estimates in `at`"),
+            .help("if this is not the branch meant, give better estimates in `at`")
+            .change(assembled()),
     )
+}
+
+/// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
+fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
+    let mut edits = Vec::new();
+    for (k, body) in system.bodies.iter().enumerate() {
+        let own: Vec<usize> =
+            (0..system.coordinates.len()).filter(|&column| system.body_of(column) == Some(k)).collect();
+        let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates[column].scale;
+        let [x, y, phi] = own.as_slice() else { continue };
+        if !own.iter().any(has_moved) {
+            continue;
+        }
+        let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
+        let [x, y] = [x, y].map(|&column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[*phi].abs() < 1e-12 { 0.0 } else { nine(to[*phi].to_degrees()) };
+        let pose = format!("({x} mm, {y} mm, {phi} deg)");
+        let written = match body.pose_span {
+            Some(span) => Fix::replace(span, pose, "", Applies::Probably),
+            None => Fix::append(body.span, format!(" at {pose}"), "", Applies::Probably),
+        };
+        edits.extend(written.edits);
+    }
+    let message = "write the assembled position into `at`".to_owned();
+    (!edits.is_empty()).then_some(Fix { message, edits, applies: Applies::Probably })
 }
 
 /// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.

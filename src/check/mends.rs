@@ -1,0 +1,25 @@
+//! Changes of a formula's text that mend its dimension.
+
+use crate::diag::{Applies, Edit, Fix};
+use crate::source::Span;
+
+/// Whether a text is a number and nothing else.
+pub(super) fn is_bare_number(text: &str) -> bool {
+    text.parse::<f64>().is_ok()
+}
+
+/// A unit behind a bare number.
+pub(super) fn with_unit(span: Span, text: &str, unit: &str) -> Option<Fix> {
+    let words = format!("a unit is missing: `{text} {unit}`");
+    is_bare_number(text).then(|| Fix::append(span, format!(" {unit}"), words, Applies::Probably))
+}
+
+/// A factor before and one behind a formula, which stands in parentheses where it has to.
+pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], words: &str) -> Fix {
+    let is_sum = text.contains(['+', '-']) || text.starts_with("if");
+    let [open, close] = if is_sum { ["(", ")"] } else { ["", ""] };
+    let edit = |at: u32, text: String| Edit { span: Span { start: at, end: at, ..span }, text };
+    let edits = vec![edit(span.start, format!("{before}{open}")), edit(span.end, format!("{close}{behind}"))];
+    let edits = edits.into_iter().filter(|edit| !edit.text.is_empty()).collect();
+    Fix { message: words.to_owned(), edits, applies: Applies::Probably }
+}

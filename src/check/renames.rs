@@ -1,0 +1,91 @@
+//! Another name for what cannot have its own, wherever it is used.
+
+use super::Checker;
+use super::names::{Entity, mentioned};
+use crate::diag::{Applies, Edit, Fix};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
+use crate::vocabulary::{Constant, StandsFor};
+
+/// A name and its uses with another one in their place.
+pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
+    let places = std::iter::once(&name.span).chain(uses);
+    let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
+    Fix { message, edits, applies: Applies::Probably }
+}
+
+/// Where the argument of a function or curve stands in its formula.
+pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
+    let mut uses = Vec::new();
+    mentioned(formula, |name| {
+        if name.text == argument.text {
+            uses.push(name.span);
+        }
+    });
+    uses
+}
+
+/// Where a mechanism names one of its declarations.
+pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, entity: Entity) -> Vec<Span> {
+    let is_called = matches!(entity, Entity::Function(_) | Entity::Table(_));
+    // alone, `t` may as well be the time
+    let is_time =
+        Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
+    let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(formulas).collect();
+    let mut uses = Vec::new();
+    while let Some(e) = open.pop() {
+        let used = match &e.kind {
+            ExprKind::Call { name, .. } if is_called => Some(name),
+            ExprKind::Name(name) if !is_called && !is_time => Some(name),
+            ExprKind::Member { owner, .. } if !is_called => Some(owner),
+            _ => None,
+        };
+        uses.extend(used.filter(|name| name.text == declared.text).map(|name| name.span));
+        open.extend(e.children());
+    }
+    uses
+}
+
+/// The formulas of a declaration.
+fn formulas(item: &Item) -> Vec<&Expr> {
+    match &item.kind {
+        ItemKind::Param { value, .. } | ItemKind::Function { value, .. } | ItemKind::Measure { value, .. } => {
+            vec![value]
+        }
+        ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),
+        ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
+        ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),
+        ItemKind::Body { pose, features, .. } => {
+            pose.iter().chain(features.iter().flat_map(|feature| parts(&feature.kind))).collect()
+        }
+        ItemKind::Joint { arguments, .. } => arguments.iter().collect(),
+        ItemKind::Equation { left, right, .. } => vec![left, right],
+        ItemKind::Analysis { from, to, every } => vec![from, to, every],
+    }
+}
+
+fn parts(feature: &FeatureKind) -> Vec<&Expr> {
+    match feature {
+        FeatureKind::Broken => Vec::new(),
+        FeatureKind::Point { at } => vec![at],
+        FeatureKind::AxisAlong { origin, direction } => vec![origin, direction],
+        FeatureKind::AxisTo { origin, target } => vec![origin, target],
+        FeatureKind::Circle { center, radius } => vec![center, radius],
+        FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
+    }
+}
+
+impl Checker<'_> {
+    /// A name like another one that stands nowhere in the text.
+    pub(super) fn name_beside(&self, name: &Name) -> String {
+        let text = &self.sources.get(name.span.file).text;
+        let mut number = 1_usize;
+        loop {
+            let free = format!("{}_{number}", name.text);
+            if !text.contains(&free) {
+                return free;
+            }
+            number += 1;
+        }
+    }
+}
