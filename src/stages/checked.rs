@@ -31,8 +31,16 @@ pub struct Checked {
     symbols: Arc<OnceLock<Symbols>>,
 }
 
+impl Parsed {
+    /// Checks one of its mechanisms.
+    #[must_use]
+    pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
+        Checked::of(self, choice, world)
+    }
+}
+
 impl Checked {
-    pub(super) fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+    fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         let mut sources = parsed.sources().clone();
         let mut diagnostics = parsed.faults().clone();
         let is_read = diagnostics.is_empty();

@@ -1,6 +1,5 @@
 //! The first stage: a text with its tree.
 
-use super::{Checked, Choice};
 use crate::diag::Diagnostics;
 use crate::source::{FileId, Sources};
 use crate::syntax::{self, Trivia, ast};
@@ -80,12 +79,6 @@ impl Parsed {
     #[must_use]
     pub fn formatted(&self) -> String {
         syntax::format(&self.read.tree)
-    }
-
-    /// Checks one of its mechanisms.
-    #[must_use]
-    pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
-        Checked::of(self, choice, world)
     }
 
     pub(super) fn tree(&self) -> &ast::File {
