@@ -29,8 +29,8 @@
 //!
 //! The rooms behind it are described in `ARCHITECTURE.md`, with what each knows and must not know.
 
-// what only tests of rooms and later rooms ask for
-#![cfg_attr(not(feature = "rooms"), allow(dead_code, unused_imports))]
+// what only the command line, tests of rooms and later rooms ask for
+#![cfg_attr(not(all(feature = "rooms", feature = "cli")), allow(dead_code, unused_imports))]
 
 mod analysis;
 mod cancel;

@@ -4,7 +4,13 @@
 
 mod support;
 
+#[path = "layers/links.rs"]
+mod links;
+
+use links::{Crate, Names};
+use std::collections::BTreeMap;
 use std::fs;
+use std::path::Path;
 use support::files;
 
 /// Each room with the rooms that it may name.
@@ -12,7 +18,10 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("source", &[]),
     ("math", &[]),
     ("vocabulary", &[]),
+    ("cancel", &[]),
+    ("output", &[]),
     ("diag", &["source"]),
+    ("world", &["source", "diag"]),
     ("expr", &["math"]),
     ("syntax", &["source", "vocabulary", "diag"]),
     ("model", &["source", "vocabulary", "expr"]),
@@ -22,39 +31,176 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("structure", &["ir", "expr", "diag"]),
     ("program", &["ir", "expr", "math"]),
     ("solver", &["program", "structure", "ir", "expr", "math"]),
-    ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math"]),
+    ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math", "cancel"]),
     ("emit", &["source", "solver", "program", "structure", "ir", "expr"]),
-    ("output", &[]),
     ("import", &["source", "vocabulary", "diag", "syntax"]),
+    (
+        "stages",
+        &[
+            "source",
+            "vocabulary",
+            "cancel",
+            "diag",
+            "world",
+            "expr",
+            "syntax",
+            "model",
+            "check",
+            "ir",
+            "lower",
+            "structure",
+            "program",
+            "solver",
+            "analysis",
+            "emit",
+            "import",
+        ],
+    ),
+    ("cli", &["source", "vocabulary", "cancel", "output", "diag", "world", "expr", "analysis", "emit", "stages"]),
 ];
+
+/// What the command line names of rooms behind the façade: all of a room, or single things of it.
+const COMMAND_LINE: &[&str] = &[
+    "analysis::Times",
+    "cancel",
+    "diag",
+    "emit::MARK",
+    "expr::number",
+    "output",
+    "source",
+    "stages",
+    "vocabulary",
+    "world",
+];
+
+/// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
+const CIRCLES: &[(&str, &str)] = &[
+    ("analysis/determine", "analysis/freedom"),
+    ("analysis/edges", "analysis/march"),
+    ("analysis/finer", "analysis/bridge"),
+    ("analysis/march", "analysis/bridge"),
+    ("analysis/march", "analysis/rims"),
+    ("analysis/march", "analysis/signals"),
+    ("analysis/march", "analysis/touch"),
+    ("analysis/rows", "analysis/march"),
+    ("check/errors", "check/names"),
+    ("emit/tape", "emit/equations"),
+    ("import/errors", "import/json"),
+    ("import/matlab/functions", "import/matlab/parser"),
+    ("program/compile", "program/tables"),
+    ("syntax/build", "syntax/formula"),
+    ("syntax/errors", "syntax/depth"),
+];
+
+fn read() -> Crate {
+    Crate::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &files("src", "rs"))
+}
 
 #[test]
 fn rooms_know_only_those_before_them() {
-    let all: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).chain(["cli"]).collect();
+    let all = read();
+    let rooms: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).collect();
     let mut seen = 0;
-    for path in files("src", "rs") {
-        let inside = path.strip_prefix(concat!(env!("CARGO_MANIFEST_DIR"), "/src")).expect("below src").to_owned();
-        let first = inside.iter().next().expect("a name").to_string_lossy().into_owned();
-        let room = first.trim_end_matches(".rs");
-        let Some((_, allowed)) = ROOMS.iter().find(|(name, _)| *name == room) else {
-            assert!(matches!(room, "lib" | "main" | "cli"), "the room `{room}` is not in the list");
-            continue;
-        };
+    for (module, file) in all.files.iter().filter(|(module, _)| !module.is_empty() && module[0] != "main") {
+        let room = module[0].as_str();
+        let known = ROOMS.iter().find(|(name, _)| *name == room);
+        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `{room}` is not in the list"));
         seen += 1;
-        let text = fs::read_to_string(&path).expect("a text");
-        for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+        for line in file.code.lines() {
             let hidden = ["crate::{", "super::super", "mechc::"].iter().find(|form| line.contains(**form));
-            assert!(hidden.is_none(), "{}: a room is named as `crate::room::…`, not by {hidden:?}", inside.display());
-            for used in line.split("crate::").skip(1) {
-                let used: String = used.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
-                if used == room || !all.contains(&used.as_str()) {
-                    continue;
-                }
-                assert!(allowed.contains(&used.as_str()), "{}: `{room}` must not know `{used}`", inside.display());
+            assert!(hidden.is_none(), "{}: a room is named as `crate::room::…`, not by {hidden:?}", file.place);
+        }
+        let used = all.named(module).into_iter().filter_map(|path| path.into_iter().next());
+        for used in used.filter(|used| used != room && rooms.contains(&used.as_str())) {
+            assert!(allowed.contains(&used.as_str()), "{}: `{room}` must not know `{used}`", file.place);
+        }
+    }
+    assert!(seen > 100, "only {seen} files were looked at");
+}
+
+#[test]
+fn rooms_are_listed_behind_those_that_they_know() {
+    for (k, (room, allowed)) in ROOMS.iter().enumerate() {
+        let later = allowed.iter().find(|name| !ROOMS[..k].iter().any(|(before, _)| before == *name));
+        assert!(later.is_none(), "`{room}` knows {later:?}, which does not stand before it");
+    }
+}
+
+#[test]
+fn the_command_line_goes_through_the_facade() {
+    let all = read();
+    let mut unused = COMMAND_LINE.to_vec();
+    for (module, file) in all.files.iter().filter(|(module, _)| module.first().is_some_and(|room| room == "cli")) {
+        for path in all.named(module).into_iter().filter(|path| path[0] != "cli") {
+            // what is on the façade itself
+            if path.len() == 1 && !all.files.contains_key(&path[..1]) {
+                continue;
+            }
+            let path = path.join("::");
+            let door = COMMAND_LINE.iter().find(|door| path == **door || path.starts_with(&format!("{door}::")));
+            assert!(door.is_some(), "{}: `{path}` is behind the façade", file.place);
+            unused.retain(|known| Some(known) != door);
+        }
+    }
+    assert!(unused.is_empty(), "{unused:?} is no longer named, and goes from the list");
+}
+
+#[test]
+fn files_of_a_room_know_each_other_in_one_direction() {
+    let all = read();
+    let is_inside = |inner: &Names, outer: &Names| inner.starts_with(outer);
+    let mut links: BTreeMap<Names, Vec<Names>> = BTreeMap::new();
+    let mut unused = CIRCLES.to_vec();
+    for module in all.files.keys().filter(|module| !module.is_empty()) {
+        let others = links.entry(module.clone()).or_default();
+        // a file and those in its folder are one
+        for other in
+            all.links(module).into_iter().filter(|other| !is_inside(other, module) && !is_inside(module, other))
+        {
+            let link = (module.join("/"), other.join("/"));
+            let is_known = unused.iter().position(|(from, to)| *from == link.0 && *to == link.1);
+            match is_known {
+                Some(at) => drop(unused.remove(at)),
+                None => others.push(other),
             }
         }
     }
-    assert!(seen > 30, "only {seen} files were looked at");
+    let circle = circle(&links);
+    assert!(circle.is_empty(), "a circle: {}", circle.iter().map(|m| m.join("/")).collect::<Vec<_>>().join(" → "));
+    assert!(unused.is_empty(), "{unused:?}: no such links are left, and they go from the list");
+}
+
+/// Modules that each name the next one, and the last one the first; nothing where there are none.
+fn circle(links: &BTreeMap<Names, Vec<Names>>) -> Vec<Names> {
+    let mut done: Vec<&Names> = Vec::new();
+    for start in links.keys() {
+        // a way from the start, with how many links of each module on it were followed
+        let mut way: Vec<(&Names, usize)> = vec![(start, 0)];
+        while let Some(&mut (module, ref mut next)) = way.last_mut() {
+            let other = if done.contains(&module) { None } else { links.get(module).and_then(|list| list.get(*next)) };
+            *next += 1;
+            let Some(other) = other else {
+                done.push(module);
+                way.pop();
+                continue;
+            };
+            if let Some(at) = way.iter().position(|(known, _)| *known == other) {
+                return way[at..].iter().map(|(module, _)| (*module).clone()).chain([other.clone()]).collect();
+            }
+            way.push((other, 0));
+        }
+    }
+    Vec::new()
+}
+
+#[test]
+fn a_circle_is_found() {
+    let names = |name: &str| vec![name.to_owned()];
+    let link = |from: &str, to: &[&str]| (names(from), to.iter().map(|name| names(name)).collect::<Vec<Names>>());
+    let links = |list: Vec<(Names, Vec<Names>)>| list.into_iter().collect::<BTreeMap<_, _>>();
+    assert!(circle(&links(vec![link("a", &["b", "c"]), link("b", &["c"]), link("c", &[])])).is_empty());
+    let found = circle(&links(vec![link("a", &["b"]), link("b", &["c"]), link("c", &["b"])]));
+    assert_eq!(found, ["b", "c", "b"].map(names));
 }
 
 /// What a file may use of the platform: threads, which are gone without their feature.

@@ -4,15 +4,13 @@ pub mod generate;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 
-use mechc::rooms::analysis::{self, Started, Times};
-use mechc::rooms::check::{self, Surroundings};
-use mechc::{Color, Diagnostic, Format, render};
-use mechc::rooms::emit;
-use mechc::rooms::lower;
 use mechc::rooms::program::{Frozen, Program, Stage};
-use mechc::Sources;
 use mechc::rooms::structure::Determined;
 use mechc::rooms::syntax::{self, ast};
+use mechc::{
+    Cancel, Choice, Color, Compiled, Diagnostic, Format, Memory, Parsed, Redundant, Run, RunOptions, RustOptions,
+    Sources, Times, render,
+};
 use shape::file_shape;
 use std::time::{Duration, Instant};
 
@@ -54,30 +52,26 @@ pub struct Ran {
     pub rows: usize,
 }
 
-/// A text through all rooms.
+/// A text through all stages.
 ///
 /// # Panics
 /// Something does not hold that must hold of every text.
 pub fn run(text: &str) -> Ran {
     let mut ran = Ran::default();
-    let mut sources = Sources::default();
-    let file = sources.add("text.mech", text);
-    let parsed = syntax::parse(&sources, file);
-    if !parsed.faults.is_empty() {
-        assert!(parsed.faults.has_errors(), "refused without a reason");
-        say(parsed.faults.iter(), &sources);
-        return ran;
+    let parsed = Parsed::of("text.mech", text);
+    if !parsed.faults().is_empty() {
+        assert!(parsed.faults().has_errors(), "refused without a reason");
+        say(parsed.faults().iter(), parsed.sources());
     }
-    let tree = parsed.tree;
-    ran.is_read = true;
-    reads_back(&tree);
-    let found = check::check_file(&tree);
-    say(found.iter(), &sources);
-    if found.has_errors() {
-        return ran;
+    ran.is_read = parsed.faults().is_empty();
+    if ran.is_read {
+        let mut sources = Sources::default();
+        let file = sources.add("text.mech", text);
+        reads_back(&syntax::parse(&sources, file).tree);
     }
-    for mechanism in tree.mechanisms.iter().take(MOST_MECHANISMS) {
-        follow(mechanism, &sources, &mut ran);
+    let names: Vec<String> = parsed.mechanisms().map(str::to_owned).collect();
+    for name in names.into_iter().take(MOST_MECHANISMS) {
+        follow(&parsed, name, &mut ran);
     }
     ran
 }
@@ -114,81 +108,64 @@ fn say<'d>(diagnostics: impl Iterator<Item = &'d Diagnostic>, sources: &Sources)
     }
 }
 
-fn follow(mechanism: &ast::Mechanism, sources: &Sources, ran: &mut Ran) {
+fn follow(parsed: &Parsed, name: String, ran: &mut Ran) {
     // no files: what the fuzzer makes up must not read any
-    let (model, found) = check::check(mechanism, &Surroundings::default(), sources);
-    say(found.iter(), sources);
-    let Some(model) = model else {
-        assert!(found.has_errors(), "refused without a reason");
+    let checked = parsed.check(&Choice { mechanism: Some(name), ..Choice::default() }, &Memory::default());
+    say(checked.diagnostics().iter(), checked.sources());
+    assert_ne!(checked.is_sound(), checked.diagnostics().has_errors(), "refused without a reason, or an error unheard");
+    let _ = (checked.symbols(), checked.model_text(), checked.equations_text());
+    if !checked.is_sound() {
         return;
-    };
-    assert!(!found.has_errors(), "an error, and yet a model");
+    }
     ran.sound += 1;
-    let _ = model.to_string();
-    let system = lower::lower(&model);
-    let _ = system.to_string();
-    let determined = match analysis::determine(system, false) {
-        Ok((determined, remarks)) => {
-            say(remarks.iter(), sources);
-            determined
-        }
-        Err(why) => {
-            say(why.iter(), sources);
-            match analysis::determine(lower::lower(&model), true) {
-                Ok((determined, remarks)) => {
-                    say(remarks.iter(), sources);
-                    determined
-                }
-                Err(why) => return say(why.iter(), sources),
-            }
-        }
-    };
+    let compiled = [Redundant::Refused, Redundant::LeftOut].into_iter().find_map(|redundant| {
+        let (compiled, said) = checked.compile(redundant, &Cancel::default());
+        say(said.iter(), checked.sources());
+        assert_ne!(compiled.is_some(), said.has_errors(), "refused without a reason, or an error unheard");
+        compiled
+    });
+    let Some(compiled) = compiled else { return };
     ran.determined += 1;
-    let program = Program::new(determined.system());
-    let emitted = emit::rust(determined.system(), &program, "text.mech");
-    assert!(emitted.contains("pub fn phi"), "no code:\n{emitted}");
+    let (emitted, _) = compiled.rust(&RustOptions { with_motion: false, ..RustOptions::of("text.mech") });
+    assert!(emitted.is_some_and(|text| text.contains("pub fn phi")), "no code");
+    let (determined, program) = compiled.inside();
     if determined.system().coordinates.len() > MOST_COORDINATES {
         return;
     }
-    let [from, to, _] = determined.system().analysis.unwrap_or([0.0, 1.0, 0.1]);
-    match analysis::start(&determined, &program, from, analysis::TOLERANCE) {
-        Ok(mut started) => {
-            ran.started += 1;
-            say(started.remarks().iter(), sources);
-            ran.rows += rows(&determined, &program, &mut started, [from, to], sources);
-        }
-        Err(why) => say(std::iter::once(&*why), sources),
+    let [from, to, _] = compiled.analysis().unwrap_or([0.0, 1.0, 0.1]);
+    let times = PARTS.map(|part| if part == 1.0 { to } else { from + part * (to - from) });
+    let times = Times::listed(from, times.to_vec());
+    let (run, said) = compiled.run(&times, &RunOptions::default());
+    say(said.iter(), compiled.sources());
+    assert!(run.is_some() || said.has_errors(), "not begun without a reason");
+    if let Some(run) = run {
+        ran.started += 1;
+        ran.rows += rows(&compiled, &determined, &program, run);
     }
 }
 
 /// A few rows, each finite and on `Φ`.
-fn rows(
-    determined: &Determined,
-    program: &Program,
-    started: &mut Started<'_>,
-    [from, to]: [f64; 2],
-    sources: &Sources,
-) -> usize {
-    let (begun, span, columns) = (Instant::now(), to - from, started.columns());
-    assert!(started.conditioning() > 0.0, "started in a singular position");
-    let times = PARTS.map(|part| if part == 1.0 { to } else { from + part * span });
-    let times = Times::listed(from, times.to_vec());
-    let mut motion = started.motion(&times);
+fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run: Run) -> usize {
+    let begun = Instant::now();
+    assert!(run.assembly().conditioning > 0.0, "started in a singular position");
+    let (times, columns) = (run.times().clone(), run.columns().to_vec());
     let mut known = 0;
-    while let Some(row) = motion.next_row() {
+    while let Some(row) = run.next_row() {
         let t = times.at(known as u64);
         match row {
             Ok(row) => {
                 assert_eq!(row.len(), columns.len(), "a row is as long as its header");
                 assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");
-                assert!(row.iter().all(|value| value.is_finite()), "not finite: {columns:?} {row:?}");
                 let n = determined.system().coordinates.len();
                 let measures = determined.system().measures.len();
+                // a measure may have no value, a coordinate always has
+                let mut moving = row[1..].chunks(n + measures).flat_map(|part| part.iter().take(n));
+                assert!(moving.all(|value| value.is_finite()), "not finite: {columns:?} {row:?}");
                 holds(determined, program, t, &row[1..=n], &row[1 + n + measures..][..n]);
                 known += 1;
             }
             Err(why) => {
-                say(std::iter::once(&*why), sources);
+                say(std::iter::once(&*why), compiled.sources());
                 break;
             }
         }
@@ -196,7 +173,7 @@ fn rows(
             break;
         }
     }
-    say(motion.take_remarks().iter(), sources);
+    say(run.take_remarks().iter(), compiled.sources());
     known
 }
 

@@ -3,7 +3,7 @@
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Setting, Surroundings, Symbols, TableFiles};
-use crate::diag::{Code, Diagnostic, Diagnostics, nearest};
+use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
 use crate::lower;
 use crate::model::Mechanism;
 use crate::source::Sources;
@@ -31,8 +31,32 @@ pub struct Checked {
     symbols: Arc<OnceLock<Symbols>>,
 }
 
+impl Parsed {
+    /// Checks one of its mechanisms.
+    #[must_use]
+    pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
+        Checked::of(self, choice, world)
+    }
+
+    /// The changes of its text that its diagnostics propose and that always apply: those of the syntax, and where there are none, those of
+    /// what the declarations of all its mechanisms mean.
+    #[must_use]
+    pub fn certain_fixes(&self, world: &dyn World) -> Vec<Fix> {
+        let certain = |found: &Diagnostics| -> Vec<Fix> {
+            let fixes = found.iter().flat_map(|diagnostic| &diagnostic.fixes);
+            fixes.filter(|fix| fix.applies == Applies::Always).cloned().collect()
+        };
+        let of_syntax = certain(self.faults());
+        if !of_syntax.is_empty() {
+            return of_syntax;
+        }
+        let all = (0..self.mechanisms().len()).map(|number| Checked::of_number(self, number, &[], world));
+        all.flat_map(|checked| certain(checked.diagnostics())).collect()
+    }
+}
+
 impl Checked {
-    pub(super) fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+    fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         match chosen(parsed, choice.mechanism.as_deref()) {
             Ok(number) => Checked::of_number(parsed, number, &choice.set, world),
             Err(why) => {
@@ -47,7 +71,7 @@ impl Checked {
     }
 
     /// The mechanism of a number, with settings from outside.
-    pub(super) fn of_number(parsed: &Parsed, number: usize, set: &[String], world: &dyn World) -> Checked {
+    fn of_number(parsed: &Parsed, number: usize, set: &[String], world: &dyn World) -> Checked {
         let mut sources = parsed.sources().clone();
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));

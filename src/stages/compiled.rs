@@ -1,6 +1,5 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
-use super::{Run, RunOptions};
 use crate::analysis::{self, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
@@ -106,13 +105,6 @@ impl Compiled {
     /// Lays out the operations, which the first run would do.
     pub fn prepare(&self) {
         self.program();
-    }
-
-    /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
-    /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
-    #[must_use]
-    pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        Run::of(self, times, options)
     }
 
     /// The equations typeset for a report; the file is named in it.

@@ -1,7 +1,6 @@
 //! The first stage: a text with its tree.
 
-use super::{Checked, Choice};
-use crate::diag::{Applies, Diagnostics, Fix};
+use crate::diag::Diagnostics;
 use crate::source::{FileId, Sources};
 use crate::syntax::{self, Trivia, ast};
 use crate::world::{self, World};
@@ -80,28 +79,6 @@ impl Parsed {
     #[must_use]
     pub fn formatted(&self) -> String {
         syntax::format(&self.read.tree)
-    }
-
-    /// Checks one of its mechanisms.
-    #[must_use]
-    pub fn check(&self, choice: &Choice, world: &dyn World) -> Checked {
-        Checked::of(self, choice, world)
-    }
-
-    /// The changes of its text that its diagnostics propose and that always apply: those of the syntax, and where there are none, those of
-    /// what the declarations of all its mechanisms mean.
-    #[must_use]
-    pub fn certain_fixes(&self, world: &dyn World) -> Vec<Fix> {
-        let certain = |found: &Diagnostics| -> Vec<Fix> {
-            let fixes = found.iter().flat_map(|diagnostic| &diagnostic.fixes);
-            fixes.filter(|fix| fix.applies == Applies::Always).cloned().collect()
-        };
-        let of_syntax = certain(self.faults());
-        if !of_syntax.is_empty() {
-            return of_syntax;
-        }
-        let all = (0..self.mechanisms().len()).map(|number| Checked::of_number(self, number, &[], world));
-        all.flat_map(|checked| certain(checked.diagnostics())).collect()
     }
 
     pub(super) fn tree(&self) -> &ast::File {

@@ -46,8 +46,17 @@ pub struct Run {
     has_ended: bool,
 }
 
+impl Compiled {
+    /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
+    /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
+    #[must_use]
+    pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+        Run::of(self, times, options)
+    }
+}
+
 impl Run {
-    pub(super) fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+    fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
         let started = analysis::start(determined, program, times.from(), options.tolerance, &options.cancel);
         let mut started = match started {

@@ -1,0 +1,168 @@
+//! Which file names what of which other: `use` lines and paths in the code, followed through re-exports to the file that declares it.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::Path;
+
+/// A path of names from the crate's root.
+pub type Names = Vec<String>;
+
+/// One file of the crate.
+pub struct File {
+    /// `analysis/march.rs`.
+    pub place: String,
+    /// Its code without comments and its own tests.
+    pub code: String,
+    /// What its `use` lines name, and whether they hand it on.
+    uses: Vec<(Names, bool)>,
+    /// Its code without `use` lines.
+    body: String,
+}
+
+/// All files by their modules' names.
+pub struct Crate {
+    pub files: BTreeMap<Names, File>,
+}
+
+impl Crate {
+    pub fn read(root: &Path, paths: &[impl AsRef<Path>]) -> Crate {
+        let mut files = BTreeMap::new();
+        for path in paths {
+            let place = path.as_ref().strip_prefix(root).expect("below the root").to_string_lossy().replace('\\', "/");
+            let text = fs::read_to_string(path).expect("a text");
+            let is_code = |line: &&str| !line.trim_start().starts_with("//");
+            let code = text.split("#[cfg(test)]").next().unwrap_or_default();
+            let code = code.lines().filter(is_code).collect::<Vec<&str>>().join("\n");
+            files.insert(module_of(&place), File { place, code, uses: Vec::new(), body: String::new() });
+        }
+        let modules: BTreeSet<Names> = files.keys().cloned().collect();
+        for (module, file) in &mut files {
+            let (lines, body) = use_lines(&file.code);
+            file.body = body;
+            for (tree, hands_on) in lines {
+                let named = expanded(&tree).into_iter().filter_map(|path| absolute(module, &path, &modules));
+                file.uses.extend(named.map(|path| (path, hands_on)));
+            }
+        }
+        Crate { files }
+    }
+
+    /// What a file names of the crate, each as a path from the root, as it is written.
+    pub fn named(&self, module: &Names) -> BTreeSet<Names> {
+        let file = &self.files[module];
+        let modules: BTreeSet<Names> = self.files.keys().cloned().collect();
+        let in_code = paths(&file.body).into_iter().filter_map(|path| absolute(module, &path, &modules));
+        // what is only handed on is a signpost
+        let stands = |path: &Names| path.last().is_some_and(|last| words(&file.body).any(|word| word == last));
+        let in_lines = file.uses.iter().filter(|(path, hands_on)| !hands_on || stands(path));
+        in_lines.map(|(path, _)| path.clone()).chain(in_code).collect()
+    }
+
+    /// The files that a file names something of.
+    pub fn links(&self, module: &Names) -> BTreeSet<Names> {
+        let known = self.named(module).into_iter().map(|path| self.declaring(&path, 0));
+        known.filter(|other| other != module && !other.is_empty()).collect()
+    }
+
+    /// The module of the file that declares what a path names.
+    fn declaring(&self, path: &[String], depth: usize) -> Names {
+        let length = (0..=path.len()).rev().find(|&n| self.files.contains_key(&path[..n])).unwrap_or(0);
+        let (module, rest) = path.split_at(length);
+        let (Some(file), Some(name)) = (self.files.get(module), rest.first()) else {
+            return module.to_vec();
+        };
+        match file.uses.iter().find(|(used, _)| used.last() == Some(name) && used != path) {
+            Some((used, _)) if depth < 8 => self.declaring(&[used, &rest[1..]].concat(), depth + 1),
+            _ => module.to_vec(),
+        }
+    }
+}
+
+/// `analysis/mod.rs` is `analysis`, `lib.rs` the root.
+fn module_of(place: &str) -> Names {
+    let mut names: Names = place.trim_end_matches(".rs").split('/').map(str::to_owned).collect();
+    if names.last().is_some_and(|last| last == "mod" || last == "lib") {
+        names.pop();
+    }
+    names
+}
+
+/// The trees of all `use` lines, with whether they are `pub`; and what is left of the code.
+fn use_lines(code: &str) -> (Vec<(String, bool)>, String) {
+    let (mut trees, mut body) = (Vec::new(), String::new());
+    let mut open: Option<(String, bool)> = None;
+    for line in code.lines() {
+        let trimmed = line.trim();
+        let is_public = trimmed.starts_with("pub");
+        let start =
+            if is_public { trimmed.split_once("use ").filter(|(head, _)| !head.contains(['{', '='])) } else { None };
+        let start = start.map_or_else(|| trimmed.strip_prefix("use "), |(_, tree)| Some(tree));
+        match (&mut open, start) {
+            (Some((tree, _)), _) => *tree += trimmed,
+            (None, Some(tree)) => open = Some((tree.to_owned(), is_public)),
+            (None, None) => {
+                body += line;
+                body.push('\n');
+            }
+        }
+        if let Some((tree, _)) = &open
+            && tree.ends_with(';')
+        {
+            trees.extend(open.take());
+        }
+    }
+    (trees, body)
+}
+
+/// The paths of a tree: `a::{b, c::d}` is `a::b` and `a::c::d`.
+fn expanded(tree: &str) -> Vec<String> {
+    let tree = tree.trim().trim_end_matches(';');
+    let Some((head, list)) = tree.split_once('{') else {
+        return vec![tree.split(" as ").next().unwrap_or(tree).trim().to_owned()];
+    };
+    let list = list.strip_suffix('}').unwrap_or(list);
+    let (mut parts, mut depth) = (vec![String::new()], 0);
+    for c in list.chars() {
+        depth += i32::from(c == '{') - i32::from(c == '}');
+        match parts.last_mut() {
+            Some(part) if c != ',' || depth > 0 => part.push(c),
+            _ => parts.push(String::new()),
+        }
+    }
+    let parts = parts.into_iter().filter(|part| !part.trim().is_empty());
+    parts.flat_map(|part| expanded(&part)).map(|part| format!("{head}{part}")).collect()
+}
+
+/// A path from the crate's root; none for one of another crate.
+fn absolute(module: &[String], path: &str, modules: &BTreeSet<Names>) -> Option<Names> {
+    let mut names: Vec<&str> = path.split("::").filter(|name| !name.is_empty()).collect();
+    let first = *names.first()?;
+    let mut base = module.to_vec();
+    match first {
+        "crate" => base.clear(),
+        "self" | "super" => {}
+        _ => {
+            let child = [module, &[first.to_owned()]].concat();
+            return modules
+                .contains(&child)
+                .then(|| [module, &names.iter().map(|&n| n.to_owned()).collect::<Names>()].concat());
+        }
+    }
+    while names.first() == Some(&"super") {
+        base.pop();
+        names.remove(0);
+    }
+    let rest = names.into_iter().filter(|name| !matches!(*name, "crate" | "self"));
+    base.extend(rest.map(str::to_owned));
+    Some(base)
+}
+
+/// The paths of several names in code.
+fn paths(code: &str) -> Vec<String> {
+    let pieces = code.split(|c: char| !c.is_alphanumeric() && c != '_' && c != ':');
+    pieces.filter(|piece| piece.contains("::")).map(str::to_owned).collect()
+}
+
+fn words(code: &str) -> impl Iterator<Item = &str> {
+    code.split(|c: char| !c.is_alphanumeric() && c != '_')
+}
