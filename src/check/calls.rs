@@ -1,4 +1,8 @@
 //! Calls: functions and measures expanded where they stand, each expansion made once.
+//!
+//! An expansion recurses into the formula that is called, and a chain of functions can be longer than any stack is deep. So a call that is met
+//! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
+//! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
 
 use super::formula::{Context, Dim, Value};
 use super::names::Entity;
@@ -8,6 +12,15 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
 use crate::vocabulary::is_called;
 use rustc_hash::FxHashSet;
+
+/// Parts that one formula may have, written out.
+const LARGEST: usize = 1_000_000;
+
+/// A call that stands deeper than so many levels, its callers' formulas included, is put off.
+const DEEPEST_CALL: usize = 64;
+
+/// What may be read again and again for calls that are put off, as a multiple of what one formula may hold.
+const MOST_READ: usize = 16;
 
 /// One expansion of a function or measure: which, of what argument, and how it is read.
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
@@ -21,7 +34,34 @@ pub(super) struct Call {
     guard: Option<ExprId>,
 }
 
-impl Checker<'_> {
+/// A call that was met too far down, with all that its expansion needs.
+struct PutOff<'a> {
+    call: Call,
+    formula: &'a Expr,
+    context: Context<'a>,
+    caller: Option<Span>,
+}
+
+/// The calls of one formula.
+#[derive(Default)]
+pub(super) struct Calls<'a> {
+    /// How many levels of formulas are open.
+    levels: usize,
+    /// Calls that wait for their turn, the last one first.
+    waiting: Vec<PutOff<'a>>,
+    /// Expansions that were given up in this reading, since they hold a call that waits.
+    given_up: FxHashSet<Call>,
+    /// Whether the formula that is being read holds such a call.
+    is_given_up: bool,
+    /// Parts of the expansions that are complete.
+    complete: usize,
+    /// Parts read so far, those read again included.
+    read: usize,
+    /// The formula is refused for its size.
+    is_too_large: bool,
+}
+
+impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if is_called(&name.text) {
@@ -69,22 +109,15 @@ impl Checker<'_> {
             Dim::Of(d) if context.judged => Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits())),
             Dim::Any | Dim::Of(_) => None,
         };
-        let key = Call {
+        let call = Call {
             entity: Entity::Function(at),
             argument: Some((argument.id, bits)),
             judged: context.judged,
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner = Context {
-            time: true,
-            argument: Some((&name.text, argument)),
-            quantities: false,
-            measures: false,
-            names: true,
-            ..*context
-        };
-        self.expand(key, formula, span, &inner)
+        let inner = Context { time: true, quantities: false, measures: false, names: true, ..*context };
+        self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 
     /// Another measure's formula, as if it stood there.
@@ -93,37 +126,156 @@ impl Checker<'_> {
             return None;
         }
         let formula = self.measures[at].value;
-        let key = Call {
+        let call = Call {
             entity: Entity::Measure(at),
             argument: None,
             judged: context.judged,
             untaken: self.untaken,
             guard: self.guard,
         };
-        self.expand(key, formula, span, &Context { argument: None, ..*context })
+        self.expand(call, formula, None, span, context)
     }
 
-    fn expand(&mut self, key: Call, formula: &Expr, span: Span, context: &Context<'_>) -> Option<Value> {
-        if let Some(&known) = self.calls.get(&key) {
+    fn expand(
+        &mut self,
+        call: Call,
+        formula: &'a Expr,
+        argument: Option<(&'a str, Value)>,
+        span: Span,
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if let Some(&known) = self.known_calls.get(&call) {
             // who calls it asks for what it asks for
-            if let Some(conditions) = self.conditions_of_calls.get(&key) {
+            if let Some(conditions) = self.conditions_of_calls.get(&call) {
                 self.model.conditions.extend_from_slice(conditions);
             }
             return known;
         }
-        self.callers.push(span);
+        let caller = self.caller.or(Some(span));
+        if self.calls.given_up.contains(&call) {
+            self.calls.is_given_up = true;
+            return None;
+        }
+        if self.calls.levels > DEEPEST_CALL {
+            let context = context.at("", argument);
+            self.calls.waiting.push(PutOff { call, formula, context, caller });
+            self.calls.given_up.insert(call);
+            self.calls.is_given_up = true;
+            return None;
+        }
+        let outer = std::mem::replace(&mut self.caller, caller);
+        let value = self.expansion(call, formula, &context.at(context.place, argument));
+        self.caller = outer;
+        value
+    }
+
+    /// Expands a call, and remembers it unless it had to be given up.
+    fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
+        let outer = std::mem::replace(&mut self.calls.is_given_up, false);
+        let (complete, visited) = (self.calls.complete, self.visited);
         let first = self.model.conditions.len();
-        // functions may call each other in a long chain
-        let value = stacker::maybe_grow(256 << 10, 4 << 20, || self.number(formula, context));
-        self.callers.pop();
+        let value = self.number(formula, context);
+        if self.calls.is_given_up {
+            self.calls.given_up.insert(call);
+        } else {
+            self.calls.complete = complete + (self.visited - visited);
+            self.keep_conditions(call, first);
+            self.known_calls.insert(call, value);
+        }
+        self.calls.is_given_up |= outer;
+        value
+    }
+
+    /// Remembers what an expansion asks to be positive, from a condition on, each thing once.
+    fn keep_conditions(&mut self, call: Call, first: usize) {
         let mut conditions = self.model.conditions.split_off(first);
         let mut seen = FxHashSet::default();
         conditions.retain(|condition| seen.insert(condition.positive));
         self.model.conditions.extend_from_slice(&conditions);
         if !conditions.is_empty() {
-            self.conditions_of_calls.insert(key, conditions);
+            self.conditions_of_calls.insert(call, conditions);
         }
-        self.calls.insert(key, value);
+    }
+
+    /// One level of a formula; what was put off in it is made up for on the ground.
+    pub(super) fn level<T>(
+        &mut self,
+        context: &Context<'_>,
+        mut read: impl FnMut(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        if self.calls.levels > 0 {
+            self.calls.levels += 1;
+            let value = read(self);
+            self.calls.levels -= 1;
+            return value;
+        }
+        let (before, conditions) = (self.visited, self.model.conditions.len());
+        (self.calls.complete, self.calls.read, self.calls.is_too_large) = (0, 0, false);
+        let mut value = self.reading(before, &mut read);
+        while self.calls.is_given_up && !self.calls.is_too_large {
+            self.make_up(before, context.place);
+            value = self.reading(before, &mut read);
+            if !self.calls.is_given_up {
+                self.forget_repeated_conditions(conditions);
+            }
+        }
+        self.calls.waiting.clear();
         value
+    }
+
+    /// Counts a part of a formula, and refuses the formula where it has too many.
+    pub(super) fn count_part(&mut self, span: Span) -> Option<()> {
+        self.visited += 1;
+        if self.calls.is_too_large || self.visited <= LARGEST && self.calls.read <= MOST_READ * LARGEST {
+            return (!self.calls.is_too_large).then_some(());
+        }
+        self.calls.is_too_large = true;
+        self.diagnostics.push(errors::too_large(self.caller.unwrap_or(span)));
+        None
+    }
+
+    /// Whether a call that was put off keeps what is being read from being known.
+    pub(super) fn waits(&self) -> bool {
+        self.calls.is_given_up
+    }
+
+    /// Reads something from the ground.
+    fn reading<T>(&mut self, before: usize, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        self.visited = before + self.calls.complete;
+        self.calls.given_up.clear();
+        self.calls.is_given_up = false;
+        self.calls.levels = 1;
+        let value = read(self);
+        self.calls.levels = 0;
+        self.calls.read += self.visited - before - self.calls.complete;
+        value
+    }
+
+    /// Expands all calls that wait, and those that these wait for.
+    fn make_up(&mut self, before: usize, place: &str) {
+        let outer = (self.untaken, self.guard, self.caller);
+        while let Some(PutOff { call, formula, context, caller }) = self.calls.waiting.pop() {
+            if self.known_calls.contains_key(&call) {
+                continue;
+            }
+            if self.calls.is_too_large {
+                break;
+            }
+            (self.untaken, self.guard, self.caller) = (call.untaken, call.guard, caller);
+            let at = self.calls.waiting.len();
+            self.reading(before, |checker| checker.expansion(call, formula, &context.at(place, context.argument)));
+            if self.calls.is_given_up {
+                self.calls.waiting.insert(at, PutOff { call, formula, context, caller });
+            }
+        }
+        (self.untaken, self.guard, self.caller) = outer;
+    }
+
+    /// What was read again has asked for the same again.
+    fn forget_repeated_conditions(&mut self, from: usize) {
+        let mut known = FxHashSet::default();
+        let asked = self.model.conditions.split_off(from);
+        let new = asked.into_iter().filter(|condition| known.insert((condition.positive, condition.span)));
+        self.model.conditions.extend(new);
     }
 }

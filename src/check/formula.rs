@@ -12,9 +12,6 @@ use crate::source::Span;
 use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
-/// Parts that one formula may have, written out.
-const LARGEST: usize = 1_000_000;
-
 /// The dimension of a formula.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) enum Dim {
@@ -84,6 +81,12 @@ impl<'c> Context<'c> {
             expands: true,
             argument: None,
         }
+    }
+
+    /// The same for another place and argument.
+    pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
+        let &Context { judged, time, quantities, measures, names, expands, .. } = self;
+        Context { place, judged, time, quantities, measures, names, expands, argument }
     }
 }
 
@@ -159,14 +162,11 @@ impl Checker<'_> {
 
     /// A formula in the graph; `None` if it is broken, which has then been said.
     pub(super) fn number(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
-        self.visited += 1;
-        if self.visited > LARGEST {
-            if self.visited == LARGEST + 1 {
-                let span = self.callers.first().copied().unwrap_or(e.span);
-                self.diagnostics.push(errors::too_large(span));
-            }
-            return None;
-        }
+        self.level(context, |checker| checker.number_here(e, context))
+    }
+
+    fn number_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<Value> {
+        self.count_part(e.span)?;
         let value = match &e.kind {
             ExprKind::Paren(inner) => return self.number(inner, context),
             ExprKind::Literal { value, unit } => self.literal(e, *value, unit.as_ref(), context),
@@ -417,6 +417,11 @@ impl Checker<'_> {
         let mut parts = Vec::new();
         for (condition, value) in arms {
             let condition = self.condition(condition, context);
+            if condition.is_none() && self.waits() {
+                // which branches count is not known yet
+                (self.untaken, self.guard) = (outer, outer_guard);
+                return None;
+            }
             let truth = condition.and_then(|id| self.constant_value(id));
             self.untaken = outer || decided || truth == Some(0.0);
             let before = self.guard;
@@ -450,6 +455,10 @@ impl Checker<'_> {
     }
 
     fn condition(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
+        self.level(context, |checker| checker.condition_here(e, context))
+    }
+
+    fn condition_here(&mut self, e: &Expr, context: &Context<'_>) -> Option<ExprId> {
         match &e.kind {
             ExprKind::Paren(inner) => self.condition(inner, context),
             ExprKind::Not(inner) => {

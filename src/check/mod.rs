@@ -28,7 +28,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
-use calls::Call;
+use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
 use names::{Entity, Space, mentioned};
@@ -194,11 +194,13 @@ struct Checker<'a> {
     /// Values of the graph's nodes, NaN where they are not constant.
     values: Vec<f64>,
     /// Expansions already made.
-    calls: FxHashMap<Call, Option<Value>>,
+    known_calls: FxHashMap<Call, Option<Value>>,
     /// What those ask to be positive, where they do.
     conditions_of_calls: FxHashMap<Call, Vec<Condition>>,
-    /// Where the formula being expanded was called, outermost first.
-    callers: Vec<Span>,
+    /// Those of the formula that is being read.
+    calls: Calls<'a>,
+    /// Where the outermost of the formulas being expanded was called.
+    caller: Option<Span>,
     /// Parts visited for the current formula.
     visited: usize,
     /// In a branch that is never taken nothing is said of values.
@@ -227,9 +229,10 @@ impl<'a> Checker<'a> {
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
             values: Vec::new(),
-            calls: FxHashMap::default(),
+            known_calls: FxHashMap::default(),
             conditions_of_calls: FxHashMap::default(),
-            callers: Vec::new(),
+            calls: Calls::default(),
+            caller: None,
             visited: 0,
             untaken: false,
             guard: None,
@@ -251,9 +254,9 @@ impl<'a> Checker<'a> {
 
     /// Says something, with the place of the call through which it came up.
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(match self.callers.first() {
+        self.diagnostics.push(match self.caller {
             // a formula is judged where it is called
-            Some(&caller) => diagnostic.raised_by(caller, "brought in here"),
+            Some(caller) => diagnostic.raised_by(caller, "brought in here"),
             None => diagnostic,
         });
     }

@@ -5,6 +5,7 @@
 
 use super::{Binary, Comparison, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::FxHashMap;
+use std::borrow::Cow;
 
 /// Parts smaller than this are written out wherever they stand.
 const SMALL: u32 = 12;
@@ -149,36 +150,47 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     /// A formula as text.
     #[must_use]
     pub fn text(&self, root: ExprId) -> String {
-        let mut out = String::new();
-        self.write(root, Tightness::Conditional, &mut out);
-        out
+        self.written(vec![Part::Formula(root, Tightness::Conditional)])
     }
 
     /// The formula behind a name that [`Printer::name_shared`] gave, written out one level.
     #[must_use]
     pub fn definition(&self, id: ExprId) -> String {
+        let mut parts = Parts::default();
+        self.write_node(id, Tightness::Conditional, &mut parts);
+        parts.0.reverse();
+        self.written(parts.0)
+    }
+
+    /// The text of some parts, of which the first is the last in the list. A sum of very many terms is very deep: so no call waits for
+    /// another one.
+    fn written(&self, mut open: Vec<Part>) -> String {
         let mut out = String::new();
-        self.write_node(id, Tightness::Conditional, &mut out);
+        let mut parts = Parts::default();
+        while let Some(part) = open.pop() {
+            match part {
+                Part::Text(text) => out.push_str(&text),
+                Part::Formula(id, wanted) => {
+                    if let Some(name) = self.names.get(&id) {
+                        out.push_str(name);
+                    } else {
+                        self.write_node(id, wanted, &mut parts);
+                        open.extend(parts.0.drain(..).rev());
+                    }
+                }
+            }
+        }
         out
     }
 
-    /// Writes an operand into a place that wants at least some tightness.
-    fn write(&self, id: ExprId, wanted: Tightness, out: &mut String) {
-        match self.names.get(&id) {
-            Some(name) => out.push_str(name),
-            // a sum of very many terms is very deep
-            None => stacker::maybe_grow(64 << 10, 1 << 20, || self.write_node(id, wanted, out)),
-        }
-    }
-
-    fn write_node(&self, id: ExprId, wanted: Tightness, out: &mut String) {
+    fn write_node(&self, id: ExprId, wanted: Tightness, out: &mut Parts) {
         let needs_parentheses = self.tightness(id) < wanted;
         if needs_parentheses {
-            out.push('(');
+            out.text("(");
         }
         self.write_bare(id, out);
         if needs_parentheses {
-            out.push(')');
+            out.text(")");
         }
     }
 
@@ -200,40 +212,40 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
         }
     }
 
-    fn write_bare(&self, id: ExprId, out: &mut String) {
+    fn write_bare(&self, id: ExprId, out: &mut Parts) {
         match self.graph.node(id) {
-            Node::Const(bits) => out.push_str(&number(f64::from_bits(bits))),
-            Node::Symbol(symbol) => out.push_str(&(self.symbol)(symbol)),
+            Node::Const(bits) => out.text(number(f64::from_bits(bits))),
+            Node::Symbol(symbol) => out.text((self.symbol)(symbol)),
             Node::Add(a, b) => self.write_sum(a, b, out),
-            Node::Sub(a, b) => self.write_pair(a, " - ", b, [Tightness::Sum, Tightness::Product], out),
+            Node::Sub(a, b) => Self::write_pair(a, " - ", b, [Tightness::Sum, Tightness::Product], out),
             Node::Mul(a, b) => {
                 let (first, second) = self.factors(a, b);
                 let is_scaled = self.graph.as_const(first).is_some() && self.is_row_of_products(second);
                 let wanted = if is_scaled { Tightness::Product } else { Tightness::Negation };
-                self.write_pair(first, " * ", second, [Tightness::Product, wanted], out);
+                Self::write_pair(first, " * ", second, [Tightness::Product, wanted], out);
             }
-            Node::Div(a, b) => self.write_pair(a, " / ", b, [Tightness::Product, Tightness::Negation], out),
+            Node::Div(a, b) => Self::write_pair(a, " / ", b, [Tightness::Product, Tightness::Negation], out),
             Node::Neg(a) => {
-                out.push('-');
+                out.text("-");
                 let wanted = if self.takes_sign_in_front(a) { Tightness::Product } else { Tightness::Negation };
-                self.write(a, wanted, out);
+                out.formula(a, wanted);
             }
             Node::Power(a, n) => {
-                self.write(a, Tightness::Atom, out);
-                out.push_str(&format!("^{n}"));
+                out.formula(a, Tightness::Atom);
+                out.text(format!("^{n}"));
             }
-            Node::Binary(Binary::Pow, a, b) => self.write_pair(a, "^", b, [Tightness::Atom, Tightness::Negation], out),
+            Node::Binary(Binary::Pow, a, b) => Self::write_pair(a, "^", b, [Tightness::Atom, Tightness::Negation], out),
             Node::Unary(Unary::Floor, a) => {
-                self.write(a, Tightness::Sum, out);
-                out.push_str(" - mod(");
-                self.write(a, Tightness::Conditional, out);
-                out.push_str(", 1)");
+                out.formula(a, Tightness::Sum);
+                out.text(" - mod(");
+                out.formula(a, Tightness::Conditional);
+                out.text(", 1)");
             }
-            Node::Unary(function, a) => self.write_call(function.word(), &[a], out),
-            Node::Binary(function, a, b) => self.write_call(function.word(), &[a, b], out),
+            Node::Unary(function, a) => Self::write_call(function.word(), &[a], out),
+            Node::Binary(function, a, b) => Self::write_call(function.word(), &[a, b], out),
             Node::Table(table, order, a) => {
                 let name = &self.graph.tables()[table.index()].name;
-                self.write_call(&format!("{name}{}", "'".repeat(usize::from(order))), &[a], out);
+                Self::write_call(format!("{name}{}", "'".repeat(usize::from(order))), &[a], out);
             }
             Node::Compare(comparison, a, b) => {
                 let operator = match comparison {
@@ -241,56 +253,56 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
                     Comparison::LessEqual => " <= ",
                     Comparison::Equal => " == ",
                 };
-                self.write_pair(a, operator, b, [Tightness::Sum, Tightness::Sum], out);
+                Self::write_pair(a, operator, b, [Tightness::Sum, Tightness::Sum], out);
             }
-            Node::And(a, b) => self.write_pair(a, " and ", b, [Tightness::And, Tightness::Not], out),
-            Node::Or(a, b) => self.write_pair(a, " or ", b, [Tightness::Or, Tightness::And], out),
+            Node::And(a, b) => Self::write_pair(a, " and ", b, [Tightness::And, Tightness::Not], out),
+            Node::Or(a, b) => Self::write_pair(a, " or ", b, [Tightness::Or, Tightness::And], out),
             Node::Not(a) => {
-                out.push_str("not ");
-                self.write(a, Tightness::Not, out);
+                out.text("not ");
+                out.formula(a, Tightness::Not);
             }
             Node::Select(condition, a, b) => {
-                out.push_str("if ");
-                self.write(condition, Tightness::Or, out);
-                out.push_str(" then ");
-                self.write(a, Tightness::Or, out);
-                out.push_str(" else ");
-                self.write(b, Tightness::Conditional, out);
+                out.text("if ");
+                out.formula(condition, Tightness::Or);
+                out.text(" then ");
+                out.formula(a, Tightness::Or);
+                out.text(" else ");
+                out.formula(b, Tightness::Conditional);
             }
         }
     }
 
     /// A sum with its sums first, and a negative number as a subtraction.
-    fn write_sum(&self, a: ExprId, b: ExprId, out: &mut String) {
+    fn write_sum(&self, a: ExprId, b: ExprId, out: &mut Parts) {
         let is_number = |id: ExprId| self.graph.as_const(id).is_some();
         let is_sum = |id: ExprId| self.tightness(id) == Tightness::Sum && !self.names.contains_key(&id);
         let swap = is_number(a) || is_sum(b) && !is_sum(a) && !is_number(b);
         let (first, second) = if swap { (b, a) } else { (a, b) };
-        self.write(first, Tightness::Sum, out);
+        out.formula(first, Tightness::Sum);
         if let Some(value) = self.graph.as_const(second).filter(|value| *value < 0.0) {
-            out.push_str(&format!(" - {}", number(-value)));
+            out.text(format!(" - {}", number(-value)));
         } else {
-            out.push_str(" + ");
-            self.write(second, Tightness::Product, out);
+            out.text(" + ");
+            out.formula(second, Tightness::Product);
         }
     }
 
-    fn write_pair(&self, a: ExprId, operator: &str, b: ExprId, wanted: [Tightness; 2], out: &mut String) {
-        self.write(a, wanted[0], out);
-        out.push_str(operator);
-        self.write(b, wanted[1], out);
+    fn write_pair(a: ExprId, operator: &'static str, b: ExprId, wanted: [Tightness; 2], out: &mut Parts) {
+        out.formula(a, wanted[0]);
+        out.text(operator);
+        out.formula(b, wanted[1]);
     }
 
-    fn write_call(&self, word: &str, arguments: &[ExprId], out: &mut String) {
-        out.push_str(word);
-        out.push('(');
+    fn write_call(word: impl Into<Cow<'static, str>>, arguments: &[ExprId], out: &mut Parts) {
+        out.text(word);
+        out.text("(");
         for (k, &argument) in arguments.iter().enumerate() {
             if k > 0 {
-                out.push_str(", ");
+                out.text(", ");
             }
-            self.write(argument, Tightness::Conditional, out);
+            out.formula(argument, Tightness::Conditional);
         }
-        out.push(')');
+        out.text(")");
     }
 
     /// The operands of a product in the order of printing: a number before a row of products, which it is gathered with
@@ -336,6 +348,27 @@ impl<'g, S: Fn(Symbol) -> String> Printer<'g, S> {
     /// Whether an operand is a row of factors itself.
     fn is_chain(&self, id: ExprId) -> bool {
         self.tightness(id) == Tightness::Product && !self.names.contains_key(&id)
+    }
+}
+
+/// A piece of a text that is still to be written.
+enum Part {
+    Text(Cow<'static, str>),
+    /// A formula in a place that wants at least some tightness.
+    Formula(ExprId, Tightness),
+}
+
+/// Pieces in the order of the text.
+#[derive(Default)]
+struct Parts(Vec<Part>);
+
+impl Parts {
+    fn text(&mut self, text: impl Into<Cow<'static, str>>) {
+        self.0.push(Part::Text(text.into()));
+    }
+
+    fn formula(&mut self, id: ExprId, wanted: Tightness) {
+        self.0.push(Part::Formula(id, wanted));
     }
 }
 

@@ -11,6 +11,9 @@ use rustc_hash::FxHashMap;
 /// Exponents beyond this are left as they stand.
 const LARGEST_EXPONENT: i32 = 64;
 
+/// Operations within each other that are put in order by recursion.
+const DEEPEST: u32 = 50;
+
 /// Whole numbers beyond this are no longer exact.
 const LARGEST_WHOLE: f64 = 9_007_199_254_740_992.0;
 
@@ -27,10 +30,44 @@ impl Graph {
         roots.iter().map(|root| sizes[root]).fold(0, u64::saturating_add)
     }
 
-    /// The same formula with its sums and products in order. Recurses by nesting and takes time by the size that is
-    /// written, so it is for formulas that somebody will read.
+    /// The same formula with its sums and products in order. Takes time by the size that is written, so it is for formulas that
+    /// somebody will read.
     pub fn tidied(&mut self, root: ExprId) -> ExprId {
-        Tidying { graph: self, known: FxHashMap::default() }.tidy(root)
+        let cuts = self.cuts(root, DEEPEST);
+        let mut tidying = Tidying { graph: self, known: FxHashMap::default() };
+        for id in cuts {
+            tidying.tidy(id);
+        }
+        tidying.tidy(root)
+    }
+
+    /// Parts of a formula at which it can be cut, those within others first: between them at most so many operations are within each
+    /// other, where those in a row count as one. What recurses takes them in this order, and needs little stack.
+    #[must_use]
+    pub fn cuts(&self, root: ExprId, deepest: u32) -> Vec<ExprId> {
+        let mut heights: FxHashMap<ExprId, u32> = FxHashMap::default();
+        let mut cuts = Vec::new();
+        for id in self.reachable(&[root]) {
+            let node = self.node(id);
+            let above = |child: &ExprId| heights[child] + u32::from(!is_one_row(node, self.node(*child)));
+            let height = node.children().as_slice().iter().map(above).max().unwrap_or(0);
+            let is_cut = height >= deepest && id != root;
+            if is_cut {
+                cuts.push(id);
+            }
+            heights.insert(id, if is_cut { 0 } else { height });
+        }
+        cuts
+    }
+}
+
+/// Whether an operand stands in one row of terms or factors with its operation.
+fn is_one_row(node: Node, operand: Node) -> bool {
+    use Node::{Add, Div, Mul, Neg, Sub};
+    match node {
+        Add(..) | Sub(..) => matches!(operand, Add(..) | Sub(..) | Neg(_)),
+        Mul(..) | Div(..) => matches!(operand, Mul(..) | Div(..) | Neg(_)),
+        _ => false,
     }
 }
 
@@ -60,7 +97,7 @@ impl Tidying<'_> {
         if let Some(&known) = self.known.get(&id) {
             return known;
         }
-        let tidied = stacker::maybe_grow(64 << 10, 1 << 20, || self.tidy_node(id));
+        let tidied = self.tidy_node(id);
         self.known.insert(id, tidied);
         tidied
     }

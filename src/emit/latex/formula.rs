@@ -33,6 +33,9 @@ const BREAKABLE: f64 = 20.0;
 /// A page takes no more rows of `cases`.
 const MOST_CASES: usize = 16;
 
+/// Operations within each other that are written in one formula.
+const DEEPEST: u32 = 50;
+
 /// How tightly a piece binds.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 enum Level {
@@ -152,12 +155,14 @@ impl<'s> Formulas<'s> {
     /// One of the formulas, to be broken by TeX where it is long.
     pub fn text(&mut self, root: ExprId) -> String {
         let id = self.tidied(root);
+        self.cut(id);
         self.outermost(id).signed().text
     }
 
     /// One of the formulas where it cannot be broken, with its width.
     pub fn confined(&mut self, root: ExprId, widest: f64) -> Set {
         let id = self.tidied(root);
+        self.cut(id);
         let piece = self.within(id, widest, 1).signed();
         Set { text: piece.text, width: piece.width }
     }
@@ -171,6 +176,7 @@ impl<'s> Formulas<'s> {
                     Open::Wide { number, piece } => (number, piece),
                     Open::Shared { number, definition } => {
                         let definition = self.in_order(definition);
+                        self.cut(definition);
                         (number, self.outermost(definition))
                     }
                 };
@@ -210,19 +216,30 @@ impl<'s> Formulas<'s> {
         if let Some(&number) = self.terms.get(&id) {
             return reference(number);
         }
-        // a long chain of operations is a deep one
-        let piece = stacker::maybe_grow(128 << 10, 2 << 20, || match self.graph.node(id) {
-            Node::Select(..) => self.cases(id),
-            _ => self.piece(id),
-        });
         let is_cases = matches!(self.graph.node(id), Node::Select(..));
+        let piece = if is_cases { self.cases(id) } else { self.piece(id) };
         if piece.width <= widest && piece.tall <= tallest && !is_cases {
             return piece;
         }
+        self.term(id, piece)
+    }
+
+    /// A term instead of a piece.
+    fn term(&mut self, id: ExprId, piece: Piece) -> Piece {
         let number = self.terms.len() + 1;
         self.terms.insert(id, number);
         self.open.push(Open::Wide { number, piece });
         reference(number)
+    }
+
+    /// Makes terms of parts of a formula that is nested very deep, so that writing it does not recurse deeper than [`DEEPEST`].
+    fn cut(&mut self, root: ExprId) {
+        for id in self.graph.cuts(root, DEEPEST) {
+            if !self.terms.contains_key(&id) {
+                let piece = self.outermost(id);
+                self.term(id, piece);
+            }
+        }
     }
 
     fn piece(&mut self, id: ExprId) -> Piece {

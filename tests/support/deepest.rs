@@ -1,0 +1,174 @@
+//! The deepest texts that there are, and all the ways that a text can go: what must do with a small stack on every platform.
+
+use mechc::analysis::{self, Times};
+use mechc::check::{self, Surroundings};
+use mechc::diag::{Color, Diagnostics, Format, render};
+use mechc::emit::{self, Unit};
+use mechc::output::{TableFormat, TableWriter};
+use mechc::program::Program;
+use mechc::source::{FileId, Sources};
+use mechc::structure::Determined;
+use mechc::{import, lower, syntax};
+
+/// A text that is deep in one way, which goes all the way.
+pub struct Deep {
+    pub name: &'static str,
+    pub text: String,
+    /// Whether it is the model file of another program.
+    pub is_foreign: bool,
+}
+
+/// Levels of nesting that a text may have; what stands outermost takes one of them here and there.
+const LEVELS: usize = 195;
+
+/// Members of a chain: many more than any stack has room for frames.
+const MEMBERS: usize = if cfg!(debug_assertions) { 1_500 } else { 3_000 };
+
+/// What is deep in each of the ways that there are.
+pub fn deepest() -> Vec<Deep> {
+    let nested = |open: &str, inner: &str, close: &str, levels: usize| {
+        format!("{}{inner}{}", open.repeat(levels), close.repeat(levels))
+    };
+    let drivers = [
+        ("parentheses", nested("(", "t", ")", LEVELS)),
+        ("sums and products in parentheses", nested("1 / (2 + 1 * (", "t", "))", LEVELS / 2)),
+        ("calls", nested("sin(", "t", ")", LEVELS)),
+        ("calls of several arguments", nested("1 / max(1, 2 - atan2(1 + t, ", "t", "))", LEVELS / 2)),
+        ("signs", nested("-(", "t", ")", LEVELS / 2)),
+        ("exponents", format!("t + {}2", "1.01^".repeat(LEVELS))),
+        ("branches", nested("if t < 1 then (", "t", ") else 1", LEVELS / 2)),
+        ("last branches", format!("{}t{}", "if t < -1 then 1 else 1 * (".repeat(LEVELS / 2), ")".repeat(LEVELS / 2))),
+        ("conditions", nested("(if t < ", "t", " then t else 2 * t)", LEVELS / 2)),
+        ("negated conditions", format!("if {}(t < 3) then t else 1", "not ".repeat(LEVELS))),
+        (
+            "joined conditions",
+            format!("if {} then t else 1", nested("t < 2 and (t < 3 or (", "t < 4", "))", LEVELS / 2)),
+        ),
+        ("a long sum", format!("t{}", " + sin(t)".repeat(MEMBERS))),
+        ("a long sum of others", joined(0..MEMBERS, |k| format!("sin({k} * t) / {MEMBERS} + ")) + "t"),
+        ("a long product", format!("t{}", " * (1 + t / 1e9) / (1 + t / 1e9)".repeat(MEMBERS))),
+        ("a long choice", joined(0..MEMBERS, |k| format!("if t < -{k} then {k} else ")) + "t"),
+        ("a long list of arguments", format!("min(t{})", ", 3 + t".repeat(MEMBERS))),
+        ("a long polynomial", format!("poly(t, 0{})", ", 0.001".repeat(MEMBERS))),
+    ];
+    let mut deepest: Vec<Deep> =
+        drivers.into_iter().map(|(name, driver)| Deep { name, text: driven("", &driver), is_foreign: false }).collect();
+    let own = |name, text| Deep { name, text, is_foreign: false };
+    deepest.push(own("functions", driven(&chain("fn f", "(u)", "u", |before| format!("f{before}(u + 1e-9)")), "f(t)")));
+    let sines = chain("fn f", "(u)", "u", |before| format!("sin(f{before}(u)) + u"));
+    deepest.push(own("functions of functions", driven(&sines, "f(t)")));
+    let outwards = chain("fn f", "(u)", "u", |before| format!("f{before}(cos(u) * u)"));
+    deepest.push(own("functions of formulas", driven(&outwards, "f(t)")));
+    let branching = chain("fn f", "(u)", "u", |before| format!("if u < 1 then f{before}(u + 1e-9) else f{before}(u)"));
+    deepest.push(own("functions with branches", driven(&branching, "f(t)")));
+    let deep =
+        chain("fn f", "(u)", "u", |before| format!("{}f{before}(u + 1e-9){}", "(1 * ".repeat(99), ")".repeat(99)));
+    deepest.push(own("deep functions", driven(&deep, "f(t)")));
+    deepest
+        .push(own("params", driven(&chain("param f", "", "0.5", |before| format!("cos(f{before}) + 1e-3")), "f * t")));
+    let measures = chain_of(500, "measure f", "", "angle(bar)", |before| format!("sin(f{before}) + 1"));
+    deepest.push(own("measures", driven(&measures, "t")));
+    deepest.push(Deep {
+        name: "a foreign formula",
+        text: foreign(&nested("sin(", "t", ")", LEVELS)),
+        is_foreign: true,
+    });
+    let signs = format!("{}t", "-".repeat(LEVELS));
+    deepest.push(Deep { name: "foreign signs", text: foreign(&signs), is_foreign: true });
+    deepest
+}
+
+/// A chain of declarations, each with the one before in it; the last is `f`.
+fn chain(word: &str, argument: &str, first: &str, next: impl Fn(usize) -> String) -> String {
+    chain_of(MEMBERS, word, argument, first, next)
+}
+
+fn chain_of(members: usize, word: &str, argument: &str, first: &str, next: impl Fn(usize) -> String) -> String {
+    let list = joined(1..members, |k| format!("{word}{k}{argument} = {}\n", next(k - 1)));
+    format!("{word}0{argument} = {first}\n{list}{word}{argument} = {}\n", next(members - 1))
+}
+
+fn joined(members: std::ops::Range<usize>, each: impl Fn(usize) -> String) -> String {
+    members.map(each).collect::<Vec<_>>().concat()
+}
+
+fn driven(declarations: &str, driver: &str) -> String {
+    format!(
+        "mechanism pendulum {{
+            {declarations}
+            body bar {{ point O = (0, 0) }}
+            joint pin: revolute((0, 0), bar.O)
+            driver motor: rotation(pin) = {driver}
+            analysis from 0 to 0.2 every 0.1
+        }}"
+    )
+}
+
+fn foreign(formula: &str) -> String {
+    format!(
+        r#"{{"name": "pendulum", "bodies": [{{"name": "bar", "q0": [0, 0, 0]}}], "constraints": [
+            {{"name": "x", "type": "AbsoluteX", "body1": 1, "sP1": [0, 0], "fun": "0"}},
+            {{"name": "y", "type": "AbsoluteY", "body1": 1, "sP1": [0, 0], "fun": "0"}},
+            {{"name": "motor", "type": "AbsoluteAngle", "body1": 1, "fun": "{formula}"}}
+        ]}}"#
+    )
+}
+
+/// A text on all ways: what is said of it, or its table, and the sizes of everything else that can be made of it.
+pub fn all_ways(deep: &Deep) -> Result<String, String> {
+    let mut sources = Sources::default();
+    let file = sources.add(deep.name, deep.text.as_str());
+    let made = if deep.is_foreign { imported(&mut sources, file) } else { ways(&mut sources, file) };
+    made.map_err(|said| said.iter().map(|one| render(one, &sources, Format::Human, Color::Never)).collect())
+}
+
+fn imported(sources: &mut Sources, file: FileId) -> Result<String, Diagnostics> {
+    let (tree, said) = import::import(file, None, sources);
+    let file = sources.add("imported", syntax::format(&tree.ok_or(said)?));
+    ways(sources, file)
+}
+
+fn ways(sources: &mut Sources, file: FileId) -> Result<String, Diagnostics> {
+    let parsed = syntax::parse(sources, file);
+    let (tree, faults) = (parsed.tree, parsed.faults);
+    if faults.has_errors() {
+        return Err(faults);
+    }
+    let formatted = syntax::format(&tree);
+    let (model, said) = check::check(&tree.mechanisms[0], &Surroundings::default(), sources);
+    let model = model.ok_or(said)?;
+    let dumped = model.to_string();
+    let (determined, _) = analysis::determine(lower::lower(&model), false)?;
+    let printed = determined.system().to_string();
+    let program = Program::new(determined.system());
+    let (motion, _) = mechc::motion(&determined, &program).map_err(|why| Diagnostics::from(*why))?;
+    let (system, lanes, largest_straight) = (determined.system(), None, emit::LARGEST_STRAIGHT);
+    let unit = Unit { system, program: &program, sources, file: "deep", motion, lanes, largest_straight };
+    let emitted = emit::rust(&unit);
+    let (latex, json) = (emit::latex(system, "deep"), emit::json(system, sources, "deep"));
+    let sizes = [&formatted, &dumped, &printed, &emitted, &latex, &json].map(String::len);
+    Ok(format!("{}\n{sizes:?}\n", table(&determined)?))
+}
+
+/// The rows over the analysis that a system has.
+pub fn table(determined: &Determined) -> Result<String, Diagnostics> {
+    let [from, to, every] = determined.system().analysis.unwrap_or([0.0, 1.0, 0.1]);
+    let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
+    let program = Program::new(determined.system());
+    let mut started =
+        analysis::start(determined, &program, from, analysis::TOLERANCE).map_err(|why| Diagnostics::from(*why))?;
+    let columns = started.columns();
+    let mut motion = started.motion(&times);
+    let mut rows = Vec::new();
+    while let Some(row) = motion.next_row() {
+        rows.push(row.map_err(|why| Diagnostics::from(*why))?.to_vec());
+    }
+    // a list takes everything
+    let mut text = Vec::new();
+    let writer = TableWriter::new(&mut text, TableFormat::Csv, &columns).and_then(|mut writer| {
+        rows.iter().try_for_each(|row| writer.row(row))?;
+        writer.finish().map(|_| ())
+    });
+    debug_assert!(writer.is_ok());
+    Ok(String::from_utf8_lossy(&text).into_owned())
+}
