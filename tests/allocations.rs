@@ -5,11 +5,9 @@
 mod support;
 
 use assert_no_alloc::{AllocDisabler, assert_no_alloc};
-use mechc::analysis::{self, Times};
-use mechc::program::Program;
-use mechc::source::Sources;
+use mechc::{RunOptions, Times};
 use std::fs;
-use support::compile;
+use support::compiled;
 
 #[global_allocator]
 static ALLOCATOR: AllocDisabler = AllocDisabler;
@@ -50,27 +48,21 @@ fn passing_near_a_dead_point_allocates_nothing() {
 }
 
 fn follow(name: &str, text: &str) {
-    {
-        let mut sources = Sources::default();
-        let (determined, _) = compile(&mut sources, name, text);
-        let determined = determined.expect("determined");
-        let [from, to, every] = determined.system().analysis.expect("an analysis");
-        // coarser steps are cut by the solver, so that rejected ones take part too
-        for times in [Times::grid(from, to, every), Times::grid(from, to, 20.0 * every)] {
-            let times = times.expect("a grid");
-            let program = Program::new(determined.system());
-            let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-            let mut motion = started.motion(&times);
-            let mut sum = 0.0;
-            assert_no_alloc(|| {
-                while let Some(row) = motion.next_row() {
-                    match row {
-                        Ok(row) => sum += row[1],
-                        Err(_) => sum = f64::NAN,
-                    }
+    let compiled = compiled(name, text);
+    let [from, to, every] = compiled.analysis().expect("an analysis");
+    // coarser steps are cut by the solver, so that rejected ones take part too
+    for times in [Times::grid(from, to, every), Times::grid(from, to, 20.0 * every)] {
+        let (run, _) = compiled.run(&times.expect("a grid"), &RunOptions::default());
+        let mut run = run.expect("it assembles");
+        let mut sum = 0.0;
+        assert_no_alloc(|| {
+            while let Some(row) = run.next_row() {
+                match row {
+                    Ok(row) => sum += row[1],
+                    Err(_) => sum = f64::NAN,
                 }
-            });
-            assert!(sum.is_finite(), "{name}");
-        }
+            }
+        });
+        assert!(sum.is_finite(), "{name}");
     }
 }

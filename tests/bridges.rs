@@ -5,16 +5,13 @@
 
 mod support;
 
-use mechc::analysis::{self, Times};
-use mechc::diag::Diagnostic;
-use mechc::math;
-use mechc::program::Program;
-use mechc::source::Sources;
+use mechc::rooms::math;
+use mechc::{Diagnostic, Diagnostics, RunOptions, Times};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
-use support::{compile_at, files};
+use support::{compile_number, files, follow};
 
 /// Random numbers, the same on every run.
 struct Random(u64);
@@ -30,7 +27,7 @@ impl Random {
 struct Run {
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
-    stop: Option<Box<Diagnostic>>,
+    stop: Option<Diagnostic>,
     passed: Vec<f64>,
 }
 
@@ -51,29 +48,16 @@ impl Run {
 
 /// Runs the first mechanism of a text, over its own times unless some are given; none where it does not compile or begin.
 fn try_run(text: &str, path: &Path, times: Option<Times>, passing: bool) -> Option<Run> {
-    let mut sources = Sources::default();
-    let (determined, _) = compile_at(&mut sources, "text", text, path, 0);
-    let determined = determined?;
-    let [from, to, every] = determined.system().analysis?;
-    let times = times.or_else(|| Times::grid(from, to, every))?;
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(&determined, &program, from, analysis::TOLERANCE).ok()?;
-    let columns = started.columns();
-    let mut motion = started.motion(&times);
-    if passing {
-        motion.pass_bifurcations();
-    }
-    let (mut rows, mut stop) = (Vec::new(), None);
-    while let Some(row) = motion.next_row() {
-        match row {
-            Ok(row) => rows.push(row.to_vec()),
-            Err(why) => stop = Some(why),
-        }
-    }
-    let remarks = motion.take_remarks();
-    let passes = remarks.iter().filter(|remark| remark.code.as_str() == "W0602");
-    let passed = passes.map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
-    Some(Run { columns, rows, stop, passed })
+    let (compiled, mut outcome) = compile_number(path, text, 0);
+    let compiled = compiled?;
+    let own = compiled.times()?;
+    outcome.diagnostics = Diagnostics::default();
+    let options = RunOptions { pass_bifurcations: passing, ..RunOptions::default() };
+    follow(&compiled, &times.unwrap_or(own), &options, &mut outcome);
+    let (stop, passed) = (outcome.stop().cloned(), outcome.passed());
+    // a mechanism that does not begin has no rows
+    let has_begun = !outcome.rows.is_empty();
+    has_begun.then_some(Run { columns: outcome.columns, rows: outcome.rows, stop, passed })
 }
 
 fn run(text: &str, times: Option<Times>, passing: bool) -> Run {

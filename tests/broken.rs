@@ -5,9 +5,9 @@
 
 mod support;
 
-use mechc::source::Sources;
-use mechc::syntax;
-use mechc::syntax::ast::ItemKind;
+use mechc::Sources;
+use mechc::rooms::syntax;
+use mechc::rooms::syntax::ast::ItemKind;
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestCaseError, TestRunner};
 use std::f64::consts::TAU;
@@ -183,10 +183,11 @@ impl Draft {
         };
         let [crank, a, b, c] = plan.links;
         let turned = |[x, y]: [f64; 2], length: f64, degrees: f64| {
-            let (sin, cos) = mechc::math::sin_cos(degrees / 360.0 * TAU);
+            let (sin, cos) = mechc::rooms::math::sin_cos(degrees / 360.0 * TAU);
             [x + length * cos, y + length * sin]
         };
-        let toward = |[x, y]: [f64; 2], [to_x, to_y]: [f64; 2]| mechc::math::atan2(to_y - y, to_x - x) / TAU * 360.0;
+        let toward =
+            |[x, y]: [f64; 2], [to_x, to_y]: [f64; 2]| mechc::rooms::math::atan2(to_y - y, to_x - x) / TAU * 360.0;
         match plan.shape {
             Shape::Chain(count) => {
                 let (mut base, mut at) = (0, plan.origin);
@@ -204,7 +205,7 @@ impl Draft {
                 let pivot = turned(plan.origin, a, 0.0);
                 // where the coupler's end meets the rocker's
                 let (far, line) = (distance(pin, pivot), toward(pin, pivot));
-                let inner = mechc::math::acos((b * b + far * far - c * c) / (2.0 * b * far)) / TAU * 360.0;
+                let inner = mechc::rooms::math::acos((b * b + far * far - c * c) / (2.0 * b * far)) / TAU * 360.0;
                 let knee = turned(pin, b, line + inner);
                 let first = draft.body(plan.origin, plan.start);
                 let main = draft.pin(0, first, plan.origin);
@@ -230,7 +231,7 @@ impl Draft {
             Shape::SliderCrank => {
                 let pin = turned(plan.origin, crank, plan.start);
                 let rise = pin[1] - plan.origin[1];
-                let wrist = [pin[0] + mechc::math::sqrt(a * a - rise * rise), plan.origin[1]];
+                let wrist = [pin[0] + mechc::rooms::math::sqrt(a * a - rise * rise), plan.origin[1]];
                 let first = draft.body(plan.origin, plan.start);
                 let main = draft.pin(0, first, plan.origin);
                 let rod = draft.body(pin, toward(pin, wrist));
@@ -267,7 +268,7 @@ impl Draft {
 
     fn point(&mut self, body: usize, [x, y]: [f64; 2]) -> String {
         let [ox, oy, degrees] = self.bodies[body].pose;
-        let (sin, cos) = mechc::math::sin_cos(degrees / 360.0 * TAU);
+        let (sin, cos) = mechc::rooms::math::sin_cos(degrees / 360.0 * TAU);
         let [x, y] = [x - ox, y - oy];
         self.feature(body, "point", format!("({} mm, {} mm)", cos * x + sin * y, cos * y - sin * x))
     }
@@ -313,7 +314,7 @@ impl Draft {
 }
 
 fn distance([x, y]: [f64; 2], [to_x, to_y]: [f64; 2]) -> f64 {
-    mechc::math::hypot(to_x - x, to_y - y)
+    mechc::rooms::math::hypot(to_x - x, to_y - y)
 }
 
 // ---- breaks
@@ -372,7 +373,7 @@ fn places(text: &str, names: &[String]) -> Vec<std::ops::Range<usize>> {
     let file = sources.add("machine.mech", text);
     let tree = syntax::parse(&sources, file).tree;
     let mechanism = &tree.mechanisms[0];
-    let range = |span: mechc::source::Span| span.start as usize..span.end as usize;
+    let range = |span: mechc::Span| span.start as usize..span.end as usize;
     let items = mechanism.items.iter().filter(|item| {
         let name = match &item.kind {
             ItemKind::Ground { .. } => "ground",

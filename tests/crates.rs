@@ -5,42 +5,28 @@
 mod support;
 
 use assert_cmd::Command;
-use mechc::emit::{self, File, MARK, Reference, Unit};
-use mechc::program::Program;
-use mechc::source::Sources;
-use std::collections::BTreeMap;
+use mechc::{File, MARK, RustOptions};
+use std::collections::{BTreeMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use support::{Span, analyse, compile_at, files, stem};
+use support::{Span, compile_number, files, run_number};
 
 const SLIDER_CRANK: &str = "examples/slider_crank.mech";
 
-/// A crate by the paths of its files, and what it was checked against.
+/// A crate by the paths of its files, and the rows that it is checked against.
 struct Crate {
     files: BTreeMap<&'static str, String>,
-    reference: Reference,
+    rows: Vec<Vec<f64>>,
 }
 
 fn emitted(path: &Path, text: &str) -> Crate {
-    let mut sources = Sources::default();
     let name = path.file_name().expect("a name").to_string_lossy();
-    let (determined, _) = compile_at(&mut sources, &name, text, path, 0);
-    let determined = determined.expect("determined");
-    let program = Program::new(determined.system());
-    let (motion, _) = mechc::motion(&determined, &program).expect("it assembles");
-    let (reference, _) = mechc::reference(&determined, &program).expect("it assembles");
-    assert!(motion.is_some());
-    let unit = Unit {
-        system: determined.system(),
-        program: &program,
-        sources: &sources,
-        file: &name,
-        motion,
-        lanes: None,
-        largest_straight: emit::LARGEST_STRAIGHT,
-    };
-    let list = emit::package(&unit, &reference, "a_crate").into_iter();
-    Crate { files: list.map(|File { path, text }| (path, text)).collect(), reference }
+    let compiled = compile_number(path, text, 0).0.expect("determined");
+    let (files, _) = compiled.package("a_crate", &RustOptions::of(name));
+    let files: BTreeMap<_, _> =
+        files.expect("it assembles").into_iter().map(|File { path, text }| (path, text)).collect();
+    let rows = table(&files["tests/reference.rs"]).chunks(compiled.columns().len()).map(<[f64]>::to_vec).collect();
+    Crate { files, rows }
 }
 
 /// The numbers of the test's table.
@@ -49,6 +35,19 @@ fn table(test: &str) -> Vec<f64> {
     let (_, rows) = rows.split_once("= [").expect("rows");
     let numbers = rows.split([',', '[', ']', ';']).map(str::trim).filter(|text| !text.is_empty());
     numbers.map(|number| number.parse().expect("a number")).collect()
+}
+
+/// The names of the test's columns.
+fn names(test: &str) -> Vec<String> {
+    let (_, names) = test.split_once("const NAMES: [&str; COLUMNS] = [").expect("names");
+    let (names, _) = names.split_once("];").expect("an end");
+    names.split('"').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+/// How many steps the benchmark takes.
+fn steps(benchmark: &str) -> usize {
+    let (_, steps) = benchmark.split_once("const STEPS: u32 = ").expect("steps");
+    steps.split_once(';').expect("an end").0.parse().expect("a number")
 }
 
 /// Examples, and mechanisms with what is rare: odd names, tables, jerk.
@@ -60,19 +59,17 @@ fn mechanisms() -> Vec<PathBuf> {
 fn the_table_of_the_test_has_the_rows_of_the_interpreter() {
     for path in mechanisms() {
         let text = fs::read_to_string(&path).expect("a text");
-        let Crate { files, reference } = emitted(&path, &text);
-        let mut sources = Sources::default();
-        let compiled = compile_at(&mut sources, &stem(&path), &text, &path, 0);
-        let all = analyse(sources, compiled, Span::default()).expect_success();
-        assert_eq!(reference.columns, all.columns);
-        assert_eq!(reference.rows.first(), all.rows.first(), "{}", path.display());
-        assert_eq!(reference.rows.last(), all.rows.last(), "{}", path.display());
-        assert_eq!(reference.rows.len(), all.rows.len().min(20));
-        assert_eq!(reference.steps as usize + 1, all.rows.len());
-        assert!(reference.rows.iter().all(|row| all.rows.contains(row)), "{}", path.display());
-        assert!(reference.rows.is_sorted_by(|a, b| a[0] < b[0]));
-        let bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
-        assert_eq!(bits(&table(&files["tests/reference.rs"])), bits(&reference.rows.concat()), "{}", path.display());
+        let Crate { files, rows } = emitted(&path, &text);
+        let all = run_number(&path, &text, 0, Span::default()).expect_success();
+        assert_eq!(names(&files["tests/reference.rs"]), all.columns);
+        assert_eq!(rows.len(), all.rows.len().min(20), "{}", path.display());
+        assert_eq!(steps(&files["benches/steps.rs"]) + 1, all.rows.len());
+        assert!(rows.is_sorted_by(|a, b| a[0] < b[0]));
+        let bits = |row: &Vec<f64>| row.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+        assert_eq!(rows.first().map(bits), all.rows.first().map(bits), "{}", path.display());
+        assert_eq!(rows.last().map(bits), all.rows.last().map(bits), "{}", path.display());
+        let known: HashSet<Vec<u64>> = all.rows.iter().map(bits).collect();
+        assert!(rows.iter().all(|row| known.contains(&bits(row))), "{}", path.display());
     }
 }
 
@@ -115,8 +112,8 @@ fn what_is_written_is_as_a_formatter_leaves_it() {
 #[test]
 fn without_an_analysis_the_first_second_is_taken() {
     let text = fs::read_to_string(SLIDER_CRANK).unwrap().replace("analysis", "// analysis");
-    let Crate { reference, .. } = emitted(Path::new("slider_crank.mech"), &text);
-    let times: Vec<f64> = reference.rows.iter().map(|row| row[0]).collect();
+    let Crate { rows, .. } = emitted(Path::new("slider_crank.mech"), &text);
+    let times: Vec<f64> = rows.iter().map(|row| row[0]).collect();
     assert_eq!(times.len(), 10);
     assert_eq!((times[0], times[9]), (0.0, 0.9));
 }
@@ -124,8 +121,8 @@ fn without_an_analysis_the_first_second_is_taken() {
 #[test]
 fn an_analysis_of_one_time_has_one_row() {
     let text = fs::read_to_string(SLIDER_CRANK).unwrap().replace("to 40 ms every 0.5 ms", "to 0 s every 1 ms");
-    let Crate { reference, files } = emitted(Path::new("slider_crank.mech"), &text);
-    assert_eq!((reference.rows.len(), reference.steps), (1, 0));
+    let Crate { rows, files } = emitted(Path::new("slider_crank.mech"), &text);
+    assert_eq!(rows.len(), 1);
     assert!(files["README.md"].contains("for t in [0.0] {"));
 }
 

@@ -4,8 +4,8 @@
 
 mod support;
 
-use mechc::diag::Diagnostic;
-use mechc::math;
+use mechc::Diagnostic;
+use mechc::rooms::math;
 use support::{Outcome, Span, run};
 
 /// A block on a slide that is driven, in metres, over two seconds in steps of a tenth.

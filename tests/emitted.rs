@@ -4,25 +4,21 @@
 
 mod support;
 
-use mechc::analysis::{self, Times};
-use mechc::emit::{self, Unit};
-use mechc::program::{Program, Stage};
-use mechc::source::Sources;
-use mechc::structure::Determined;
+use mechc::rooms::program::Stage;
+use mechc::{Compiled, LARGEST_STRAIGHT, RustOptions};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
-use support::{compile_at, files, mechanisms, stem};
+use support::{all_rows, compile_number, compile_without_redundant, files, mechanisms, stem};
 
 /// Points at which each module is compared.
 const POINTS: u64 = 3;
 
-/// What is emitted, with the texts that it comes from.
+/// What is emitted.
 struct Emitted {
     name: String,
-    determined: Determined,
-    sources: Sources,
+    compiled: Compiled,
 }
 
 impl Emitted {
@@ -31,44 +27,27 @@ impl Emitted {
     }
 
     fn of(name: String, text: &str, path: &Path, number: usize) -> Option<Emitted> {
-        let mut sources = Sources::default();
-        let (determined, _) = compile_at(&mut sources, &stem(path), text, path, number);
-        determined.map(|determined| Emitted { name, determined, sources })
+        let (compiled, _) = compile_number(path, text, number);
+        compiled.map(|compiled| Emitted { name, compiled })
     }
 
     /// The first mechanism of a text, whose redundant equations are left out.
     fn without_redundant(name: String, text: &str) -> Emitted {
-        let mut sources = Sources::default();
-        let file = sources.add(&name, text);
-        let tree = mechc::syntax::parse(&sources, file).unwrap_or_else(|said| panic!("{name}: {said:?}\n{text}"));
-        let surroundings = mechc::check::Surroundings::default();
-        let (model, said) = mechc::check::check(&tree.mechanisms[0], &surroundings, &sources);
-        let model = model.unwrap_or_else(|| panic!("{name}: {said:?}\n{text}"));
-        let (determined, _) = analysis::determine(mechc::lower::lower(&model), true)
-            .unwrap_or_else(|said| panic!("{name}: {said:?}\n{text}"));
-        Emitted { name, determined, sources }
+        let (compiled, outcome) = compile_without_redundant(&name, text);
+        let compiled = compiled.unwrap_or_else(|| panic!("{}\n{text}", outcome.text()));
+        Emitted { name, compiled }
     }
 
     /// The module, with so many lanes if any are wanted.
     fn text(&self, lanes: Option<usize>) -> String {
-        self.text_of(lanes, emit::LARGEST_STRAIGHT)
+        self.text_of(lanes, LARGEST_STRAIGHT)
     }
 
     /// The same with operations as numbers beyond so many.
     fn text_of(&self, lanes: Option<usize>, largest_straight: usize) -> String {
-        let system = self.determined.system();
-        let program = Program::new(system);
-        let (motion, _) = mechc::motion(&self.determined, &program).expect("it assembles");
         let file = format!("{}.mech", self.name);
-        emit::rust(&Unit {
-            system,
-            program: &program,
-            sources: &self.sources,
-            file: &file,
-            motion,
-            lanes,
-            largest_straight,
-        })
+        let (text, said) = self.compiled.rust(&RustOptions { lanes, largest_straight, ..RustOptions::of(file) });
+        text.unwrap_or_else(|| panic!("{}: {said:?}", self.name))
     }
 
     /// How many lanes it has where all are looked at: the examples show what there is to see.
@@ -78,31 +57,22 @@ impl Emitted {
 
     /// Beyond how many operations they are written as numbers: the stages are, as if they were large.
     fn largest_straight(&self) -> usize {
-        if self.name.ends_with("_input") { 0 } else { emit::LARGEST_STRAIGHT }
+        if self.name.ends_with("_input") { 0 } else { LARGEST_STRAIGHT }
     }
 
     /// The rows of the interpreter, and whether it came to the end.
     fn rows(&self) -> (Vec<Vec<f64>>, bool) {
-        let Some([from, to, every]) = self.determined.system().analysis else {
+        let Some(times) = self.compiled.times() else {
             return (Vec::new(), true);
         };
-        let program = Program::new(self.determined.system());
-        let mut started = analysis::start(&self.determined, &program, from, analysis::TOLERANCE).expect("it assembles");
-        let mut motion = started.motion(&Times::grid(from, to, every).expect("a grid"));
-        let mut rows = Vec::new();
-        while let Some(row) = motion.next_row() {
-            match row {
-                Ok(row) => rows.push(row.to_vec()),
-                Err(_) => return (rows, false),
-            }
-        }
-        (rows, true)
+        let (rows, stop) = all_rows(&self.compiled, &times);
+        (rows, stop.is_none())
     }
 }
 
 /// A scissor lift of so many cells, driven at its upper end: one block, whose loop is too long for one function.
 fn scissor_lift(cells: usize) -> String {
-    let (sin, cos) = mechc::math::sin_cos(0.5);
+    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
     let mut text = "mechanism lift {\n ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
     for k in 0..cells {
         let y = (k as f64 + 0.5) * sin;
@@ -216,9 +186,9 @@ fn point(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {
 }
 
 /// What the interpreter makes of a point: Φ, Φ_q, Φ_t, ν, γ, as bits.
-fn interpreted(determined: &Determined, seed: u64) -> Vec<u64> {
+fn interpreted(compiled: &Compiled, seed: u64) -> Vec<u64> {
+    let (determined, program) = compiled.inside();
     let system = determined.system();
-    let program = Program::new(system);
     let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
     let mut registers = program.start(&params);
     let (q, qd, t) = point(system.coordinates.len(), seed);
@@ -364,8 +334,9 @@ fn what_is_left_out_is_checked_and_the_rest_has_the_bits_of_the_interpreter() {
         all.push(Emitted::without_redundant(format!("examples_{name}"), &text));
     }
     for emitted in &all {
-        let (checks, (rows, ends_well)) = (&emitted.determined.system().checks, emitted.rows());
-        assert!(!checks.is_empty() && rows.len() > 2, "{}: {} checks, {} rows", emitted.name, checks.len(), rows.len());
+        let ((determined, _), (rows, ends_well)) = (emitted.compiled.inside(), emitted.rows());
+        let checks = determined.system().checks.len();
+        assert!(checks > 0 && rows.len() > 2, "{}: {checks} checks, {} rows", emitted.name, rows.len());
         assert_eq!(ends_well, !emitted.name.ends_with("parts_later"), "{}", emitted.name);
     }
     let last = stand_alone_and_agree(all);
@@ -385,7 +356,7 @@ fn planets(count: usize, random: &[f64]) -> String {
     );
     let mut pins = String::new();
     for k in 0..count {
-        let (sin, cos) = mechc::math::sin_cos(std::f64::consts::TAU * k as f64 / count as f64);
+        let (sin, cos) = mechc::rooms::math::sin_cos(std::f64::consts::TAU * k as f64 / count as f64);
         let (x, y) = (arm * cos, arm * sin);
         pins += &format!(" point pin{k} = ({x} mm, {y} mm)");
         text += &format!(
@@ -402,7 +373,7 @@ fn planets(count: usize, random: &[f64]) -> String {
 fn cranks(count: usize, random: &[f64]) -> String {
     let (length, turn) = (0.3 + 0.1 * random[0], 60.0 + 10.0 * random[1]);
     let (mut ground, mut seat, mut rest) = (String::new(), String::new(), String::new());
-    let (sin, cos) = mechc::math::sin_cos(turn.to_radians());
+    let (sin, cos) = mechc::rooms::math::sin_cos(turn.to_radians());
     for k in 0..count {
         let (x, y) = (k as f64 + 0.3 * random[2 + k], 0.4 * random[7 - k]);
         ground += &format!(" point P{k} = ({x} m, {y} m)");
@@ -439,11 +410,11 @@ fn stand_alone_and_agree(all: Vec<Emitted>) -> Option<String> {
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     let text = String::from_utf8(output.stdout).expect("text");
     let mut lines = text.lines();
-    for (Emitted { name, determined, .. }, rows, ends_well) in &all {
+    for (Emitted { name, compiled }, rows, ends_well) in &all {
         let mut next =
             || lines.next().and_then(|line| line.strip_prefix(name.as_str())).expect("a line a point or time");
         for seed in 1..=POINTS {
-            compare(name, next(), &interpreted(determined, seed));
+            compare(name, next(), &interpreted(compiled, seed));
         }
         for row in rows {
             compare(name, next(), &row.iter().copied().map(bits_of).collect::<Vec<u64>>());
@@ -548,7 +519,7 @@ fn goldens_are_what_is_emitted() {
 /// Compares a golden, as cargo has compiled it, with the interpreter at a random point.
 macro_rules! agrees {
     ($module:ident) => {
-        let determined = stage(stringify!($module)).determined;
+        let compiled = stage(stringify!($module)).compiled;
         for seed in 1..=POINTS {
             let (q, qd, t) = point($module::N, seed);
             let (q, qd) = (q.try_into().unwrap(), qd.try_into().unwrap());
@@ -561,7 +532,7 @@ macro_rules! agrees {
                 .chain($module::gamma(&q, &qd, t, &p))
                 .map(bits_of)
                 .collect();
-            assert_eq!(got, interpreted(&determined, seed), stringify!($module));
+            assert_eq!(got, interpreted(&compiled, seed), stringify!($module));
             let dense = $module::phi_q_dense(&q, t, &p);
             for ((row, column), value) in $module::PHI_Q_PATTERN.into_iter().zip($module::phi_q(&q, t, &p)) {
                 assert_eq!(bits_of(dense[row][column]), bits_of(value));

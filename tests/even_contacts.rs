@@ -4,10 +4,9 @@
 
 mod support;
 
-use mechc::math;
-use mechc::source::Sources;
+use mechc::rooms::math;
 use std::f64::consts::{PI, TAU};
-use support::{Span, compile, passing, run};
+use support::{Span, compiled, passing, run};
 
 /// Output steps, coarse and fine (s).
 const STEPS: [f64; 4] = [2.5, 0.5, 0.1, 0.01];
@@ -111,8 +110,7 @@ fn a_near_miss_of_such_a_dead_point_is_passed_whatever_the_output_step() {
 fn change_points_that_coincide_in_one_block_are_told_whatever_the_phase() {
     for rate in [0.9, 1.0, 1.1, 1.234] {
         let text = coupled(1.0, rate);
-        let mut sources = Sources::default();
-        let determined = compile(&mut sources, "text", &text).0.expect("determined");
+        let (determined, _) = compiled("text", &text).inside();
         assert_eq!(determined.blocks().iter().filter(|block| !block.explicit).count(), 1);
         for every in STEPS {
             expect_stop(&text, every, "E0603", (PI - TAU / 6.0) / rate);

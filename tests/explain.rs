@@ -5,7 +5,7 @@
 
 mod support;
 
-use mechc::diag::{Code, Severity};
+use mechc::{Code, Severity};
 use std::fs;
 use std::path::Path;
 use support::{Span, files, run, stem};

@@ -4,12 +4,12 @@
 
 mod support;
 
-use mechc::diag::{Color, Diagnostics, Format, render};
-use mechc::source::{Sources, Span};
-use mechc::syntax::ast::File;
-use mechc::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
-use mechc::syntax::format::expression;
-use mechc::syntax::{Parsed, format, parse, parse_expression};
+use mechc::rooms::syntax::ast::File;
+use mechc::rooms::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+use mechc::rooms::syntax::format::expression;
+use mechc::rooms::syntax::{Parsed, format, parse, parse_expression};
+use mechc::{Color, Diagnostics, Format, render};
+use mechc::{Sources, Span};
 use proptest::prelude::*;
 use std::fs;
 use support::files;
@@ -17,7 +17,7 @@ use support::shape::{file_shape, shape};
 
 // ---- files
 
-fn read<T>(text: &str, parse: impl Fn(&Sources, mechc::source::FileId) -> Result<T, Diagnostics>) -> Result<T, String> {
+fn read<T>(text: &str, parse: impl Fn(&Sources, mechc::FileId) -> Result<T, Diagnostics>) -> Result<T, String> {
     let mut sources = Sources::default();
     let file = sources.add("text.mech", text);
     parse(&sources, file).map_err(|faults| {

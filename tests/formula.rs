@@ -3,10 +3,10 @@
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 use assert_cmd::Command;
-use mechc::check::{self, FormulaOfTime};
-use mechc::expr::{ExprId, Printer, Symbol};
-use mechc::source::Sources;
-use mechc::syntax;
+use mechc::Sources;
+use mechc::rooms::check::{self, FormulaOfTime};
+use mechc::rooms::expr::{ExprId, Printer, Symbol};
+use mechc::rooms::syntax;
 use proptest::prelude::*;
 
 /// A formula as the command line takes it.

@@ -5,10 +5,10 @@
 mod matlab;
 mod support;
 
-use mechc::diag::{Code, Color, Diagnostics, Format, Severity, render};
-use mechc::source::Sources;
-use mechc::syntax::{self, ast};
-use mechc::{check, import};
+use mechc::Sources;
+use mechc::rooms::syntax::{self, ast};
+use mechc::rooms::{check, import};
+use mechc::{Code, Color, Diagnostics, Format, Severity, render};
 use proptest::prelude::*;
 use std::fmt::Write;
 use support::{Span, run};

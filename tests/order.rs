@@ -4,16 +4,13 @@
 
 mod support;
 
-use mechc::source::Sources;
-use mechc::structure::{Determined, order_of_solution, steps};
+use mechc::rooms::structure::{Determined, order_of_solution, steps};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed};
-use support::compile;
+use std::sync::Arc;
 
-fn compiled(text: &str) -> Determined {
-    let mut sources = Sources::default();
-    let (determined, said) = compile(&mut sources, "random.mech", text);
-    determined.unwrap_or_else(|| panic!("{text}\n{:?}", said.iter().map(|d| &d.message).collect::<Vec<_>>()))
+fn determined(text: &str) -> Arc<Determined> {
+    support::compiled("random.mech", text).inside().0
 }
 
 /// The coordinates that a line of the printed order names: all of a body, or single ones.
@@ -100,7 +97,7 @@ proptest! {
 
     #[test]
     fn a_line_needs_only_lines_before_it(text in chains()) {
-        holds(&compiled(&text))?;
+        holds(&determined(&text))?;
     }
 }
 
@@ -109,11 +106,8 @@ fn every_case_has_an_order_that_holds() {
     for path in support::files("tests/cases", "mech").into_iter().chain(support::files("examples", "mech")) {
         let text = std::fs::read_to_string(&path).expect("a text");
         for number in 0..support::mechanisms(&text).len() {
-            let mut sources = Sources::default();
-            let name = path.display().to_string();
-            let (determined, _) = support::compile_at(&mut sources, &name, &text, &path, number);
-            if let Some(determined) = determined {
-                holds(&determined).unwrap_or_else(|why| panic!("{name}: {why}"));
+            if let (Some(compiled), _) = support::compile_number(&path, &text, number) {
+                holds(&compiled.inside().0).unwrap_or_else(|why| panic!("{}: {why}", path.display()));
             }
         }
     }
@@ -121,7 +115,7 @@ fn every_case_has_an_order_that_holds() {
 
 /// The order of a mechanism, a line each, without the spaces between.
 fn order(text: &str) -> Vec<String> {
-    let text = order_of_solution(&compiled(text));
+    let text = order_of_solution(&determined(text));
     text.lines().map(|line| line.split_whitespace().collect::<Vec<&str>>().join(" ")).collect()
 }
 

@@ -4,16 +4,16 @@
 
 mod support;
 
-use mechc::expr::{Binary, Comparison, Dependence, ExprId, Graph, Motion, Node, Symbol, Unary};
-use mechc::math;
-use mechc::source::Sources;
-use mechc::syntax::{self, ast};
+use mechc::rooms::expr::{Binary, Comparison, Dependence, ExprId, Graph, Motion, Node, Symbol, Unary};
+use mechc::rooms::math;
+use mechc::rooms::syntax::{self, ast};
+use mechc::{Compiled, Sources};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngSeed, TestRunner};
 use rustc_hash::FxHashMap;
 use std::f64::consts::{PI, TAU};
 use std::fs;
-use support::{Outcome, Span, analyse, files, run, stem};
+use support::{Outcome, Span, analyse, compile_number, files, run, stem};
 
 /// As many cases, the same ones on every run, and no files.
 fn config(cases: u32) -> Config {
@@ -576,12 +576,13 @@ fn the_order_of_declarations_means_nothing() {
         let tree = syntax::parse(&sources, file).tree;
         let mechanism = &tree.mechanisms[0];
         let follow = |mechanism: &ast::Mechanism| {
-            let (determined, diagnostics) = mechc::compile(mechanism, &mechc::check::Surroundings::default(), &sources);
-            let span = determined
+            let file = ast::File { mechanisms: vec![mechanism.clone()] };
+            let (compiled, outcome) = compile_number(&path, &syntax::format(&file), 0);
+            let span = compiled
                 .as_ref()
-                .and_then(|d| d.system().analysis)
+                .and_then(Compiled::analysis)
                 .map(|[from, to, _]| Span { to: None, every: Some((to - from) / 20.0) });
-            analyse(sources.clone(), (determined, diagnostics), span.unwrap_or_default())
+            analyse((compiled, outcome), span.unwrap_or_default())
         };
         // what this version only reads, and what has no analysis of its own
         let want = follow(mechanism);

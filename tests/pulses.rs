@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::math;
+use mechc::rooms::math;
 use support::{Span, run};
 
 /// Output steps, coarse and fine (s).

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::diag::Diagnostic;
+use mechc::Diagnostic;
 use proptest::prelude::*;
 use support::{Outcome, Span, run};
 

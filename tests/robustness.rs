@@ -4,9 +4,9 @@
 
 mod support;
 
-use mechc::source::Sources;
+use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;
-use support::{Outcome, Span, compile, run};
+use support::{Outcome, Span, compiled, run};
 
 /// A pendulum whose driver is a formula, with more declarations before it.
 fn pendulum(declarations: &str, formula: &str) -> String {
@@ -185,9 +185,7 @@ fn ten_thousand_bodies_are_proven_in_no_time() {
         .expect("a string takes everything");
     }
     text += "}";
-    let mut sources = Sources::default();
-    let (determined, _) = compile(&mut sources, "many", &text);
-    let determined = determined.expect("determined");
+    let (determined, _) = compiled("many", &text).inside();
     assert_eq!(determined.blocks().len(), 3 * n, "every coordinate can be solved for on its own");
 }
 
@@ -258,13 +256,9 @@ fn printing_stays_linear_where_parts_are_shared() {
         params
     });
     let text = pendulum(&chain, "p39 * t").replace("body bar {", "body bar at (p39, 0, 0) {");
-    let mut sources = Sources::default();
-    let file = sources.add("chain", text.as_str());
-    let tree = mechc::syntax::parse(&sources, file).tree;
-    let (model, _) = mechc::check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
-    let model = model.expect("sound");
-    assert!(model.to_string().len() < 20_000);
-    assert!(mechc::lower::lower(&model).to_string().len() < 20_000);
+    let checked = Parsed::of("chain", &text).check(&Choice::default(), &Memory::default());
+    assert!(checked.model_text().expect("sound").len() < 20_000);
+    assert!(checked.equations_text().expect("sound").len() < 20_000);
 }
 
 #[test]

@@ -4,26 +4,17 @@
 
 mod support;
 
-use mechc::analysis::{self, TOLERANCE, Times};
-use mechc::program::{Program, Stage};
-use mechc::solver::{Batch, Bend, Lanes};
-use mechc::source::Sources;
-use mechc::structure::Determined;
+use mechc::rooms::analysis;
+use mechc::rooms::program::Stage;
+use mechc::rooms::solver::{Batch, Bend, Lanes};
+use mechc::{Cancel, Compiled, TOLERANCE, Times};
 use std::fs;
-use support::{compile, files};
+use std::sync::Arc;
+use support::{all_rows, compile, compiled, files, stem};
 
-fn compiled(name: &str, text: &str) -> Determined {
-    compile(&mut Sources::default(), name, text).0.expect("determined")
-}
-
-fn rows(determined: &Determined, times: &Times) -> Vec<Vec<f64>> {
-    let program = Program::new(determined.system());
-    let mut started = analysis::start(determined, &program, times.from(), TOLERANCE).expect("it assembles");
-    let mut motion = started.motion(times);
-    let mut rows = Vec::new();
-    while let Some(row) = motion.next_row() {
-        rows.push(row.expect("it moves").to_vec());
-    }
+fn rows(compiled: &Compiled, times: &Times) -> Vec<Vec<f64>> {
+    let (rows, stop) = all_rows(compiled, times);
+    assert!(stop.is_none(), "{stop:?}");
     rows
 }
 
@@ -60,12 +51,12 @@ fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
         ["four_bar", "andrews", "jansen", "digger", "slots"].map(|name| (name.to_owned(), case(name))).to_vec();
     texts.push(("many".to_owned(), four_bars(150)));
     for (name, text) in texts {
-        let determined = compiled(&name, &text);
-        let [from, to, _] = determined.system().analysis.expect("an analysis");
+        let compiled = compiled(&name, &text);
+        let [from, to, _] = compiled.analysis().expect("an analysis");
         let all: Vec<f64> = (0..=700).map(|k| from + (to - from) * f64::from(k) / 700.0).collect();
         let seventh: Vec<f64> = all.iter().step_by(7).copied().collect();
         let (all, seventh) = (Times::listed(from, all), Times::listed(from, seventh));
-        let (many, few) = (rows(&determined, &all), rows(&determined, &seventh));
+        let (many, few) = (rows(&compiled, &all), rows(&compiled, &seventh));
         // the first row is that of the assembled start
         for (k, (a, b)) in many.iter().step_by(7).zip(&few).enumerate().skip(1) {
             let bits = |row: &[f64]| row.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
@@ -78,20 +69,21 @@ fn a_row_has_the_same_bits_whichever_others_are_asked_for() {
 fn every_case_is_solved_for_in_lanes() {
     let mut seen = 0;
     for path in files("tests/cases", "mech") {
-        let name = path.file_stem().expect("a name").to_string_lossy().into_owned();
-        let mut sources = Sources::default();
+        let name = stem(&path);
         let text = fs::read_to_string(&path).expect("a text");
-        let (Some(determined), _) = compile(&mut sources, &name, &text) else {
+        let (Some(compiled), _) = compile(&name, &text) else {
             continue;
         };
-        let program = Program::new(determined.system());
-        let Some([from, to, every]) = determined.system().analysis else {
+        let (determined, program) = compiled.inside();
+        let Some(times) = compiled.times() else {
             continue;
         };
         seen += 1;
-        let wanted = rows(&determined, &Times::grid(from, to, every).expect("a grid"));
+        let wanted = rows(&compiled, &times);
         let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
-        let started = analysis::start(&determined, &program, from, TOLERANCE).expect("it assembles");
+        let started =
+            analysis::start(Arc::clone(&determined), Arc::clone(&program), times.from(), TOLERANCE, &Cancel::default());
+        let started = started.expect("it assembles");
         let solver = started.solver().expect("it is small");
         let layout = solver.layout();
         let (mut lanes, mut found) = (Lanes::<1>::new(solver), vec![0.0; layout.stride]);

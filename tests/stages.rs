@@ -4,8 +4,7 @@
 
 mod support;
 
-use mechc::source::Sources;
-use mechc::{check, lower, syntax};
+use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;
 use std::fs;
 use support::{Span, files, run, stem};
@@ -16,12 +15,9 @@ fn every_stage_of_every_mechanism() {
         let folder = path.parent().expect("a folder");
         let name = stem(folder);
         let text = fs::read_to_string(&path).expect("a text");
-        let mut sources = Sources::default();
-        let file = sources.add(name.clone(), text.as_str());
-        let tree = syntax::parse(&sources, file).tree;
-        let (model, diagnostics) = check::check(&tree.mechanisms[0], &mechc::check::Surroundings::default(), &sources);
-        assert!(diagnostics.is_empty(), "{name}");
-        let model = model.expect("sound");
+        let parsed = Parsed::of(&name, &text);
+        let checked = parsed.check(&Choice::default(), &Memory::default());
+        assert!(checked.diagnostics().is_empty(), "{name}");
         let rows = run(&name, &text, Span::default()).expect_success();
         let mut first_rows = rows.columns.join(",") + "\n";
         for row in rows.rows.iter().take(3) {
@@ -29,9 +25,9 @@ fn every_stage_of_every_mechanism() {
             writeln!(first_rows, "{}", cells.join(",")).expect("a string takes everything");
         }
         insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
-            insta::assert_snapshot!("ast", syntax::format(&tree));
-            insta::assert_snapshot!("model", model.to_string());
-            insta::assert_snapshot!("ir", lower::lower(&model).to_string());
+            insta::assert_snapshot!("ast", parsed.formatted());
+            insta::assert_snapshot!("model", checked.model_text().expect("sound"));
+            insta::assert_snapshot!("ir", checked.equations_text().expect("sound"));
             insta::assert_snapshot!("run", first_rows);
         });
     }

@@ -5,7 +5,7 @@
 
 mod support;
 
-use mechc::source::Span;
+use mechc::Span;
 use std::fs;
 use std::path::Path;
 use support::{Outcome, Span as Times, files, run_in, stem};
@@ -24,7 +24,7 @@ fn places(outcome: &Outcome) -> Vec<(usize, String)> {
     let mut places: Vec<(usize, String)> = outcome
         .diagnostics
         .iter()
-        .filter(|diagnostic| diagnostic.severity() != mechc::diag::Severity::Note)
+        .filter(|diagnostic| diagnostic.severity() != mechc::Severity::Note)
         .filter_map(|diagnostic| {
             let here = |span: Span| outcome.sources.get(span.file).name.contains(".mech");
             let span = diagnostic.labels.iter().map(|label| label.span).find(|span| here(*span))?;

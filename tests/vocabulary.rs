@@ -4,13 +4,12 @@
 
 mod support;
 
-use mechc::ir::DeclarationKind;
-use mechc::source::Sources;
-use mechc::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
+use mechc::rooms::ir::DeclarationKind;
+use mechc::rooms::vocabulary::{self, Category, KEYWORDS, Keyword, OVERVIEWS, Place, Role, SYNONYMS, Synonym, Unit};
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 use std::fs;
-use support::{Span, compile, run};
+use support::{Span, compile, compiled, run};
 
 /// The words in quotes of one rule of the grammar.
 fn words_of_rule(rule: &str) -> BTreeSet<String> {
@@ -79,9 +78,8 @@ fn every_example_of_a_page_checks_and_runs_without_a_word() {
         let example = word.example();
         let page = vocabulary::page(word.name).expect("a page");
         assert!(page.contains(word.name), "{page}");
-        let mut sources = Sources::default();
-        let (determined, diagnostics) = compile(&mut sources, word.name, &example);
-        assert!(determined.is_some() && diagnostics.is_empty(), "{}: {example}", word.name);
+        let (compiled, outcome) = compile(word.name, &example);
+        assert!(compiled.is_some() && outcome.diagnostics.is_empty(), "{}: {example}", word.name);
         assert!(example.contains(word.name), "the example of `{}` does not show it:\n{example}", word.name);
         // nor is anything to be said of its motion
         let analysis = if example.contains("analysis") { "" } else { "analysis from 0 s to 1 s every 0.1 s\n}" };
@@ -97,9 +95,7 @@ fn every_example_of_a_page_checks_and_runs_without_a_word() {
 #[test]
 fn joints_have_as_many_equations_and_coordinates_as_their_pages_say() {
     for joint in vocabulary::JOINTS {
-        let mut sources = Sources::default();
-        let (determined, _) = compile(&mut sources, joint.word.name, &joint.word.example());
-        let determined = determined.expect("determined");
+        let (determined, _) = compiled(joint.word.name, &joint.word.example()).inside();
         let system = determined.system();
         let (number, _) = system
             .declarations
@@ -369,7 +365,7 @@ fn no_word_of_others_stands_twice() {
 
 #[test]
 fn units_are_listed_where_they_are_explained() {
-    let page = mechc::diag::Code::named("E0202").expect("a code").page();
+    let page = mechc::Code::named("E0202").expect("a code").page();
     let listed: BTreeSet<&str> = code_in(page).into_iter().flat_map(str::split_whitespace).collect();
     let missing: Vec<&str> = Unit::names().filter(|name| !listed.contains(name)).collect();
     assert!(missing.is_empty(), "{missing:?}");

@@ -5,23 +5,21 @@
 mod support;
 
 use assert_cmd::Command;
-use mechc::emit;
-use mechc::expr::{ExprId, Graph, Node, Symbol, TableId};
-use mechc::ir::ConstraintSystem;
-use mechc::source::Sources;
-use mechc::structure::Determined;
+use mechc::Compiled;
+use mechc::rooms::emit;
+use mechc::rooms::expr::{ExprId, Graph, Node, Symbol, TableId};
+use mechc::rooms::ir::ConstraintSystem;
 use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fs;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile, compile_at, files, mechanisms, stem};
+use support::{compile_number, compiled, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
-    sources: Sources,
-    determined: Determined,
+    compiled: Compiled,
 }
 
 /// Examples, reference cases and stages, each mechanism of theirs.
@@ -31,11 +29,10 @@ fn all() -> Vec<Emitted> {
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");
         for number in 0..mechanisms(&text).len() {
-            let mut sources = Sources::default();
-            let (determined, _) = compile_at(&mut sources, &stem(&path), &text, &path, number);
+            let (compiled, _) = compile_number(&path, &text, number);
             let folder = stem(path.parent().expect("a folder"));
             let name = format!("{folder}/{}", stem(&path));
-            list.extend(determined.map(|determined| Emitted { name, sources, determined }));
+            list.extend(compiled.map(|compiled| Emitted { name, compiled }));
         }
     }
     assert!(list.len() >= 75, "{} systems", list.len());
@@ -43,10 +40,8 @@ fn all() -> Vec<Emitted> {
 }
 
 fn written(name: &str, text: &str) -> (String, String) {
-    let mut sources = Sources::default();
-    let determined = compile(&mut sources, name, text).0.expect("determined");
-    let file = format!("{name}.mech");
-    (emit::latex(determined.system(), &file), emit::json(determined.system(), &sources, &file))
+    let (compiled, file) = (compiled(name, text), format!("{name}.mech"));
+    (compiled.latex(&file), compiled.json(&file))
 }
 
 #[test]
@@ -154,8 +149,9 @@ fn json_has_the_layout_of_its_page() {
             assert!(page.contains(&format!("`{key}`")), "{name}.{key} is not on the page");
         }
     }
-    for Emitted { name, sources, determined } in all() {
-        let json: Value = serde_json::from_str(&emit::json(determined.system(), &sources, "f.mech")).expect("JSON");
+    for Emitted { name, compiled } in all() {
+        let (determined, _) = compiled.inside();
+        let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
         assert_eq!(keys(&json), FIELDS, "{name}");
         for (field, fields) in LAYOUT {
             for item in list(&json, field) {
@@ -252,9 +248,10 @@ fn formula(
 
 #[test]
 fn formulas_of_the_json_are_those_of_the_system() {
-    for Emitted { name, sources, determined } in all() {
+    for Emitted { name, compiled } in all() {
+        let (determined, _) = compiled.inside();
         let system = determined.system();
-        let json: Value = serde_json::from_str(&emit::json(system, &sources, "f.mech")).expect("JSON");
+        let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
         let mut graph = system.graph.clone();
         let mut symbols: HashMap<String, ExprId> = HashMap::new();
         for (_, node) in system.graph.nodes() {
@@ -354,7 +351,8 @@ fn is_sound(name: &str, document: &str) {
 
 #[test]
 fn every_document_is_sound() {
-    for Emitted { name, determined, .. } in all() {
+    for Emitted { name, compiled } in all() {
+        let (determined, _) = compiled.inside();
         let system = determined.system();
         let document = emit::latex(system, "a_b%c.mech");
         is_sound(&name, &document);
@@ -422,14 +420,14 @@ fn some_number(symbol: Symbol, seed: u64) -> f64 {
 
 #[test]
 fn what_is_typeset_has_the_values_of_the_system() {
-    for Emitted { name, determined, .. } in all() {
+    for Emitted { name, compiled } in all() {
+        let (determined, _) = compiled.inside();
         for seed in 0..3 {
             values_agree(&name, determined.system(), seed);
         }
     }
     let text = disc("-(a - t)^2 / -(b * -t) * -3 - (if t < a then -(t - a) else b) / (-2) ^ 3 + 2^-t^2 * (t + b)^-2");
-    let mut sources = Sources::default();
-    values_agree("signs", compile(&mut sources, "disc", &text).0.expect("determined").system(), 0);
+    values_agree("signs", compiled("disc", &text).inside().0.system(), 0);
 }
 
 fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {

@@ -1,6 +1,6 @@
 //! The four-bar by hand: the floor.
 
-use mechc::math;
+use mechc::rooms::math;
 
 /// The crank at the start [rad], and how fast it turns [rad/s].
 const START: f64 = 0.5;

@@ -18,10 +18,8 @@ mod newton;
 mod timing;
 
 use closed_form::closed_form;
-use mechanisms::{Compiled, compile};
-use mechc::analysis::{self, Started, TOLERANCE, Times};
-use mechc::output::{TableFormat, TableWriter};
-use mechc::program::Program;
+use mechanisms::compile;
+use mechc::{Compiled, Run, RunOptions, TableFormat, TableWriter, Times};
 use newton::{Dense, Linear, Newton, Sparse};
 use std::f64::consts::PI;
 use std::hint::black_box;
@@ -60,11 +58,11 @@ fn turn() -> impl Iterator<Item = f64> {
 /// Every number of every way is that of the closed form, to 1e-9.
 fn agree() {
     let compiled = compile(&mechanisms::four_bars(1));
-    let program = Program::new(compiled.system());
-    let mut started = started(&compiled, &program);
-    let mut dense = Newton::new(Dense::new(&compiled), &compiled, &program, started.q());
-    let mut sparse = Newton::new(Sparse::new(&compiled), &compiled, &program, started.q());
-    let mut motion = started.motion(&Times::listed(0.0, turn().collect()));
+    let (determined, program) = compiled.inside();
+    let mut motion = started(&compiled, &Times::listed(0.0, turn().collect()));
+    let start = coordinates(&motion);
+    let mut dense = Newton::new(Dense::new(&determined), &determined, &program, &start);
+    let mut sparse = Newton::new(Sparse::new(&determined), &determined, &program, &start);
     let mut state = four_bar::assemble(&four_bar::Params::default()).expect("it assembles");
     for t in turn() {
         let row = motion.next_row().expect("a row").expect("it moves");
@@ -137,18 +135,16 @@ fn scissor_lifts(floor: f64) {
 
 /// ns a step: mechc, and the same Newton with a dense LU (where that can be waited for) and with a sparse one.
 fn ways(compiled: &Compiled, steps: u32) -> [Option<f64>; 3] {
-    let program = Program::new(compiled.system());
-    let n = compiled.system().coordinates.len();
-    let [from, to, _] = compiled.system().analysis.expect("an analysis");
+    let (determined, program) = compiled.inside();
+    let n = determined.system().coordinates.len();
+    let [from, to, _] = compiled.analysis().expect("an analysis");
     let every = (to - from) / f64::from(steps - 1);
     let times = Times::grid(from, to, every).expect("a grid");
-    let mut started = started(compiled, &program);
-    let start = started.q().to_vec();
+    let start = coordinates(&started(compiled, &times));
     let rounds = if n > 2_000 { 3 } else { 9 };
     let library = median(rounds, || {
-        let mut started = self::started(compiled, &program);
+        let mut motion = started(compiled, &times);
         per_step(steps, || {
-            let mut motion = started.motion(&times);
             while let Some(row) = motion.next_row() {
                 black_box(row.expect("it moves"));
             }
@@ -156,12 +152,11 @@ fn ways(compiled: &Compiled, steps: u32) -> [Option<f64>; 3] {
     });
     let few = if n > 2_000 { A_FEW_STEPS } else { 100 };
     let dense = (n <= LARGEST_DENSE).then(|| {
-        let mut newton = Newton::new(Dense::new(compiled), compiled, &program, &start);
+        let mut newton = Newton::new(Dense::new(&determined), &determined, &program, &start);
         followed(&mut newton, few, from, every)
     });
-    let mut newton = Newton::new(Sparse::new(compiled), compiled, &program, &start);
+    let mut newton = Newton::new(Sparse::new(&determined), &determined, &program, &start);
     let sparse = followed(&mut newton, few, from, every);
-    let _ = started.conditioning();
     [Some(library), dense, Some(sparse)]
 }
 
@@ -178,9 +173,13 @@ fn followed<L: Linear>(newton: &mut Newton<'_, L>, steps: u32, from: f64, every:
     })
 }
 
-fn started<'d>(compiled: &'d Compiled, program: &'d Program) -> Started<'d> {
-    let [from, ..] = compiled.system().analysis.expect("an analysis");
-    analysis::start(compiled, program, from, TOLERANCE).expect("it assembles")
+fn started(compiled: &Compiled, times: &Times) -> Run {
+    compiled.run(times, &RunOptions::default()).0.expect("it assembles")
+}
+
+/// The assembled ones.
+fn coordinates(run: &Run) -> Vec<f64> {
+    run.assembly().coordinates.iter().map(|(_, q, _)| *q).collect()
 }
 
 /// From text to the first row.
@@ -196,9 +195,7 @@ fn set_up() {
         let time = median(3, || {
             per_step(1, || {
                 let compiled = compile(&text);
-                let program = Program::new(compiled.system());
-                let mut started = started(&compiled, &program);
-                let mut motion = started.motion(&Times::listed(0.0, vec![0.0]));
+                let mut motion = started(&compiled, &Times::listed(0.0, vec![0.0]));
                 black_box(motion.next_row().expect("a row").expect("it moves"));
             })
         });
@@ -211,14 +208,9 @@ fn set_up() {
 fn output() {
     println!("the four-bar's table, 28 numbers a row, solving not counted");
     let compiled = compile(&mechanisms::four_bars(1));
-    let program = Program::new(compiled.system());
-    let mut started = started(&compiled, &program);
-    let columns = started.columns();
-    let mut motion = started.motion(&Times::listed(0.0, turn().collect()));
-    let mut rows = Vec::new();
-    while let Some(row) = motion.next_row() {
-        rows.push(row.expect("it moves").to_vec());
-    }
+    let motion = started(&compiled, &Times::listed(0.0, turn().collect()));
+    let columns = motion.columns().to_vec();
+    let rows: Vec<Vec<f64>> = motion.map(|row| row.expect("it moves")).collect();
     for (name, format) in [("CSV", TableFormat::Csv), ("JSON", TableFormat::Json), ("Parquet", TableFormat::Parquet)] {
         let time = median(9, || {
             per_step(STEPS, || {

@@ -1,19 +1,12 @@
 //! The mechanisms, as text.
 
-use mechc::check::Surroundings;
-use mechc::source::Sources;
-use mechc::structure::Determined;
-use mechc::syntax;
-
-pub type Compiled = Determined;
+use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant};
 
 pub fn compile(text: &str) -> Compiled {
-    let mut sources = Sources::default();
-    let file = sources.add("bench.mech", text.to_owned());
-    let tree = syntax::parse(&sources, file).tree;
-    let (determined, diagnostics) = mechc::compile(&tree.mechanisms[0], &Surroundings::default(), &sources);
-    assert!(determined.is_some(), "{diagnostics:?}");
-    determined.expect("it is determined")
+    let checked = Parsed::of("bench.mech", text).check(&Choice::default(), &Memory::default());
+    let (compiled, diagnostics) = checked.compile(Redundant::Refused, &Cancel::default());
+    assert!(compiled.is_some(), "{:?} {diagnostics:?}", checked.diagnostics());
+    compiled.expect("it is determined")
 }
 
 /// Those of one loop or a few, a turn of the crank each, without measures.
@@ -76,7 +69,7 @@ fn slider_crank() -> String {
 
 /// Pairs of crossed bars, one on the other, spread at the bottom.
 pub fn scissor_lift(cells: usize) -> String {
-    let (sin, cos) = mechc::math::sin_cos(0.5);
+    let (sin, cos) = mechc::rooms::math::sin_cos(0.5);
     let mut text = "mechanism scissor_lift {\n    ground { point O = (0, 0) axis floor = O along (1, 0) }\n".to_owned();
     for k in 0..cells {
         let (x, y) = (0.5 * cos, (k as f64 + 0.5) * sin);

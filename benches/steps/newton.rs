@@ -5,9 +5,9 @@
 use faer::linalg::solvers::Solve;
 use faer::sparse::linalg::solvers::{Lu, SymbolicLu};
 use faer::sparse::{SparseColMat, SymbolicSparseColMat};
-use mechc::ir::ConstraintSystem;
-use mechc::program::{Program, Registers, Stage};
-use mechc::structure::Determined;
+use mechc::rooms::ir::ConstraintSystem;
+use mechc::rooms::program::{Program, Registers, Stage};
+use mechc::rooms::structure::Determined;
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
 /// A residual below this is none.

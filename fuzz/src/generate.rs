@@ -2,7 +2,7 @@
 //! the start, so that most of them assemble and move; and now and then something is taken away or said twice.
 
 use libfuzzer_sys::arbitrary::Unstructured;
-use mechc::math;
+use mechc::rooms::math;
 use std::f64::consts::TAU;
 
 /// Elements of one mechanism at most.

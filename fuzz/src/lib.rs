@@ -4,15 +4,15 @@ pub mod generate;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 
-use mechc::analysis::{self, Started, Times};
-use mechc::check::{self, Surroundings};
-use mechc::diag::{Color, Diagnostic, Format, render};
-use mechc::emit;
-use mechc::lower;
-use mechc::program::{Frozen, Program, Stage};
-use mechc::source::Sources;
-use mechc::structure::Determined;
-use mechc::syntax::{self, ast};
+use mechc::rooms::analysis::{self, Started, Times};
+use mechc::rooms::check::{self, Surroundings};
+use mechc::{Color, Diagnostic, Format, render};
+use mechc::rooms::emit;
+use mechc::rooms::lower;
+use mechc::rooms::program::{Frozen, Program, Stage};
+use mechc::Sources;
+use mechc::rooms::structure::Determined;
+use mechc::rooms::syntax::{self, ast};
 use shape::file_shape;
 use std::time::{Duration, Instant};
 

@@ -255,27 +255,36 @@ impl Walk {
                 self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });
             }
             ItemKind::Table { rows: TableRows::Listed(rows), .. } => {
-                rows.iter().for_each(|row| self.formula(row, plain))
+                for row in rows {
+                    self.formula(row, plain);
+                }
             }
             ItemKind::Table { rows: TableRows::File { units, .. }, .. } => {
                 units.iter().flatten().for_each(|unit| self.unit(unit));
             }
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground),
             ItemKind::Body { pose, features, .. } => {
-                pose.iter().for_each(|pose| self.formula(pose, plain));
+                if let Some(pose) = pose {
+                    self.formula(pose, plain);
+                }
                 self.uses_in_features(features, id);
             }
             ItemKind::Joint { kind, arguments, .. } => {
                 if let Some(joint) = JointWord::named(&kind.text) {
                     self.word(kind, &joint.word);
                 }
-                arguments.iter().for_each(|argument| self.formula(argument, plain));
+                for argument in arguments {
+                    self.formula(argument, plain);
+                }
             }
             ItemKind::Equation { left, right, .. } => {
-                [left, right].into_iter().for_each(|side| self.formula(side, plain))
+                self.formula(left, plain);
+                self.formula(right, plain);
             }
             ItemKind::Analysis { from, to, every } => {
-                [from, to, every].into_iter().for_each(|e| self.formula(e, plain))
+                for time in [from, to, every] {
+                    self.formula(time, plain);
+                }
             }
             ItemKind::Broken { .. } => {}
         }
@@ -301,7 +310,9 @@ impl Walk {
                 FeatureKind::Curve { argument, at, estimate } => {
                     let declared = self.declare(argument, NameKind::Argument, feature.span, None);
                     self.formula(at, Scope { argument: Some((&argument.text, declared)), ..plain });
-                    estimate.iter().for_each(|estimate| self.formula(estimate, plain));
+                    if let Some(estimate) = estimate {
+                        self.formula(estimate, plain);
+                    }
                 }
                 FeatureKind::Broken => {}
             }

@@ -71,6 +71,7 @@ impl Parsed {
     }
 
     /// The names of its mechanisms, in order.
+    #[must_use]
     pub fn mechanisms(&self) -> impl ExactSizeIterator<Item = &str> {
         self.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str())
     }

@@ -1,13 +1,15 @@
 //! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
 
 use super::tokens::{Token, tokens};
-use crate::vocabulary::{Keyword, is_declaration, is_feature};
+use crate::vocabulary::{Keyword, Role};
 use rustc_hash::FxHashSet;
 
 /// The words of a text with what they may be the beginning of.
 pub(super) struct Outline<'a> {
     text: &'a str,
     tokens: Vec<Token<'a>>,
+    /// By token: where it stands, if it is a keyword.
+    roles: Vec<Option<Role>>,
     /// By token: whether it stands where the name of the declaration before it does.
     names: Vec<bool>,
 }
@@ -18,15 +20,29 @@ const LONGEST_HEAD: usize = 100;
 impl<'a> Outline<'a> {
     pub fn new(text: &'a str) -> Outline<'a> {
         let tokens = tokens(text);
-        let takes_name = |word: &str| is_declaration(word) && !["ground", "analysis"].contains(&word);
-        let (mut names, mut is_name) = (Vec::with_capacity(tokens.len()), false);
-        let mut before = "";
-        for token in &tokens {
-            is_name = takes_name(before) && !is_name;
+        let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
+        let roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
+        let (mut names, mut is_name, mut takes_name) = (Vec::with_capacity(tokens.len()), false, false);
+        for (token, role) in tokens.iter().zip(&roles) {
+            is_name = takes_name && !is_name;
             names.push(is_name);
-            before = token.text;
+            takes_name = role.is_some_and(begins) && !["ground", "analysis"].contains(&token.text);
         }
-        Outline { text, tokens, names }
+        Outline { text, tokens, roles, names }
+    }
+
+    fn role(&self, k: usize) -> Option<Role> {
+        self.roles.get(k).copied().flatten()
+    }
+
+    /// Whether a token is the keyword of a declaration.
+    fn is_declaration(&self, k: usize) -> bool {
+        self.role(k).is_some_and(begins)
+    }
+
+    /// Whether a token is the keyword of a feature.
+    pub fn is_feature(&self, k: usize) -> bool {
+        self.role(k) == Some(Role::Feature)
     }
 
     /// The number of the first token at or behind a byte.
@@ -100,9 +116,9 @@ impl<'a> Outline<'a> {
     /// The names that the declaration at a token would have given: the word behind its keyword, or the first of two words.
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        let head = self.tokens.get(k..end.min(k + 2)).unwrap_or_default();
         // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
-        head.iter().filter(is_name).filter(|token| !is_declaration(token.text)).copied()
+        let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
+        head.map(|k| self.tokens[k]).filter(move |token| is_name(&token))
     }
 
     /// Whether a token stands where the name of the declaration before it does.
@@ -112,7 +128,7 @@ impl<'a> Outline<'a> {
 
     /// Whether a token is a keyword that begins a declaration wherever the grammar holds.
     fn is_keyword(&self, k: usize) -> bool {
-        is_declaration(self.word(k)) && self.word(k + 1) != "."
+        self.is_declaration(k) && self.word(k + 1) != "."
     }
 
     /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
@@ -148,29 +164,29 @@ impl<'a> Outline<'a> {
         if self.word(k + 1) == "." {
             return false;
         }
-        if is_declaration(self.word(k)) {
+        if self.is_declaration(k) {
             return !self.is_inside(k);
         }
         if self.is_name_of(k) {
             return false;
         }
-        let is_word = |word: &str| word.starts_with(char::is_alphabetic) && !is_joining(word);
+        let is_joining = |k: usize| matches!(self.role(k), Some(Role::Formula | Role::Separator | Role::Place));
+        let is_word = |k: usize| self.word(k).starts_with(char::is_alphabetic) && !is_joining(k);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
-        if !is_word(self.word(k)) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
+        if !is_word(k) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
             return false;
         }
         let is_equation = self.word(k + 2) == "=";
         let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
         is_block
-            || (is_word(self.word(k + 1)) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || (is_word(k + 1) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
             || self.word(k + 1) == "from"
     }
 
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.
     pub fn begins_large_declaration(&self, k: usize) -> bool {
-        let word = self.word(k);
-        self.begins_declaration(k) && is_declaration(word) && !is_feature(word)
+        self.begins_declaration(k) && self.role(k) == Some(Role::Declaration)
     }
 
     /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
@@ -182,11 +198,10 @@ impl<'a> Outline<'a> {
     /// The keyword that stands at a place where a name should.
     pub fn bad_name(&self, byte: usize) -> Option<&'a str> {
         let k = self.index_at(byte);
-        (self.start(k) == byte && is_declaration(self.word(k)) && self.is_name_of(k)).then(|| self.word(k))
+        (self.start(k) == byte && self.is_declaration(k) && self.is_name_of(k)).then(|| self.word(k))
     }
 }
 
-/// Whether a word of the language stands between the parts of a declaration or formula.
-fn is_joining(word: &str) -> bool {
-    Keyword::named(word).is_some_and(Keyword::is_joining)
+fn begins(role: Role) -> bool {
+    matches!(role, Role::Declaration | Role::Feature)
 }

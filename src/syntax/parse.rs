@@ -14,7 +14,6 @@ use super::outline::Outline;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
-use crate::vocabulary::is_feature;
 use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
@@ -190,7 +189,7 @@ impl Reading<'_> {
             match brace {
                 Some(brace) => self.at = brace + 1,
                 // features stand where the brace should
-                None if is_brace_missing && self.is_feature(self.outline.resumption(first)) => {
+                None if is_brace_missing && self.outline.is_feature(self.outline.resumption(first)) => {
                     self.at = self.outline.resumption(first);
                 }
                 None => {
@@ -220,10 +219,6 @@ impl Reading<'_> {
         }
         items.push(Item { docs: docs_above(&self.source.text, start), span, kind });
         items.append(&mut misplaced);
-    }
-
-    fn is_feature(&self, k: usize) -> bool {
-        is_feature(self.outline.word(k))
     }
 
     /// The features up to the brace that closes their block, or to where it is missing.
@@ -288,7 +283,7 @@ impl Reading<'_> {
 
     fn feature(&mut self) -> Feature {
         let first = self.at;
-        let read = if self.is_feature(first) {
+        let read = if self.outline.is_feature(first) {
             self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| reader.feature(pair))
         } else {
             Err(self.fault_of(Rule::feature_or_close))

@@ -4,6 +4,9 @@ use super::{Category, Example, Word};
 use rustc_hash::FxHashMap;
 use std::sync::LazyLock;
 
+/// The longest keyword, in bytes.
+const LONGEST: usize = 10;
+
 /// Every word of a text is looked up here.
 static BY_NAME: LazyLock<FxHashMap<&str, &Keyword>> =
     LazyLock::new(|| KEYWORDS.iter().map(|keyword| (keyword.word.name, keyword)).collect());
@@ -38,6 +41,10 @@ impl Keyword {
     /// The keyword of a name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Keyword> {
+        // most words are none, and need no look
+        if name.len() > LONGEST || !name.starts_with(|c: char| c.is_ascii_lowercase()) {
+            return None;
+        }
         BY_NAME.get(name).copied()
     }
 

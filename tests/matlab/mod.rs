@@ -1,7 +1,7 @@
 //! MATLAB's meaning of a formula, and the language's, each evaluated on its own; and random formulas to compare them.
 
-use mechc::math;
-use mechc::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use mechc::rooms::math;
+use mechc::rooms::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
 use std::f64::consts::PI;
 
 // ---- random formulas

@@ -37,6 +37,10 @@ pub struct Span {
 }
 
 impl Outcome {
+    fn of(sources: &Sources) -> Outcome {
+        Outcome { sources: sources.clone(), diagnostics: Diagnostics::default(), columns: Vec::new(), rows: Vec::new() }
+    }
+
     /// Whether nothing went wrong.
     pub fn succeeded(&self) -> bool {
         !self.diagnostics.has_errors()
@@ -58,6 +62,17 @@ impl Outcome {
         self.diagnostics.iter().map(|d| d.code.as_str()).collect()
     }
 
+    /// Why the motion stopped, if it did.
+    pub fn stop(&self) -> Option<&Diagnostic> {
+        self.diagnostics.iter().find(|diagnostic| is_error(diagnostic))
+    }
+
+    /// The times of the bifurcations that were passed (s).
+    pub fn passed(&self) -> Vec<f64> {
+        let passed = self.diagnostics.iter().filter(|remark| remark.code.as_str() == "W0602");
+        passed.map(|remark| remark.data["t"].as_f64().expect("a time")).collect()
+    }
+
     /// A column by its name.
     pub fn column(&self, name: &str) -> Vec<f64> {
         let at = self.columns.iter().position(|column| column == name);
@@ -68,14 +83,19 @@ impl Outcome {
 
 /// Checks and proves the first mechanism of a text; the files that it names are beside its name.
 pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(Parsed::of(name, text), 0)
+    compile_at(&Parsed::of(name, text), 0, Redundant::Refused)
+}
+
+/// The same; equations that follow from others are left out.
+pub fn compile_without_redundant(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
+    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut)
 }
 
 /// Checks and proves a mechanism of a text that is in a file, by its number.
 pub fn compile_number(path: &Path, text: &str, number: usize) -> (Option<Compiled>, Outcome) {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    compile_at(Parsed::of_source(sources, file, path), number)
+    compile_at(&Parsed::of_source(sources, file, path), number, Redundant::Refused)
 }
 
 /// The compiled mechanism of a text that is right.
@@ -84,14 +104,14 @@ pub fn compiled(name: &str, text: &str) -> Compiled {
     compiled.unwrap_or_else(|| panic!("{name}:\n{}", outcome.text()))
 }
 
-fn compile_at(parsed: Parsed, number: usize) -> (Option<Compiled>, Outcome) {
+fn compile_at(parsed: &Parsed, number: usize, redundant: Redundant) -> (Option<Compiled>, Outcome) {
     // of a text that cannot be read the faults are all there is to say
     let mechanism = parsed.mechanisms().nth(number).map(str::to_owned);
     let checked = parsed.check(&Choice { mechanism, ..Choice::default() }, &Disk);
-    let mut diagnostics = checked.diagnostics().clone();
-    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
-    diagnostics.extend(said);
-    let outcome = Outcome { sources: checked.sources().clone(), diagnostics, columns: Vec::new(), rows: Vec::new() };
+    let (compiled, said) = checked.compile(redundant, &Cancel::default());
+    let mut outcome = Outcome::of(checked.sources());
+    outcome.diagnostics.extend(checked.diagnostics().clone());
+    outcome.diagnostics.extend(said);
     (compiled, outcome)
 }
 
@@ -114,7 +134,8 @@ pub fn mechanisms(text: &str) -> Vec<String> {
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
     let mut sources = Sources::default();
     let file = sources.add(name, text);
-    analyse(compile_at(Parsed::of_source(sources, file, &folder.join(name)), 0), span)
+    let parsed = Parsed::of_source(sources, file, &folder.join(name));
+    analyse(compile_at(&parsed, 0, Redundant::Refused), span)
 }
 
 /// Runs what was compiled over its analysis.
@@ -126,6 +147,14 @@ pub fn analyse((compiled, mut outcome): (Option<Compiled>, Outcome), span: Span)
         follow(&compiled, &times, &RunOptions::default(), &mut outcome);
     }
     outcome
+}
+
+/// All rows at some times, and why there are no more if it stopped.
+pub fn all_rows(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Option<Diagnostic>) {
+    let mut outcome = Outcome::of(compiled.sources());
+    follow(compiled, times, &RunOptions::default(), &mut outcome);
+    let stop = outcome.stop().cloned();
+    (outcome.rows, stop)
 }
 
 /// Follows a motion to its last row, or to where it stops.
@@ -154,8 +183,7 @@ pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
     outcome.diagnostics = Diagnostics::default();
     follow(&compiled, &times, &RunOptions { pass_bifurcations: true, ..RunOptions::default() }, &mut outcome);
     assert!(outcome.diagnostics.iter().all(|remark| remark.code.as_str() == "W0602" || !is_error(remark)));
-    let passed = outcome.diagnostics.iter().filter(|remark| remark.code.as_str() == "W0602");
-    let passed = passed.map(|remark| remark.data["t"].as_f64().expect("a time")).collect();
+    let passed = outcome.passed();
     (outcome, passed)
 }
 

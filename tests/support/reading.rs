@@ -1,8 +1,8 @@
 //! Printed formulas read back, with the graph's own constructors.
 
-use mechc::expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
-use mechc::source::Sources;
-use mechc::syntax::{self, ast};
+use mechc::Sources;
+use mechc::rooms::expr::{Binary, Comparison, ExprId, Graph, TableId, Unary};
+use mechc::rooms::syntax::{self, ast};
 
 /// The functions of one argument that the language has.
 pub const UNARIES: [Unary; 15] = [

@@ -1,6 +1,6 @@
 //! Trees without their places: what two texts of one meaning share.
 
-use mechc::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, File, ItemKind, Mechanism, TableRows};
+use mechc::rooms::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, File, ItemKind, Mechanism, TableRows};
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
 /// `and` and `or` flat, `else if` nested.
