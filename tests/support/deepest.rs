@@ -1,14 +1,9 @@
 //! The deepest texts that there are, and all the ways that a text can go: what must do with a small stack on every platform.
 
-use mechc::analysis::{self, Times};
-use mechc::check::{self, Surroundings};
-use mechc::diag::{Color, Diagnostics, Format, render};
-use mechc::emit::{self, Unit};
-use mechc::output::{TableFormat, TableWriter};
-use mechc::program::Program;
-use mechc::source::{FileId, Sources};
-use mechc::structure::Determined;
-use mechc::{import, lower, syntax};
+use mechc::{
+    Cancel, Choice, Color, Compiled, Diagnostics, Format, Memory, Parsed, Redundant, RunOptions, RustOptions, Sources,
+    TableFormat, TableWriter, Times, imported, render,
+};
 
 /// A text that is deep in one way, which goes all the way.
 pub struct Deep {
@@ -116,56 +111,47 @@ fn foreign(formula: &str) -> String {
 
 /// A text on all ways: what is said of it, or its table, and the sizes of everything else that can be made of it.
 pub fn all_ways(deep: &Deep) -> Result<String, String> {
+    let text = if deep.is_foreign { translated(deep)? } else { deep.text.clone() };
+    let parsed = Parsed::of(deep.name, &text);
+    let (made, sources) = ways(&parsed);
+    made.map_err(|said| in_words(&said, &sources))
+}
+
+fn in_words(said: &Diagnostics, sources: &Sources) -> String {
+    said.iter().map(|one| render(one, sources, Format::Human, Color::Never)).collect()
+}
+
+fn translated(deep: &Deep) -> Result<String, String> {
     let mut sources = Sources::default();
     let file = sources.add(deep.name, deep.text.as_str());
-    let made = if deep.is_foreign { imported(&mut sources, file) } else { ways(&mut sources, file) };
-    made.map_err(|said| said.iter().map(|one| render(one, &sources, Format::Human, Color::Never)).collect())
+    let (text, said) = imported(file, None, &sources);
+    text.ok_or_else(|| in_words(&said, &sources))
 }
 
-fn imported(sources: &mut Sources, file: FileId) -> Result<String, Diagnostics> {
-    let (tree, said) = import::import(file, None, sources);
-    let file = sources.add("imported", syntax::format(&tree.ok_or(said)?));
-    ways(sources, file)
+fn ways(parsed: &Parsed) -> (Result<String, Diagnostics>, Sources) {
+    let checked = parsed.check(&Choice::default(), &Memory::default());
+    let sources = checked.sources().clone();
+    let (Some(model), Some(equations)) = (checked.model_text(), checked.equations_text()) else {
+        return (Err(checked.diagnostics().clone()), sources);
+    };
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let Some(compiled) = compiled else { return (Err(said), sources) };
+    let (emitted, said) = compiled.rust(&RustOptions::of("deep"));
+    let Some(emitted) = emitted else { return (Err(said), sources) };
+    let (latex, json) = (compiled.latex("deep"), compiled.json("deep"));
+    let sizes = [&parsed.formatted(), &model, &equations, &emitted, &latex, &json].map(String::len);
+    (table(&compiled).map(|table| format!("{table}\n{sizes:?}\n")), sources)
 }
 
-fn ways(sources: &mut Sources, file: FileId) -> Result<String, Diagnostics> {
-    let parsed = syntax::parse(sources, file);
-    let (tree, faults) = (parsed.tree, parsed.faults);
-    if faults.has_errors() {
-        return Err(faults);
-    }
-    let formatted = syntax::format(&tree);
-    let (model, said) = check::check(&tree.mechanisms[0], &Surroundings::default(), sources);
-    let model = model.ok_or(said)?;
-    let dumped = model.to_string();
-    let (determined, _) = analysis::determine(lower::lower(&model), false)?;
-    let printed = determined.system().to_string();
-    let program = Program::new(determined.system());
-    let (motion, _) = mechc::motion(&determined, &program).map_err(|why| Diagnostics::from(*why))?;
-    let (system, lanes, largest_straight) = (determined.system(), None, emit::LARGEST_STRAIGHT);
-    let unit = Unit { system, program: &program, sources, file: "deep", motion, lanes, largest_straight };
-    let emitted = emit::rust(&unit);
-    let (latex, json) = (emit::latex(system, "deep"), emit::json(system, sources, "deep"));
-    let sizes = [&formatted, &dumped, &printed, &emitted, &latex, &json].map(String::len);
-    Ok(format!("{}\n{sizes:?}\n", table(&determined)?))
-}
-
-/// The rows over the analysis that a system has.
-pub fn table(determined: &Determined) -> Result<String, Diagnostics> {
-    let [from, to, every] = determined.system().analysis.unwrap_or([0.0, 1.0, 0.1]);
+/// The rows over the analysis that a mechanism has.
+pub fn table(compiled: &Compiled) -> Result<String, Diagnostics> {
+    let [from, to, every] = compiled.analysis().unwrap_or([0.0, 1.0, 0.1]);
     let times = Times::grid(from, to, every).unwrap_or_else(|| Times::listed(from, vec![from]));
-    let program = Program::new(determined.system());
-    let mut started =
-        analysis::start(determined, &program, from, analysis::TOLERANCE).map_err(|why| Diagnostics::from(*why))?;
-    let columns = started.columns();
-    let mut motion = started.motion(&times);
-    let mut rows = Vec::new();
-    while let Some(row) = motion.next_row() {
-        rows.push(row.map_err(|why| Diagnostics::from(*why))?.to_vec());
-    }
+    let (run, said) = compiled.run(&times, &RunOptions::default());
+    let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| Diagnostics::from(*why))?;
     // a list takes everything
     let mut text = Vec::new();
-    let writer = TableWriter::new(&mut text, TableFormat::Csv, &columns).and_then(|mut writer| {
+    let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns()).and_then(|mut writer| {
         rows.iter().try_for_each(|row| writer.row(row))?;
         writer.finish().map(|_| ())
     });

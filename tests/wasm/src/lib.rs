@@ -6,10 +6,7 @@
 mod deepest;
 
 use deepest::{all_ways, deepest, table};
-use mechc::check::{self, Surroundings};
-use mechc::diag::{Color, Diagnostics, Format, render};
-use mechc::source::Sources;
-use mechc::syntax;
+use mechc::{Cancel, Choice, Color, Format, Memory, Parsed, Redundant, render};
 use std::cell::RefCell;
 
 thread_local! {
@@ -41,26 +38,26 @@ pub extern "C" fn get(at: usize) -> u8 {
 #[unsafe(no_mangle)]
 pub extern "C" fn run() -> usize {
     let texts = TEXTS.take().into_iter().map(|text| String::from_utf8_lossy(&text).into_owned());
-    let mut sources = Sources::default();
-    let (Ok(answer) | Err(answer)) = table_of(texts, &mut sources)
-        .map_err(|said| said.iter().map(|one| render(one, &sources, Format::Human, Color::Never)).collect());
+    let (Ok(answer) | Err(answer)) = table_of(texts);
     answered(answer)
 }
 
-fn table_of(mut texts: impl Iterator<Item = String>, sources: &mut Sources) -> Result<String, Diagnostics> {
-    let file = sources.add("handed over", texts.next().unwrap_or_default());
-    let mut surroundings = Surroundings::default();
+fn table_of(mut texts: impl Iterator<Item = String>) -> Result<String, String> {
+    let parsed = Parsed::of("handed over", &texts.next().unwrap_or_default());
+    let mut world = Memory::default();
     while let (Some(name), Some(text)) = (texts.next(), texts.next()) {
-        surroundings.files.insert(name.clone(), Ok(sources.add(name, text)));
+        world = world.with(name, text);
     }
-    let parsed = syntax::parse(sources, file);
-    let said = check::check_file(&parsed.tree);
-    let Some(mechanism) = parsed.tree.mechanisms.first().filter(|_| parsed.faults.is_empty() && !said.has_errors())
-    else {
-        return Err(parsed.faults);
+    let checked = parsed.check(&Choice::default(), &world);
+    let (compiled, mut said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let made = match compiled {
+        Some(compiled) => table(&compiled),
+        None => {
+            said.extend(checked.diagnostics().iter().cloned());
+            Err(said)
+        }
     };
-    let (determined, said) = mechc::compile(mechanism, &surroundings, sources);
-    table(&determined.ok_or(said)?)
+    made.map_err(|said| said.iter().map(|one| render(one, checked.sources(), Format::Human, Color::Never)).collect())
 }
 
 /// What becomes of the text that is deep in one of the ways that there are; 0 where there is no such way.
