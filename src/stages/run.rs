@@ -159,10 +159,10 @@ mod tests {
     #[test]
     fn stages_go_to_other_threads() {
         fn goes<T: Send + Sync + Clone>() {}
+        fn moves<T: Send>() {}
         goes::<Parsed>();
         goes::<crate::Checked>();
         goes::<Compiled>();
-        fn moves<T: Send>() {}
         moves::<crate::Run>();
     }
 }

@@ -159,6 +159,9 @@ impl Fault<'_> {
         if is_one_argument_function(self.word_before()) {
             return Some(self.argument());
         }
+        if let Some(synonym) = Synonym::of(Place::Call, self.word_before()) {
+            return Some(Mend::Words(synonym.say(&[self.found])));
+        }
         // within parentheses it may as well be a comma
         let is_listed = self.expects(Rule::comma) && self.opened().last().is_some_and(|(_, token)| *token == "(");
         if is_listed {
