@@ -1,5 +1,5 @@
 //! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`; where a file holds several
-//! mechanisms, with `NAME.MECHANISM.csv`.
+//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test cases four_bar` runs one of them.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -7,6 +7,7 @@ mod support;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use support::listed::Tests;
 use support::{Outcome, Span, files, mechanisms, run, run_number, stem};
 
 /// What the size of its coordinates leaves of a case's digits: 1e6 m is known to 1e-10 m.
@@ -52,79 +53,74 @@ fn nearest(got: &Outcome, t: f64) -> usize {
     at
 }
 
-/// A mechanism with its reference.
+/// A mechanism with a reference.
 struct Case {
     name: String,
     path: PathBuf,
-    text: String,
     /// Its number in the file.
     number: usize,
-    want: Table,
 }
 
 impl Case {
     fn run(&self, span: Span) -> Outcome {
-        run_number(&self.path, &self.text, self.number, span).expect_success()
+        let text = fs::read_to_string(&self.path).expect("a text");
+        run_number(&self.path, &text, self.number, span).expect_success()
+    }
+
+    /// What is left of its digits.
+    fn tolerance(&self) -> f64 {
+        COARSER.iter().find(|(coarse, _)| *coarse == self.name).map_or(1e-9, |(_, tolerance)| *tolerance)
     }
 }
 
-fn cases() -> impl Iterator<Item = Case> {
+fn cases() -> impl Iterator<Item = (String, Case)> {
     files("tests/cases", "mech").into_iter().flat_map(|path| {
-        let text = fs::read_to_string(&path).expect("a text");
-        let names = mechanisms(&text);
+        let names = mechanisms(&fs::read_to_string(&path).expect("a text"));
         let several = names.len() > 1;
         let case = move |(number, mechanism): (usize, String)| {
             let name = if several { format!("{}.{mechanism}", stem(&path)) } else { stem(&path) };
-            let want = read(&path.with_file_name(format!("{name}.csv")));
-            Case { name, path: path.clone(), text: text.clone(), number, want }
+            (name.clone(), Case { name, path: path.clone(), number })
         };
-        names.into_iter().enumerate().map(case).collect::<Vec<Case>>()
+        names.into_iter().enumerate().map(case).collect::<Vec<_>>()
     })
 }
 
-#[test]
-fn all_match_their_reference() {
-    let mut count = 0;
-    for case in cases() {
-        let name = &case.name;
-        let tolerance = COARSER.iter().find(|(coarse, _)| *coarse == name).map_or(1e-9, |(_, tolerance)| *tolerance);
-        let got = case.run(Span::default());
-        assert_eq!(got.rows.len(), case.want.rows.len() + usize::from(name == "functions"), "{name}: the rows");
-        compare(name, &got, &case.want, tolerance);
-        count += 1;
-    }
-    assert!(count >= 55, "only {count} cases");
+fn matches_its_reference(case: &Case) {
+    let want = read(&case.path.with_file_name(format!("{}.csv", case.name)));
+    let got = case.run(Span::default());
+    assert_eq!(got.rows.len(), want.rows.len() + usize::from(case.name == "functions"), "the rows");
+    compare(&case.name, &got, &want, case.tolerance());
 }
 
-#[test]
-fn ten_times_larger_output_steps_give_the_same_numbers() {
-    for case in cases() {
-        let name = &case.name;
-        let fine = case.run(Span::default());
-        let times = fine.column("t");
-        let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
-        let coarse = case.run(Span { every: Some(10.0 * step), to: None });
-        assert!(coarse.rows.len() >= fine.rows.len() / 10, "{name}");
-        for row in &coarse.rows {
-            let same = &fine.rows[nearest(&fine, row[0])];
-            for ((a, b), column) in row.iter().zip(same).zip(&fine.columns) {
-                let size = fine.column(column).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
-                let tolerance = if *name == "far_away" { 2e-8 } else { 1e-9 };
-                assert!((a - b).abs() <= tolerance * (1.0 + size), "{name}: {column} at t = {}: {a} and {b}", row[0]);
-            }
+fn has_the_same_numbers_at_ten_times_larger_output_steps(case: &Case) {
+    let fine = case.run(Span::default());
+    let times = fine.column("t");
+    let step = (times[times.len() - 1] - times[0]) / (times.len() - 1) as f64;
+    let coarse = case.run(Span { every: Some(10.0 * step), to: None });
+    assert!(coarse.rows.len() >= fine.rows.len() / 10);
+    for row in &coarse.rows {
+        let same = &fine.rows[nearest(&fine, row[0])];
+        for ((a, b), column) in row.iter().zip(same).zip(&fine.columns) {
+            let size = fine.column(column).iter().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let error = (a - b).abs();
+            assert!(error <= case.tolerance() * (1.0 + size), "{column} at t = {}: {a} and {b}", row[0]);
         }
     }
 }
 
-#[test]
-fn examples_run_without_a_word() {
-    let examples = files("examples", "mech");
-    assert!(examples.len() >= 15);
-    for path in examples {
-        let text = fs::read_to_string(&path).expect("a text");
-        assert!(text.starts_with("///"), "{} says what it is", path.display());
-        let got = run(&path.display().to_string(), &text, Span::default());
-        assert!(got.diagnostics.is_empty(), "{}: {}", path.display(), got.text());
-        assert!(got.rows.len() > 20, "{}", path.display());
-    }
+fn runs_without_a_word(example: &Path) {
+    let text = fs::read_to_string(example).expect("a text");
+    assert!(text.starts_with("///"), "it says what it is");
+    let got = run(&example.display().to_string(), &text, Span::default());
+    assert!(got.diagnostics.is_empty(), "{}", got.text());
+    assert!(got.rows.len() > 20, "{} rows", got.rows.len());
+}
+
+fn main() {
+    let mut tests = Tests::default();
+    let examples = files("examples", "mech").into_iter().map(|path| (stem(&path), path));
+    tests.each("reference", cases(), 55, |case| matches_its_reference(&case));
+    tests.each("coarse_steps", cases(), 55, |case| has_the_same_numbers_at_ten_times_larger_output_steps(&case));
+    tests.each("example", examples, 15, |path| runs_without_a_word(&path));
+    tests.run()
 }

@@ -1,4 +1,4 @@
-//! The command line as a user types it: sessions in `tests/cli`, and what a session cannot show.
+//! The command line as a user types it: what a session cannot show; `tests/sessions.rs` runs those of `tests/cli`.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -12,11 +12,6 @@ fn mechc() -> Command {
 }
 
 const SLIDER_CRANK: &str = "examples/slider_crank.mech";
-
-#[test]
-fn sessions() {
-    trycmd::TestCases::new().case("tests/cli/*.trycmd").case("README.md").case("docs/*.md");
-}
 
 /// What it printed to standard error, after it ended with an exit code.
 fn failure(arguments: &[&str], code: i32) -> String {

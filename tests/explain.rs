@@ -1,5 +1,5 @@
 //! The catalogue: a page per code whose examples do what it says of them, a place that raises it, a test that shows it, and
-//! the index of all of them.
+//! the index of all of them. `cargo test --test explain E0203` runs what is about one page.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -8,6 +8,7 @@ mod support;
 use mechc::{Code, Severity};
 use std::fs;
 use std::path::Path;
+use support::listed::Tests;
 use support::{Span, files, run, stem};
 
 /// The parts of a page below its introduction; the last one may be missing.
@@ -114,7 +115,7 @@ fn codes_in(text: &str) -> Vec<String> {
 /// The codes that an example raises.
 fn raised(code: Code, example: &Block) -> Vec<String> {
     if example.language == "console" {
-        // the sessions are held against what is printed by `sessions_of_the_pages`
+        // the sessions are held against what is printed by `tests/sessions.rs`
         return example.text.lines().filter(|line| !line.starts_with("$ ")).flat_map(codes_in).collect();
     }
     let outcome = run(&format!("{code}.mech"), &example.text, Span::default());
@@ -146,31 +147,14 @@ fn faults_of_examples(code: Code) -> Vec<String> {
     faults
 }
 
-/// Fails with all faults of all pages, so that a writer of pages sees them together.
-fn expect_no_faults(faults_of: impl Fn(Code) -> Vec<String>) {
-    let faults: Vec<String> = Code::ALL
-        .iter()
-        .flat_map(|code| faults_of(*code).into_iter().map(move |fault| format!("{code}.md: {fault}")))
-        .collect();
-    assert!(faults.is_empty(), "{}", faults.join("\n"));
+fn has_its_form(code: Code) {
+    assert_eq!(faults_of_form(code, code.page()), [""; 0]);
 }
 
-#[test]
-fn pages_have_their_form() {
-    expect_no_faults(|code| faults_of_form(code, code.page()));
+fn has_examples_that_raise_what_it_is_about_and_mended_they_raise_nothing(code: Code) {
+    assert_eq!(faults_of_examples(code), [""; 0]);
 }
 
-#[test]
-fn examples_raise_what_their_page_is_about_and_mended_they_raise_nothing() {
-    expect_no_faults(faults_of_examples);
-}
-
-#[test]
-fn sessions_of_the_pages() {
-    trycmd::TestCases::new().case("src/diag/explain/*.md");
-}
-
-#[test]
 fn faults_of_a_page_are_found() {
     let good = Code::E0203.page();
     let faulty = [
@@ -188,7 +172,6 @@ fn faults_of_a_page_are_found() {
     }
 }
 
-#[test]
 fn no_page_is_without_a_code() {
     let pages: Vec<String> = files("src/diag/explain", "md").iter().map(|path| stem(path)).collect();
     let mut codes: Vec<&str> = Code::ALL.iter().map(|code| code.as_str()).collect();
@@ -196,19 +179,15 @@ fn no_page_is_without_a_code() {
     assert_eq!(pages, codes);
 }
 
-#[test]
-fn severities_are_those_of_the_letters() {
-    for code in Code::ALL {
-        let wanted = match code.as_str().as_bytes()[0] {
-            b'E' => Severity::Error,
-            b'W' => Severity::Warning,
-            _ => Severity::Note,
-        };
-        assert_eq!(code.severity(), wanted, "{code}");
-    }
+fn has_the_severity_of_its_letter(code: Code) {
+    let wanted = match code.as_str().as_bytes()[0] {
+        b'E' => Severity::Error,
+        b'W' => Severity::Warning,
+        _ => Severity::Note,
+    };
+    assert_eq!(code.severity(), wanted);
 }
 
-#[test]
 fn every_code_is_raised_somewhere() {
     let sources: String = files("src", "rs")
         .iter()
@@ -226,7 +205,6 @@ const OF_THE_COMMAND_LINE: &[&str] = &[
     "E0102", "E0611", "W0502", "W0602", "E0701", "E0702", "E0703", "E0704", "E0705", "E0706", "E0707", "N0701", "N0702",
 ];
 
-#[test]
 fn every_code_is_shown_by_a_test() {
     let snapshots: String =
         files("tests/ui", "snap").iter().map(|path| fs::read_to_string(path).expect("a text")).collect();
@@ -246,13 +224,10 @@ fn every_code_is_shown_by_a_test() {
     }
 }
 
-#[test]
-fn explain_prints_the_page_as_it_is() {
-    for code in Code::ALL {
-        for name in [code.to_string(), code.as_str().to_lowercase()] {
-            let mut mechc = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
-            mechc.args(["explain", &name]).assert().success().stdout(code.page()).stderr("");
-        }
+fn is_printed_as_it_is(code: Code) {
+    for name in [code.to_string(), code.as_str().to_lowercase()] {
+        let mut mechc = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
+        mechc.args(["explain", &name]).assert().success().stdout(code.page()).stderr("");
     }
 }
 
@@ -282,7 +257,6 @@ fn index() -> String {
     text
 }
 
-#[test]
 fn the_index_is_that_of_the_catalogue() {
     let path = Path::new("docs/codes.md");
     if std::env::var_os("UPDATE_GOLDENS").is_some() {
@@ -291,4 +265,19 @@ fn the_index_is_that_of_the_catalogue() {
     let golden = fs::read_to_string(path).expect("the index");
     let hint = "UPDATE_GOLDENS=1 cargo test --test explain writes it";
     assert!(golden == index(), "{} is not the catalogue as it is now; {hint}", path.display());
+}
+
+fn main() {
+    let mut tests = Tests::default();
+    let codes = || Code::ALL.iter().map(|code| (code.to_string(), *code));
+    tests.each("form", codes(), 70, has_its_form);
+    tests.each("examples", codes(), 70, has_examples_that_raise_what_it_is_about_and_mended_they_raise_nothing);
+    tests.each("severity", codes(), 70, has_the_severity_of_its_letter);
+    tests.each("printed", codes(), 70, is_printed_as_it_is);
+    tests.add("faults_of_a_page_are_found", faults_of_a_page_are_found);
+    tests.add("no_page_is_without_a_code", no_page_is_without_a_code);
+    tests.add("every_code_is_raised_somewhere", every_code_is_raised_somewhere);
+    tests.add("every_code_is_shown_by_a_test", every_code_is_shown_by_a_test);
+    tests.add("the_index_is_that_of_the_catalogue", the_index_is_that_of_the_catalogue);
+    tests.run()
 }

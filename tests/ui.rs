@@ -1,5 +1,6 @@
 //! Small inputs, each with its diagnostics: the marker `//~ CODE` stands on every line that a primary label begins on (or,
-//! where that is in another file, the first label in this one), and the whole text is in the snapshot beside the input.
+//! where that is in another file, the first label in this one), and the whole text is in the snapshot beside the input, under the text
+//! it speaks of. `cargo test --test ui gear` runs those with `gear` in their folder or name.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -8,6 +9,7 @@ mod support;
 use mechc::Span;
 use std::fs;
 use std::path::Path;
+use support::listed::Tests;
 use support::{Outcome, Span as Times, files, run_in, stem};
 
 /// `(line, code)` of every marker.
@@ -36,39 +38,40 @@ fn places(outcome: &Outcome) -> Vec<(usize, String)> {
     places
 }
 
-fn check_file(path: &Path) {
+fn gets_its_diagnostics(path: &Path) {
     let text = fs::read_to_string(path).expect("a text");
     let name = path.file_name().expect("a name").to_string_lossy().into_owned();
     let folder = path.parent().expect("a folder");
     let outcome = run_in(folder, &name, &text, Times::default());
     let wanted = markers(&text);
-    let where_ = path.display();
     if folder.ends_with("ok") {
-        assert!(outcome.diagnostics.is_empty(), "{where_} is valid:\n{}", outcome.text());
+        assert!(outcome.diagnostics.is_empty(), "it is valid:\n{}", outcome.text());
         return;
     }
-    assert!(!outcome.diagnostics.is_empty(), "{where_} has a mistake, and nothing was said");
+    assert!(!outcome.diagnostics.is_empty(), "it has a mistake, and nothing was said");
     if wanted.is_empty() {
-        assert_eq!(outcome.codes(), ["E0104"], "{where_} has no marker, though it is not empty");
+        assert_eq!(outcome.codes(), ["E0104"], "it has no marker, though it is not empty");
     } else {
-        assert_eq!(places(&outcome), wanted, "{where_}:\n{}", outcome.text());
+        assert_eq!(places(&outcome), wanted, "{}", outcome.text());
     }
     insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
-        insta::assert_snapshot!(stem(path), outcome.text());
+        insta::assert_snapshot!(stem(path), both(&text, &outcome));
     });
 }
 
-#[test]
-fn every_input_gets_its_diagnostics() {
-    let failed: Vec<String> = files("tests/ui", "mech")
-        .iter()
-        .filter_map(|path| {
-            let result = std::panic::catch_unwind(|| check_file(path));
-            result.err().map(|error| {
-                let text = error.downcast_ref::<String>().cloned().unwrap_or_else(|| "failed".to_owned());
-                format!("{}: {text}", path.display())
-            })
-        })
-        .collect();
-    assert!(failed.is_empty(), "{} inputs:\n{}", failed.len(), failed.join("\n"));
+/// The text with what is said of it: a reviewer opens one file.
+fn both(text: &str, outcome: &Outcome) -> String {
+    format!("{}\n{RULE}\n\n{}", text.trim_end(), outcome.text())
+}
+
+/// Between a text and what is said of it.
+const RULE: &str = "────────────────────────────────────────────────────────────";
+
+fn main() {
+    let mut tests = Tests::default();
+    let list = files("tests/ui", "mech").into_iter();
+    let group = |path: &Path| stem(path.parent().expect("a folder"));
+    let list = list.map(|path| (format!("{}::{}", group(&path), stem(&path)), path));
+    tests.each("ui", list, 340, |path| gets_its_diagnostics(&path));
+    tests.run()
 }

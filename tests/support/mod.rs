@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+pub mod listed;
 pub mod reading;
 pub mod shape;
 pub mod tex;
@@ -12,12 +13,13 @@ use mechc::{
 };
 use std::path::{Path, PathBuf};
 
-/// The files of this machine.
-pub struct Disk;
+/// The files of this machine, their paths being those from a folder.
+#[derive(Default)]
+pub struct Disk(PathBuf);
 
 impl World for Disk {
     fn read(&self, path: &Path) -> std::io::Result<Contents> {
-        Ok(Contents { bytes: std::fs::read(path)?.into(), version: 0 })
+        Ok(Contents { bytes: std::fs::read(self.0.join(path))?.into(), version: 0 })
     }
 }
 
@@ -83,19 +85,19 @@ impl Outcome {
 
 /// Checks and proves the first mechanism of a text; the files that it names are beside its name.
 pub fn compile(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::Refused)
+    compile_at(&Parsed::of(name, text), 0, Redundant::Refused, &Disk::default())
 }
 
 /// The same; equations that follow from others are left out.
 pub fn compile_without_redundant(name: &str, text: &str) -> (Option<Compiled>, Outcome) {
-    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut)
+    compile_at(&Parsed::of(name, text), 0, Redundant::LeftOut, &Disk::default())
 }
 
 /// Checks and proves a mechanism of a text that is in a file, by its number.
 pub fn compile_number(path: &Path, text: &str, number: usize) -> (Option<Compiled>, Outcome) {
     let mut sources = Sources::default();
     let file = sources.add(path.display().to_string(), text);
-    compile_at(&Parsed::of_source(sources, file, path), number, Redundant::Refused)
+    compile_at(&Parsed::of_source(sources, file, path), number, Redundant::Refused, &Disk::default())
 }
 
 /// The compiled mechanism of a text that is right.
@@ -104,10 +106,10 @@ pub fn compiled(name: &str, text: &str) -> Compiled {
     compiled.unwrap_or_else(|| panic!("{name}:\n{}", outcome.text()))
 }
 
-fn compile_at(parsed: &Parsed, number: usize, redundant: Redundant) -> (Option<Compiled>, Outcome) {
+fn compile_at(parsed: &Parsed, number: usize, redundant: Redundant, disk: &Disk) -> (Option<Compiled>, Outcome) {
     // of a text that cannot be read the faults are all there is to say
     let mechanism = parsed.mechanisms().nth(number).map(str::to_owned);
-    let checked = parsed.check(&Choice { mechanism, ..Choice::default() }, &Disk);
+    let checked = parsed.check(&Choice { mechanism, ..Choice::default() }, disk);
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
     let mut outcome = Outcome::of(checked.sources());
     outcome.diagnostics.extend(checked.diagnostics().clone());
@@ -132,10 +134,8 @@ pub fn mechanisms(text: &str) -> Vec<String> {
 
 /// As [`run`], the tables' files being in a folder.
 pub fn run_in(folder: &Path, name: &str, text: &str, span: Span) -> Outcome {
-    let mut sources = Sources::default();
-    let file = sources.add(name, text);
-    let parsed = Parsed::of_source(sources, file, &folder.join(name));
-    analyse(compile_at(&parsed, 0, Redundant::Refused), span)
+    let disk = Disk(folder.to_owned());
+    analyse(compile_at(&Parsed::of(name, text), 0, Redundant::Refused, &disk), span)
 }
 
 /// Runs what was compiled over its analysis.
