@@ -116,7 +116,8 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
         .help("give one of the two another name")
 }
 
-pub fn reserved(name: &Name) -> Diagnostic {
+/// With a name that is free instead.
+pub fn reserved(name: &Name, instead: Option<&str>) -> Diagnostic {
     let what = match Constant::named(&name.text) {
         Some(constant) => constant.stands_for.noun(),
         None if Unit::named(&name.text).is_some() => "a unit",
@@ -125,7 +126,10 @@ pub fn reserved(name: &Name) -> Diagnostic {
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .help(format!("choose another name, `{}_1` say", name.text))
+        .help(match instead {
+            Some(instead) => format!("choose another name, `{instead}` say"),
+            None => "choose another name".to_owned(),
+        })
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {

@@ -7,6 +7,7 @@ use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
+use crate::syntax::keywords_in;
 use crate::vocabulary::Keyword;
 
 /// What a name of a body's space stands for; `None` where it is broken, which has been said.
@@ -57,9 +58,15 @@ impl Checker<'_> {
         let mut bodies = 0..;
         for item in self.items() {
             if let ItemKind::Body { pose, .. } = &item.kind
-                && let (Some(k), Some(pose)) = (bodies.next(), pose)
+                && let Some(k) = bodies.next()
             {
-                self.pose(k, pose);
+                let is_broken = match pose {
+                    Some(pose) => self.pose(k, pose).is_none(),
+                    None => self.has_unread_pose(item),
+                };
+                if is_broken {
+                    self.broken_poses.insert(Frame::Body(self.bodies[k]));
+                }
             }
         }
     }
@@ -199,7 +206,13 @@ impl Checker<'_> {
         Some([x.id, y.id])
     }
 
-    fn pose(&mut self, body: usize, e: &Expr) {
+    /// Whether a body has a pose that does not follow the grammar, which has been said.
+    fn has_unread_pose(&self, item: &Item) -> bool {
+        let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
+        keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
+    }
+
+    fn pose(&mut self, body: usize, e: &Expr) -> Option<()> {
         let parts = match &e.kind {
             ExprKind::Tuple(parts) => parts.as_slice(),
             _ => &[],
@@ -213,14 +226,14 @@ impl Checker<'_> {
                 "two lengths and an angle",
                 found,
             ));
-            return;
+            return None;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");
         let angle = self.angle(phi, "the angle of a pose");
-        if let (Some([x, y]), Some(phi)) = (lengths, angle) {
-            let id = self.bodies[body];
-            self.model.bodies[id.index()].pose = [x, y, phi];
-        }
+        let ([x, y], phi) = (lengths?, angle?);
+        let id = self.bodies[body];
+        self.model.bodies[id.index()].pose = [x, y, phi];
+        Some(())
     }
 
     /// A constant angle, with a warning where degrees were probably meant.

@@ -133,7 +133,7 @@ impl Checker<'_> {
 
     /// The unit of a name that stands alone, and not behind a number.
     fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
-        Unit::named(&name.text).filter(|unit| !unit.gives_way || self.space.get(&name.text).is_none())
+        Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
     }
 
     /// A literal zero, alone but for its sign, also through a param that is nothing else.
@@ -246,12 +246,18 @@ impl Checker<'_> {
                 let id = self.model.graph.symbol(Symbol::Time);
                 return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
             }
+            // a parameter was meant
+            Some(StandsFor::Time) if self.is_declared_though_taken(name) => return None,
             Some(StandsFor::Time) => {
                 self.report(errors::time_in(context.place, name.span, None));
                 return None;
             }
             Some(StandsFor::Number(number)) => return Some(self.pure(number)),
             Some(StandsFor::Ground) | None => {}
+        }
+        // `10 mm/s` beside `param s`
+        if self.is_declared_though_taken(name) {
+            return None;
         }
         if let Some(unit) = self.unit_alone(name) {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));

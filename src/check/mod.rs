@@ -30,7 +30,7 @@ use calls::Call;
 use features::Feature;
 use formula::{Context, Dim, Value};
 use names::{Entity, Space, mentioned};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tables::TableState;
 
 /// How many mistakes of one file are worth a suggestion.
@@ -186,6 +186,8 @@ struct Checker<'a> {
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
+    /// Bodies whose place in the drawing is not known.
+    broken_poses: FxHashSet<Frame>,
     named: FxHashMap<Named, NamedId>,
     /// How many time derivatives a named symbol holds.
     derivative_orders: Vec<u8>,
@@ -222,6 +224,7 @@ impl<'a> Checker<'a> {
             bodies: Vec::new(),
             joints: Vec::new(),
             features: FxHashMap::default(),
+            broken_poses: FxHashSet::default(),
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
             values: Vec::new(),
@@ -348,7 +351,8 @@ impl<'a> Checker<'a> {
                 for formula in formulas {
                     mentioned(formula, |used| {
                         let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                        let entity = self.entity(used).filter(|_| !hidden);
+                        let is_own = !hidden && !self.is_declared_though_taken(used);
+                        let entity = self.entity(used).filter(|_| is_own);
                         if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                             uses.push((at, used.span));
                         }

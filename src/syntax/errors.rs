@@ -50,6 +50,14 @@ pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault
 }
 
+/// A word of the language in the place of a name, with a name that is free.
+pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>) -> Diagnostic {
+    fault.fixes.clear();
+    let instead = instead.map_or(String::new(), |name| format!("; choose another one, `{name}` say"));
+    fault.help = vec![format!("`{word}` is a keyword and cannot be a name{instead}")];
+    fault
+}
+
 /// A name that no message could hold.
 pub fn long_name(span: Span, longest: usize) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))

@@ -128,7 +128,7 @@ impl<'a> Outline<'a> {
             "joint" | "driver" | "constraint" => second == ":",
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
-            _ => second == "=",
+            _ => second == "=" && next != ")",
         };
         // after a bracket or an operator a formula goes on
         let before = if k > 0 { self.word(k - 1) } else { "" };
@@ -176,13 +176,21 @@ impl<'a> Outline<'a> {
     /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
-        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && bad_names.contains(self.word(k)))
+        // where it begins a declaration it is no name
+        let is_used = |k: usize| bad_names.contains(self.word(k)) && !(self.is_keyword(k) && !self.is_inside(k));
+        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }
 
-    /// The keyword that stands at a place where a name should.
-    pub fn bad_name(&self, byte: usize) -> Option<&'a str> {
+    /// The reserved word that stands at a place where a name should, with the keyword of its declaration.
+    pub fn word_as_name(&self, byte: usize) -> Option<(&'a str, &'a str)> {
         let k = self.index_at(byte);
-        (self.start(k) == byte && is_declaration(self.word(k)) && self.is_name_of(k)).then(|| self.word(k))
+        let is_reserved = Keyword::named(self.word(k)).is_some_and(Keyword::is_reserved);
+        (self.start(k) == byte && is_reserved && self.is_name_of(k)).then(|| (self.word(k), self.word(k - 1)))
+    }
+
+    /// Whether a word stands anywhere in the text.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.tokens.iter().any(|token| token.text == word)
     }
 }
 

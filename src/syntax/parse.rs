@@ -14,7 +14,7 @@ use super::outline::Outline;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
-use crate::vocabulary::is_feature;
+use crate::vocabulary::{KindOfName, another_name, is_feature};
 use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
@@ -46,6 +46,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         faults: Diagnostics::default(),
         bad_names: FxHashSet::default(),
         has_told_the_end: false,
+        last_told: None,
     };
     let mechanisms = reading.file();
     let mut faults = reading.faults;
@@ -80,6 +81,8 @@ struct Reading<'a> {
     bad_names: FxHashSet<&'a str>,
     /// That the text ends too early is said once, not for each block that is open.
     has_told_the_end: bool,
+    /// The byte at which the last fault was.
+    last_told: Option<usize>,
 }
 
 impl Reading<'_> {
@@ -318,9 +321,15 @@ impl Reading<'_> {
         make: impl Fn(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
         let (start, next) = (self.outline.start(self.at), self.outline.end_of_plain(self.at));
-        self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
+        let read = self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
             let piece = self.piece(start..self.outline.end(next));
             piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+        });
+        // a misspelt keyword is the fault of the declaration behind it
+        read.or_else(|fault| {
+            let next = self.outline.start(self.outline.resumption(self.at));
+            let whole = (fault_at(&fault) == next).then(|| self.piece(start..next).read(alone, &make).ok());
+            whole.flatten().ok_or(fault)
         })
     }
 
@@ -375,12 +384,20 @@ impl Reading<'_> {
         }
     }
 
-    fn tell(&mut self, fault: Box<Diagnostic>) {
+    fn tell(&mut self, mut fault: Box<Diagnostic>) {
         let at = fault_at(&fault);
-        if !self.outline.uses_bad_name(at, &self.bad_names) {
+        if let Some((word, keyword)) = self.outline.word_as_name(at) {
+            let is_free = |name: &str| !self.outline.has_word(name);
+            let instead =
+                if self.sees_mends() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };
+            *fault = errors::keyword_as_name(*fault, word, instead);
+        }
+        // a word that ends one declaration and begins none is met twice
+        let is_told = self.last_told.replace(at) == Some(at);
+        if !is_told && !self.outline.uses_bad_name(at, &self.bad_names) {
             self.faults.push(*fault);
         }
-        self.bad_names.extend(self.outline.bad_name(at));
+        self.bad_names.extend(self.outline.word_as_name(at).map(|(word, _)| word));
     }
 
     /// What was read from a token up to here, as broken.
