@@ -66,8 +66,11 @@ impl Checker<'_> {
             return None;
         }
         for (side, other) in [(left, right), (right, left)] {
-            if is_an_angle(other) {
-                self.warn_of_degrees(side);
+            if is_an_angle(other) || is_an_angle(side) {
+                self.warn_of_degrees_in(side);
+            }
+            if is_a_length(other) && self.refuses_angle("what equals a length", side) {
+                return None;
             }
         }
         let context = self.equation_context(driver, sides);
@@ -196,11 +199,20 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a side of an equation is an angle and nothing else.
+/// Whether a side of an equation is a length and nothing else.
+fn is_a_length(side: &Expr) -> bool {
+    match &side.bare().kind {
+        ExprKind::Call { name, .. } => matches!(name.text.as_str(), "x" | "y" | "distance" | "displacement"),
+        _ => false,
+    }
+}
+
+/// Whether a side of an equation is an angle, or a sum of angles.
 fn is_an_angle(side: &Expr) -> bool {
     match &side.bare().kind {
         ExprKind::Call { name, .. } => matches!(name.text.as_str(), "angle" | "rotation"),
         ExprKind::Negate(inner) => is_an_angle(inner),
+        ExprKind::Sum(first, rest) => is_an_angle(first) || rest.iter().any(|(_, term)| is_an_angle(term)),
         _ => false,
     }
 }

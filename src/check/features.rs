@@ -2,7 +2,7 @@
 
 use super::formula::Context;
 use super::names::{Entity, Space};
-use super::{Checker, declared, errors};
+use super::{Checker, declared, errors, mends};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
@@ -200,6 +200,11 @@ impl Checker<'_> {
         let [x, y] = parts.map(|part| self.formula(part, context));
         let (x, y) = (x?, y?);
         self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        for part in parts {
+            if !context.judged && self.refuses_angle("a coordinate", part) {
+                return None;
+            }
+        }
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
         }
@@ -219,13 +224,10 @@ impl Checker<'_> {
         };
         let [x, y, phi] = parts else {
             let found = if parts.is_empty() { 1 } else { parts.len() };
-            self.report(errors::argument_count(
-                "at",
-                Keyword::named("at").map(|keyword| &keyword.word),
-                e.span,
-                "two lengths and an angle",
-                found,
-            ));
+            let word = Keyword::named("at").map(|keyword| &keyword.word);
+            let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
+            let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
+            self.report(mends::fixed_first(diagnostic, fix));
             return None;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");
@@ -238,7 +240,7 @@ impl Checker<'_> {
 
     /// A constant angle, with a warning where degrees were probably meant.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
-        self.warn_of_degrees(e);
+        self.warn_of_degrees_in(e);
         let (id, _) = self.constant(e, place, Dimension::PURE)?;
         Some(id)
     }
@@ -297,6 +299,11 @@ impl Checker<'_> {
                 let frame = self.body(owner)?;
                 match self.feature(frame, feature, "axis", |feature| matches!(feature, Feature::Axis(_)))? {
                     Feature::Axis(axis) => axis,
+                    Feature::Point(_) => {
+                        let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
+                        self.report(diagnostic.fix_if(self.axis_for(frame, feature)));
+                        None
+                    }
                     other => {
                         self.wrong_kind(feature.span, "an axis", other.noun());
                         None

@@ -182,7 +182,8 @@ impl Checker<'_> {
             ExprKind::If { arms, otherwise } => self.choice(arms, otherwise, context),
             ExprKind::Member { owner, feature } => {
                 let what = self.describe_member(owner, feature);
-                self.report(errors::wrong_kind(e.span, "a number", &what));
+                let diagnostic = errors::wrong_kind(e.span, "a number", &what);
+                self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
                 None
             }
             ExprKind::Tuple(_) => {
@@ -563,6 +564,9 @@ impl Checker<'_> {
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
+        if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
+            return None;
+        }
         self.demand(place, wanted, e.span, value.dim, &context)?;
         let number = self.constant_value(value.id)?;
         Some((value.id, number))

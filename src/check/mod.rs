@@ -11,6 +11,7 @@ mod errors;
 mod features;
 mod formula;
 mod joints;
+mod mends;
 mod names;
 mod profiles;
 mod quantities;
@@ -188,6 +189,8 @@ struct Checker<'a> {
     features: FxHashMap<Frame, Space<Feature>>,
     /// Bodies whose place in the drawing is not known.
     broken_poses: FxHashSet<Frame>,
+    /// Parameters that are given in a unit of angle, with the places of their names.
+    angle_params: FxHashMap<usize, Span>,
     named: FxHashMap<Named, NamedId>,
     /// How many time derivatives a named symbol holds.
     derivative_orders: Vec<u8>,
@@ -225,6 +228,7 @@ impl<'a> Checker<'a> {
             joints: Vec::new(),
             features: FxHashMap::default(),
             broken_poses: FxHashSet::default(),
+            angle_params: FxHashMap::default(),
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
             values: Vec::new(),
@@ -315,7 +319,10 @@ impl<'a> Checker<'a> {
             let (name, formulas) = &definitions[at];
             match entities[at] {
                 Entity::Param(k) => {
-                    self.params[k] = formulas.first().and_then(|value| self.param(name, docs[at], value));
+                    self.params[k] = formulas.first().and_then(|value| {
+                        self.remember_angle(name, value);
+                        self.param(name, docs[at], value)
+                    });
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),

@@ -2,6 +2,7 @@
 
 use super::DEEPEST;
 use super::grammar::Rule;
+use super::intended::{Intended, Intent};
 use super::mends::Fault;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
@@ -110,6 +111,11 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
+    match Intent::new(text, file, found.start, word, rules).mend() {
+        Some(Intended::Words(words)) => return diagnostic.help(words),
+        Some(Intended::Change(fix)) => return diagnostic.fix(fix),
+        None => {}
+    }
     diagnostic.help_if(fault.mend())
 }
 

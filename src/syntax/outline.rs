@@ -1,5 +1,6 @@
 //! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
 
+use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
 use crate::vocabulary::{Keyword, is_declaration, is_feature};
 use rustc_hash::FxHashSet;
@@ -10,6 +11,8 @@ pub(super) struct Outline<'a> {
     tokens: Vec<Token<'a>>,
     /// By token: whether it stands where the name of the declaration before it does.
     names: Vec<bool>,
+    /// Names with hyphens, where they are declared: every use of them is read as a difference.
+    hyphenated: FxHashSet<&'a str>,
 }
 
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
@@ -26,7 +29,9 @@ impl<'a> Outline<'a> {
             names.push(is_name);
             before = token.text;
         }
-        Outline { text, tokens, names }
+        let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
+        let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
+        Outline { text, tokens, names, hyphenated }
     }
 
     /// The number of the first token at or behind a byte.
@@ -102,7 +107,8 @@ impl<'a> Outline<'a> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
         let head = self.tokens.get(k..end.min(k + 2)).unwrap_or_default();
         // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
-        head.iter().filter(is_name).filter(|token| !is_declaration(token.text)).copied()
+        let whole = |token: &Token<'a>| Token { text: self.hyphenated_name(token).unwrap_or(token.text), ..*token };
+        head.iter().filter(is_name).filter(|token| !is_declaration(token.text)).map(whole)
     }
 
     /// Whether a token stands where the name of the declaration before it does.
@@ -157,7 +163,8 @@ impl<'a> Outline<'a> {
         let is_word = |word: &str| word.starts_with(char::is_alphabetic) && !is_joining(word);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
-        if !is_word(self.word(k)) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
+        let may_be_a_unit = before.starts_with(|c: char| c.is_ascii_digit()) && !self.is_first_on_its_line(k);
+        if !is_word(self.word(k)) || before == "." || may_be_a_unit {
             return false;
         }
         let is_equation = self.word(k + 2) == "=";
@@ -177,7 +184,7 @@ impl<'a> Outline<'a> {
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
         // where it begins a declaration it is no name
-        let is_used = |k: usize| bad_names.contains(self.word(k)) && !(self.is_keyword(k) && !self.is_inside(k));
+        let is_used = |k: usize| bad_names.contains(self.word(k)) && (self.is_inside(k) || !self.is_keyword(k));
         [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }
 
@@ -186,6 +193,17 @@ impl<'a> Outline<'a> {
         let k = self.index_at(byte);
         let is_reserved = Keyword::named(self.word(k)).is_some_and(Keyword::is_reserved);
         (self.start(k) == byte && is_reserved && self.is_name_of(k)).then(|| (self.word(k), self.word(k - 1)))
+    }
+
+    /// The name with hyphens that a token is the first part of.
+    fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
+        let is_known = |name: &&str| self.hyphenated.contains(name);
+        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
+    }
+
+    /// Whether a name with hyphens stands among the tokens from one to before another.
+    pub fn uses_hyphenated(&self, from: usize, to: usize) -> bool {
+        self.tokens.get(from..to).unwrap_or_default().iter().any(|token| self.hyphenated_name(token).is_some())
     }
 
     /// Whether a word stands anywhere in the text.

@@ -277,7 +277,8 @@ impl Reading<'_> {
         match read {
             Ok(item) => {
                 self.at = self.outline.index_at(item.span.end as usize);
-                item
+                // a name with hyphens, which has been told, is no difference
+                if self.outline.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -296,7 +297,8 @@ impl Reading<'_> {
         match read {
             Ok(feature) => {
                 self.at = self.outline.index_at(feature.span.end as usize);
-                feature
+                let is_spoilt = self.outline.uses_hyphenated(first, self.at);
+                if is_spoilt { Feature { kind: FeatureKind::Broken, ..feature } } else { feature }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -328,8 +330,14 @@ impl Reading<'_> {
         // a misspelt keyword is the fault of the declaration behind it
         read.or_else(|fault| {
             let next = self.outline.start(self.outline.resumption(self.at));
-            let whole = (fault_at(&fault) == next).then(|| self.piece(start..next).read(alone, &make).ok());
-            whole.flatten().ok_or(fault)
+            if fault_at(&fault) != next {
+                return Err(fault);
+            }
+            let piece = self.piece(start..next);
+            piece.read(alone, &make).map_err(|refused| {
+                let own = piece.fault(refused, false);
+                if fault_at(&own) < piece.range.end && own.code != fault.code { own } else { fault }
+            })
         })
     }
 
