@@ -25,8 +25,13 @@ impl Checker<'_> {
         };
         if arguments.len() < function.least || arguments.len() > function.most {
             let (wanted, found) = (function.takes(), arguments.len());
-            self.report(errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found));
+            let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
+            self.report_count(name, diagnostic, found);
             return None;
+        }
+        // a function's formula is looked over on its own
+        if let ("sin" | "cos" | "tan", [argument], true) = (name.text.as_str(), arguments, self.caller.is_none()) {
+            self.warn_of_degrees(argument);
         }
         if let (Group::Derivative, [argument]) = (function.group, arguments) {
             return self.derivative(e, argument, context);

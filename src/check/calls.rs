@@ -65,6 +65,9 @@ impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if is_called(&name.text) {
+            if self.is_declared_though_taken(name) {
+                return None;
+            }
             return self.builtin(e, name, arguments, context);
         }
         match self.resolve(name).ok()?.filter(|_| context.names) {

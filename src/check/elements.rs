@@ -1,12 +1,14 @@
 //! Measures, constraints, drivers and the analysis.
 
-use super::formula::Context;
+use super::formula::{Context, Dim};
 use super::{Checker, declared, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
     Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId, Quantity,
 };
+use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
+use crate::vocabulary::QuantityWord;
 
 impl Checker<'_> {
     /// Measures, in the order in which they need each other; listed in that of the text.
@@ -64,8 +66,11 @@ impl Checker<'_> {
             return None;
         }
         for (side, other) in [(left, right), (right, left)] {
-            if is_an_angle(other) {
-                self.warn_of_degrees(side);
+            if is_an_angle(other) || is_an_angle(side) {
+                self.warn_of_degrees_in(side);
+            }
+            if is_a_length(other) && self.refuses_angle("what equals a length", side) {
+                return None;
             }
         }
         let context = self.equation_context(driver, sides);
@@ -74,7 +79,19 @@ impl Checker<'_> {
         for condition in &mut self.model.conditions[conditions..] {
             condition.owner.clone_from(&name.text);
         }
-        let (a, b) = (a?, b?);
+        let (a, b) = match (a, b) {
+            (Some(a), Some(b)) => (a, b),
+            // of something broken it is known all the same what kind of quantity it is
+            (Some(known), None) => {
+                self.unlike_a_quantity((left.span, known.dim), right, &context);
+                return None;
+            }
+            (None, Some(known)) => {
+                self.unlike_a_quantity((right.span, known.dim), left, &context);
+                return None;
+            }
+            (None, None) => return None,
+        };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
         self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         if !self.a_body_moves([a.id, b.id]) {
@@ -101,6 +118,17 @@ impl Checker<'_> {
             return Some(EquationForm::SquaredDistance(p, q, b.id));
         }
         Some(EquationForm::Difference(a.id, b.id))
+    }
+
+    /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
+    fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
+        if let ExprKind::Call { name, .. } = &other.bare().kind
+            && let Some(quantity) = QuantityWord::named(&name.text)
+        {
+            let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
+            let place = format!("what equals this `{}`", quantity.word.name);
+            let _ = self.demand(&place, dimension, known.0, known.1, context);
+        }
     }
 
     fn equation_context(&self, driver: bool, sides: [&Expr; 2]) -> Context<'static> {
@@ -172,11 +200,20 @@ impl Checker<'_> {
     }
 }
 
-/// Whether a side of an equation is an angle and nothing else.
+/// Whether a side of an equation is a length and nothing else.
+fn is_a_length(side: &Expr) -> bool {
+    match &side.bare().kind {
+        ExprKind::Call { name, .. } => matches!(name.text.as_str(), "x" | "y" | "distance" | "displacement"),
+        _ => false,
+    }
+}
+
+/// Whether a side of an equation is an angle, or a sum of angles.
 fn is_an_angle(side: &Expr) -> bool {
     match &side.bare().kind {
         ExprKind::Call { name, .. } => matches!(name.text.as_str(), "angle" | "rotation"),
         ExprKind::Negate(inner) => is_an_angle(inner),
+        ExprKind::Sum(first, rest) => is_an_angle(first) || rest.iter().any(|(_, term)| is_an_angle(term)),
         _ => false,
     }
 }

@@ -128,8 +128,8 @@ pub fn declared_twice(name: &Name, first: Span) -> Diagnostic {
         .help("give one of the two another name")
 }
 
-/// With a name that is free, and where the name stands besides.
-pub fn reserved(name: &Name, free: &str, uses: &[Span]) -> Diagnostic {
+/// With a name that is free instead, and where the name stands besides.
+pub fn reserved(name: &Name, instead: Option<&str>, uses: &[Span]) -> Diagnostic {
     let what = match Constant::named(&name.text) {
         Some(constant) => constant.stands_for.noun(),
         None if Unit::named(&name.text).is_some() => "a unit",
@@ -138,7 +138,7 @@ pub fn reserved(name: &Name, free: &str, uses: &[Span]) -> Diagnostic {
     };
     Diagnostic::new(Code::E0204, format!("`{}` cannot be declared: it is {what}", name.text))
         .at(name.span, "reserved")
-        .fix(renamed(name, uses, free, format!("choose another name, `{free}` say")))
+        .fix_if(instead.map(|free| renamed(name, uses, free, format!("choose another name, `{free}` say"))))
 }
 
 pub fn second(word: &str, span: Span, first: Span) -> Diagnostic {

@@ -2,11 +2,12 @@
 
 use super::formula::Context;
 use super::names::{Entity, Space};
-use super::{Checker, declared, errors};
+use super::{Checker, declared, errors, instead};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
+use crate::syntax::keywords_in;
 use crate::vocabulary::Keyword;
 
 /// What a name of a body's space stands for; `None` where it is broken, which has been said.
@@ -57,9 +58,15 @@ impl Checker<'_> {
         let mut bodies = 0..;
         for item in self.items() {
             if let ItemKind::Body { pose, .. } = &item.kind
-                && let (Some(k), Some(pose)) = (bodies.next(), pose)
+                && let Some(k) = bodies.next()
             {
-                self.pose(k, pose);
+                let is_broken = match pose {
+                    Some(pose) => self.pose(k, pose).is_none(),
+                    None => self.has_unread_pose(item),
+                };
+                if is_broken {
+                    self.broken_poses.insert(Frame::Body(self.bodies[k]));
+                }
             }
         }
     }
@@ -198,39 +205,47 @@ impl Checker<'_> {
         let [x, y] = parts.map(|part| self.formula(part, context));
         let (x, y) = (x?, y?);
         self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
+        for part in parts {
+            if !context.judged && self.refuses_angle("a coordinate", part) {
+                return None;
+            }
+        }
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
         }
         Some([x.id, y.id])
     }
 
-    fn pose(&mut self, body: usize, e: &Expr) {
+    /// Whether a body has a pose that does not follow the grammar, which has been said.
+    fn has_unread_pose(&self, item: &Item) -> bool {
+        let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
+        keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
+    }
+
+    fn pose(&mut self, body: usize, e: &Expr) -> Option<()> {
         let parts = match &e.kind {
             ExprKind::Tuple(parts) => parts.as_slice(),
             _ => &[],
         };
         let [x, y, phi] = parts else {
             let found = if parts.is_empty() { 1 } else { parts.len() };
-            self.report(errors::argument_count(
-                "at",
-                Keyword::named("at").map(|keyword| &keyword.word),
-                e.span,
-                "two lengths and an angle",
-                found,
-            ));
-            return;
+            let word = Keyword::named("at").map(|keyword| &keyword.word);
+            let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
+            let fix = self.decimal_comma(parts, 3).or_else(|| instead::angle_missing(parts));
+            self.report(instead::fixed_first(diagnostic, fix));
+            return None;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");
         let angle = self.angle(phi, "the angle of a pose");
-        if let (Some([x, y]), Some(phi)) = (lengths, angle) {
-            let id = self.bodies[body];
-            self.model.bodies[id.index()].pose = [x, y, phi];
-        }
+        let ([x, y], phi) = (lengths?, angle?);
+        let id = self.bodies[body];
+        self.model.bodies[id.index()].pose = [x, y, phi];
+        Some(())
     }
 
     /// A constant angle, with a warning where degrees were probably meant.
     pub(super) fn angle(&mut self, e: &Expr, place: &str) -> Option<ExprId> {
-        self.warn_of_degrees(e);
+        self.warn_of_degrees_in(e);
         let (id, _) = self.constant(e, place, Dimension::PURE)?;
         Some(id)
     }
@@ -289,6 +304,11 @@ impl Checker<'_> {
                 let frame = self.body(owner)?;
                 match self.feature(frame, feature, "axis", |feature| matches!(feature, Feature::Axis(_)))? {
                     Feature::Axis(axis) => axis,
+                    Feature::Point(_) => {
+                        let diagnostic = errors::wrong_kind(feature.span, "an axis", "a point");
+                        self.report(diagnostic.fix_if(self.axis_for(frame, feature)));
+                        None
+                    }
                     other => {
                         self.wrong_kind(feature.span, "an axis", other.noun());
                         None

@@ -136,7 +136,7 @@ impl Checker<'_> {
 
     /// The unit of a name that stands alone, and not behind a number.
     fn unit_alone(&self, name: &Name) -> Option<&'static Unit> {
-        Unit::named(&name.text).filter(|unit| !unit.gives_way || self.space.get(&name.text).is_none())
+        Unit::named(&name.text).filter(|_| self.space.get(&name.text).is_none())
     }
 
     /// A literal zero, alone but for its sign, also through a param that is nothing else.
@@ -182,7 +182,8 @@ impl Checker<'_> {
             ExprKind::If { arms, otherwise } => self.choice(arms, otherwise, context),
             ExprKind::Member { owner, feature } => {
                 let what = self.describe_member(owner, feature);
-                self.report(errors::wrong_kind(e.span, "a number", &what));
+                let diagnostic = errors::wrong_kind(e.span, "a number", &what);
+                self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
                 None
             }
             ExprKind::Tuple(_) => {
@@ -246,12 +247,18 @@ impl Checker<'_> {
                 let id = self.model.graph.symbol(Symbol::Time);
                 return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
             }
+            // a parameter was meant
+            Some(StandsFor::Time) if self.is_declared_though_taken(name) => return None,
             Some(StandsFor::Time) => {
                 self.report(errors::time_in(context.place, name.span, None));
                 return None;
             }
             Some(StandsFor::Number(number)) => return Some(self.pure(number)),
             Some(StandsFor::Ground) | None => {}
+        }
+        // `10 mm/s` beside `param s`
+        if self.is_declared_though_taken(name) {
+            return None;
         }
         if let Some(unit) = self.unit_alone(name) {
             let id = self.model.graph.constant(unit.to_si(1.0, 1));
@@ -567,6 +574,9 @@ impl Checker<'_> {
     ) -> Option<(ExprId, f64)> {
         let context = Context { judged, ..Context::constant(place) };
         let value = self.formula(e, &context)?;
+        if !judged && wanted.is(Dimension::LENGTH) && self.refuses_angle(place, e) {
+            return None;
+        }
         self.demand(place, wanted, e.span, value.dim, &context)?;
         let number = self.constant_value(value.id)?;
         Some((value.id, number))

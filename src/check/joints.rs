@@ -174,7 +174,7 @@ impl Checker<'_> {
     /// Whether the poses as written say on which side, or in which direction, one of two wheels lies from the other.
     fn is_drawn_apart(&mut self, joint: JointKind, arguments: &[Expr]) -> bool {
         // a pose that is broken says nothing
-        if self.diagnostics.has_errors() {
+        if joint.frames(&self.model).iter().any(|frame| self.broken_poses.contains(frame)) {
             return true;
         }
         match joint {

@@ -10,6 +10,7 @@ mod elements;
 mod errors;
 mod features;
 mod formula;
+mod instead;
 mod joints;
 mod mends;
 mod names;
@@ -32,7 +33,7 @@ use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
 use names::{Entity, Space, mentioned};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use tables::TableState;
 
 /// How many mistakes of one file are worth a suggestion.
@@ -188,6 +189,10 @@ struct Checker<'a> {
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
+    /// Bodies whose place in the drawing is not known.
+    broken_poses: FxHashSet<Frame>,
+    /// Parameters that are given in a unit of angle, with the places of their names.
+    angle_params: FxHashMap<usize, Span>,
     named: FxHashMap<Named, NamedId>,
     /// How many time derivatives a named symbol holds.
     derivative_orders: Vec<u8>,
@@ -226,6 +231,8 @@ impl<'a> Checker<'a> {
             bodies: Vec::new(),
             joints: Vec::new(),
             features: FxHashMap::default(),
+            broken_poses: FxHashSet::default(),
+            angle_params: FxHashMap::default(),
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
             values: Vec::new(),
@@ -317,7 +324,10 @@ impl<'a> Checker<'a> {
             let (name, formulas) = &definitions[at];
             match entities[at] {
                 Entity::Param(k) => {
-                    self.params[k] = formulas.first().and_then(|value| self.param(name, docs[at], value));
+                    self.params[k] = formulas.first().and_then(|value| {
+                        self.remember_angle(name, value);
+                        self.param(name, docs[at], value)
+                    });
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
@@ -353,7 +363,8 @@ impl<'a> Checker<'a> {
                 for formula in formulas {
                     mentioned(formula, |used| {
                         let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                        let entity = self.entity(used).filter(|_| !hidden);
+                        let is_own = !hidden && !self.is_declared_though_taken(used);
+                        let entity = self.entity(used).filter(|_| is_own);
                         if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                             uses.push((at, used.span));
                         }

@@ -1,11 +1,11 @@
 //! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
 
 use super::renames::{uses_in, uses_of_argument};
-use super::{Checker, errors};
+use super::{Checker, MOST_SUGGESTIONS, errors};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
-use crate::vocabulary::{is_called, is_taken};
-use rustc_hash::FxHashMap;
+use crate::vocabulary::{KindOfName, another_name, is_called, is_taken};
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name of the mechanism's space stands for, with its position among its kind in the text.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
@@ -33,6 +33,16 @@ impl Entity {
             Entity::Equation => "a constraint or driver",
             Entity::Measure(_) => "a measure",
             Entity::Broken => "a declaration that cannot be read",
+        }
+    }
+
+    fn kind_of_name(self) -> KindOfName {
+        match self {
+            Entity::Param(_) | Entity::Measure(_) | Entity::Broken => KindOfName::Value,
+            Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
+            Entity::Body(_) => KindOfName::Body,
+            Entity::Joint(_) => KindOfName::Joint,
+            Entity::Equation => KindOfName::Equation,
         }
     }
 }
@@ -122,12 +132,15 @@ impl Checker<'_> {
                 ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
-            if is_taken(&name.text) || callable && is_called(&name.text) {
+            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text);
+            if is_reserved {
                 let uses = uses_in(mechanism, name, entity);
-                self.report(errors::reserved(name, &self.name_beside(name), &uses));
+                self.report_reserved(name, entity.kind_of_name(), &uses);
             }
             // declared all the same, so that its uses are not reported too
-            if let Err(first) = self.space.declare(name, entity) {
+            if let Err(first) = self.space.declare(name, entity)
+                && !is_reserved
+            {
                 self.report(errors::declared_twice(name, first));
             }
         }
@@ -145,6 +158,22 @@ impl Checker<'_> {
             }
         }
         self.only_once(mechanism);
+    }
+
+    /// Says that a name is one of the language's, and which one would be free.
+    fn report_reserved(&mut self, name: &Name, kind: KindOfName, uses: &[Span]) {
+        let is_worth_it = self.diagnostics.len() <= MOST_SUGGESTIONS;
+        let words = is_worth_it.then(|| words_of(self.sources.text(self.tree.span)));
+        let instead = words.and_then(|words| another_name(&name.text, kind, |name| !words.contains(name)));
+        self.report(errors::reserved(name, instead, uses));
+    }
+
+    /// Whether a name that the language has taken is declared all the same, which has been said: it may mean either.
+    pub(super) fn is_declared_though_taken(&self, name: &Name) -> bool {
+        let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
+        self.space
+            .get(&name.text)
+            .is_some_and(|entity| is_taken(&name.text) || is_called(&name.text) && is_callable(entity))
     }
 
     /// What cannot be read has its names all the same, so that nobody asks where they are.
@@ -178,7 +207,7 @@ impl Checker<'_> {
     fn argument_name(&mut self, argument: &Name, formula: &Expr) {
         let uses = || uses_of_argument(argument, formula);
         if is_taken(&argument.text) {
-            self.report(errors::reserved(argument, &self.name_beside(argument), &uses()));
+            self.report_reserved(argument, KindOfName::Argument, &uses());
         } else if let Some(declared) = self.space.span(&argument.text) {
             let is_free = |name: &&str| !is_taken(name) && self.space.get(name).is_none();
             let free = ["u", "v", "w", "x", "y", "z"].into_iter().find(is_free);
@@ -256,6 +285,11 @@ impl Checker<'_> {
         }
         order
     }
+}
+
+/// Every word of a text.
+fn words_of(text: &str) -> FxHashSet<&str> {
+    text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect()
 }
 
 /// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and

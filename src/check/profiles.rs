@@ -2,7 +2,7 @@
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::{Checker, errors};
+use super::{Checker, errors, instead};
 use crate::expr::Dependence;
 use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
 use crate::source::Span;
@@ -127,13 +127,9 @@ impl Checker<'_> {
                     let context = Context { argument, ..self.pair_context([x, y], place, name) };
                     self.lengths_in([x, y], &context)
                 } else {
-                    self.report(errors::argument_count(
-                        what,
-                        Keyword::named(what).map(|keyword| &keyword.word),
-                        e.span,
-                        "two lengths",
-                        parts.len(),
-                    ));
+                    let word = Keyword::named(what).map(|keyword| &keyword.word);
+                    let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
+                    self.report(instead::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
                     None
                 }
             }

@@ -109,7 +109,8 @@ impl Checker<'_> {
         let joint = match self.resolve(name).ok()? {
             Some(Entity::Joint(k)) => self.joints.get(k).copied().flatten()?,
             Some(entity) => {
-                self.report(errors::wrong_kind(name.span, "a joint", entity.noun()));
+                let diagnostic = errors::wrong_kind(name.span, "a joint", entity.noun());
+                self.report(self.joint_for(quantity, name, diagnostic));
                 return None;
             }
             None => {

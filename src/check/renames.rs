@@ -1,6 +1,5 @@
 //! Another name for what cannot have its own, wherever it is used.
 
-use super::Checker;
 use super::names::{Entity, mentioned};
 use crate::diag::{Applies, Edit, Fix};
 use crate::source::Span;
@@ -72,20 +71,5 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
         FeatureKind::AxisTo { origin, target } => vec![origin, target],
         FeatureKind::Circle { center, radius } => vec![center, radius],
         FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
-    }
-}
-
-impl Checker<'_> {
-    /// A name like another one that stands nowhere in the text.
-    pub(super) fn name_beside(&self, name: &Name) -> String {
-        let text = &self.sources.get(name.span.file).text;
-        let mut number = 1_usize;
-        loop {
-            let free = format!("{}_{number}", name.text);
-            if !text.contains(&free) {
-                return free;
-            }
-            number += 1;
-        }
     }
 }

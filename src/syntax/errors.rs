@@ -2,6 +2,7 @@
 
 use super::DEEPEST;
 use super::grammar::Rule;
+use super::intended::{Intended, Intent};
 use super::mends::{Fault, Mend};
 use super::tokens::tokens;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
@@ -60,6 +61,14 @@ pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault
 }
 
+/// A word of the language in the place of a name, with a name that is free.
+pub fn keyword_as_name(mut fault: Diagnostic, word: &str, instead: Option<&str>) -> Diagnostic {
+    fault.fixes.clear();
+    let instead = instead.map_or(String::new(), |name| format!("; choose another one, `{name}` say"));
+    fault.help = vec![format!("`{word}` is a keyword and cannot be a name{instead}")];
+    fault
+}
+
 /// A name that no message could hold.
 pub fn long_name(span: Span, longest: usize) -> Diagnostic {
     Diagnostic::new(Code::E0101, format!("a name has at most {longest} characters"))
@@ -112,6 +121,11 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
+    match Intent::new(text, file, found.start, word, rules).mend() {
+        Some(Intended::Words(words)) => return diagnostic.help(words),
+        Some(Intended::Change(fix)) => return diagnostic.fix(fix),
+        None => {}
+    }
     match fault.mend(&expected) {
         Some(Mend::Words(words)) => diagnostic.help(words),
         Some(Mend::Fix(fix)) => diagnostic.fix(fix),

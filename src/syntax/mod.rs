@@ -10,6 +10,7 @@ mod errors;
 pub mod format;
 mod formula;
 mod grammar;
+mod intended;
 mod mends;
 mod outline;
 mod parse;

@@ -1,5 +1,6 @@
 //! Where declarations begin, as far as words and braces tell: from there reading goes on after a fault.
 
+use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
 use crate::vocabulary::{Keyword, Role};
 use rustc_hash::FxHashSet;
@@ -12,6 +13,8 @@ pub(super) struct Outline<'a> {
     roles: Vec<Option<Role>>,
     /// By token: whether it stands where the name of the declaration before it does.
     names: Vec<bool>,
+    /// Names with hyphens, where they are declared: every use of them is read as a difference.
+    hyphenated: FxHashSet<&'a str>,
 }
 
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
@@ -28,7 +31,9 @@ impl<'a> Outline<'a> {
             names.push(is_name);
             takes_name = role.is_some_and(begins) && !["ground", "analysis"].contains(&token.text);
         }
-        Outline { text, tokens, roles, names }
+        let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
+        let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
+        Outline { text, tokens, roles, names, hyphenated }
     }
 
     fn role(&self, k: usize) -> Option<Role> {
@@ -117,8 +122,9 @@ impl<'a> Outline<'a> {
     pub fn names_of(&self, k: usize, end: usize) -> impl Iterator<Item = Token<'a>> {
         let is_name = |token: &&Token<'a>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
         // what is no keyword may be a name without one, `r = 3`, or a misspelt keyword before one
+        let whole = |token: Token<'a>| Token { text: self.hyphenated_name(&token).unwrap_or(token.text), ..token };
         let head = (k..end.min(k + 2).min(self.tokens.len())).filter(|&k| !self.is_declaration(k));
-        head.map(|k| self.tokens[k]).filter(move |token| is_name(&token))
+        head.map(|k| self.tokens[k]).filter(move |token| is_name(&token)).map(whole)
     }
 
     /// Whether a token stands where the name of the declaration before it does.
@@ -144,7 +150,7 @@ impl<'a> Outline<'a> {
             "joint" | "driver" | "constraint" => second == ":",
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
-            _ => second == "=",
+            _ => second == "=" && next != ")",
         };
         // after a bracket or an operator a formula goes on
         let before = if k > 0 { self.word(k - 1) } else { "" };
@@ -174,7 +180,8 @@ impl<'a> Outline<'a> {
         let is_word = |k: usize| self.word(k).starts_with(char::is_alphabetic) && !is_joining(k);
         // `30 mm` and `a.b` go on with a word
         let before = if k > 0 { self.word(k - 1) } else { "" };
-        if !is_word(k) || before == "." || before.starts_with(|c: char| c.is_ascii_digit()) {
+        let may_be_a_unit = before.starts_with(|c: char| c.is_ascii_digit()) && !self.is_first_on_its_line(k);
+        if !is_word(k) || before == "." || may_be_a_unit {
             return false;
         }
         let is_equation = self.word(k + 2) == "=";
@@ -192,13 +199,32 @@ impl<'a> Outline<'a> {
     /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
     pub fn uses_bad_name(&self, byte: usize, bad_names: &FxHashSet<&str>) -> bool {
         let k = self.index_at(byte);
-        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && bad_names.contains(self.word(k)))
+        // where it begins a declaration it is no name
+        let is_used = |k: usize| bad_names.contains(self.word(k)) && (self.is_inside(k) || !self.is_keyword(k));
+        [k, k.saturating_sub(1)].iter().any(|&k| !self.is_behind_the_last(k) && is_used(k))
     }
 
-    /// The keyword that stands at a place where a name should.
-    pub fn bad_name(&self, byte: usize) -> Option<&'a str> {
+    /// The reserved word that stands at a place where a name should, with the keyword of its declaration.
+    pub fn word_as_name(&self, byte: usize) -> Option<(&'a str, &'a str)> {
         let k = self.index_at(byte);
-        (self.start(k) == byte && self.is_declaration(k) && self.is_name_of(k)).then(|| self.word(k))
+        let is_reserved = matches!(self.role(k), Some(Role::Declaration | Role::Feature | Role::Formula));
+        (self.start(k) == byte && is_reserved && self.is_name_of(k)).then(|| (self.word(k), self.word(k - 1)))
+    }
+
+    /// The name with hyphens that a token is the first part of.
+    fn hyphenated_name(&self, token: &Token<'a>) -> Option<&'a str> {
+        let is_known = |name: &&str| self.hyphenated.contains(name);
+        if self.hyphenated.is_empty() { None } else { hyphenated_at(self.text, token.start).filter(is_known) }
+    }
+
+    /// Whether a name with hyphens stands among the tokens from one to before another.
+    pub fn uses_hyphenated(&self, from: usize, to: usize) -> bool {
+        self.tokens.get(from..to).unwrap_or_default().iter().any(|token| self.hyphenated_name(token).is_some())
+    }
+
+    /// Whether a word stands anywhere in the text.
+    pub fn has_word(&self, word: &str) -> bool {
+        self.tokens.iter().any(|token| token.text == word)
     }
 }
 

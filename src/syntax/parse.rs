@@ -14,6 +14,7 @@ use super::outline::Outline;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::{FileId, Source, Sources, Span};
+use crate::vocabulary::{KindOfName, another_name};
 use pest::iterators::Pair;
 use rustc_hash::FxHashSet;
 use std::convert::Infallible;
@@ -275,7 +276,8 @@ impl Reading<'_> {
         match read {
             Ok(item) => {
                 self.at = self.outline.index_at(item.span.end as usize);
-                item
+                // a name with hyphens, which has been told, is no difference
+                if self.outline.uses_hyphenated(first, self.at) { self.broken(first) } else { item }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -294,7 +296,8 @@ impl Reading<'_> {
         match read {
             Ok(feature) => {
                 self.at = self.outline.index_at(feature.span.end as usize);
-                feature
+                let is_spoilt = self.outline.uses_hyphenated(first, self.at);
+                if is_spoilt { Feature { kind: FeatureKind::Broken, ..feature } } else { feature }
             }
             Err(fault) => {
                 self.skip(fault);
@@ -319,9 +322,21 @@ impl Reading<'_> {
         make: impl Fn(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
         let (start, next) = (self.outline.start(self.at), self.outline.end_of_plain(self.at));
-        self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
+        let read = self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
             let piece = self.piece(start..self.outline.end(next));
             piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+        });
+        // a misspelt keyword is the fault of the declaration behind it
+        read.or_else(|fault| {
+            let next = self.outline.start(self.outline.resumption(self.at));
+            if fault_at(&fault) != next {
+                return Err(fault);
+            }
+            let piece = self.piece(start..next);
+            piece.read(alone, &make).map_err(|refused| {
+                let own = piece.fault(refused, false);
+                if fault_at(&own) < piece.range.end && own.code != fault.code { own } else { fault }
+            })
         })
     }
 
@@ -376,14 +391,20 @@ impl Reading<'_> {
         }
     }
 
-    fn tell(&mut self, fault: Box<Diagnostic>) {
+    fn tell(&mut self, mut fault: Box<Diagnostic>) {
         let at = fault_at(&fault);
+        if let Some((word, keyword)) = self.outline.word_as_name(at) {
+            let is_free = |name: &str| !self.outline.has_word(name);
+            let instead =
+                if self.sees_mends() { another_name(word, KindOfName::behind(keyword), is_free) } else { None };
+            *fault = errors::keyword_as_name(*fault, word, instead);
+        }
         // a word that ends one declaration and begins none is met twice
         let is_told = self.last_told.replace(at) == Some(at);
         if !is_told && !self.outline.uses_bad_name(at, &self.bad_names) {
             self.faults.push(*fault);
         }
-        self.bad_names.extend(self.outline.bad_name(at));
+        self.bad_names.extend(self.outline.word_as_name(at).map(|(word, _)| word));
     }
 
     /// What was read from a token up to here, as broken.

@@ -1,0 +1,249 @@
+//! Declarations as other programs and textbooks write them: what they were meant to be, where their words leave no doubt.
+
+use super::grammar::Rule;
+use super::tokens::{Token, tokens};
+use crate::diag::{Applies, Edit, Fix};
+use crate::source::{FileId, Span};
+use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit, is_declaration};
+use std::ops::Range;
+
+/// A fault in a declaration, with the words of the declaration before it.
+pub(super) struct Intent<'a> {
+    text: &'a str,
+    file: FileId,
+    at: usize,
+    found: &'a str,
+    expected: &'a [Rule],
+    /// From the keyword on.
+    before: Vec<Token<'a>>,
+    /// From the fault to the end of the line, of the block, or to the next declaration.
+    rest: Vec<Token<'a>>,
+    bodies: Vec<&'a str>,
+}
+
+/// What to say, and the change of the text, where there is one.
+pub(super) enum Intended {
+    Words(String),
+    Change(Fix),
+}
+
+impl<'a> Intent<'a> {
+    /// Of a word or character at a byte, in the place of what was expected.
+    pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Intent<'a> {
+        let all = tokens(&text[..at]);
+        let is_keyword = |k: usize| is_declaration(all[k].text) && !text[all[k].end()..].starts_with('.');
+        let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
+        let bodies = all.windows(2).filter(|pair| pair[0].text == "body").map(|pair| pair[1].text).collect();
+        let line = text[at..].split('\n').next().unwrap_or_default();
+        let is_here = |token: &Token<'_>| token.start == 0 || token.text != "}" && !is_declaration(token.text);
+        let rest = tokens(line)
+            .into_iter()
+            .take_while(is_here)
+            .map(|token| Token { start: at + token.start, ..token })
+            .collect();
+        Intent { text, file, at, found, expected, before: all[start.min(all.len())..].to_vec(), rest, bodies }
+    }
+
+    /// What was meant.
+    pub fn mend(&self) -> Option<Intended> {
+        let (keyword, last) = (self.before.first()?.text, self.before.last()?);
+        if self.text[last.end()..self.at].contains('\n') {
+            return None;
+        }
+        self.of_a_hyphen(last)
+            .or_else(|| self.of_a_unit_in_brackets(last))
+            .or_else(|| self.of_a_pair(keyword, last))
+            .or_else(|| self.of_a_feature(last))
+            .or_else(|| self.of_a_unit_behind(keyword, last))
+            .or_else(|| self.of_an_equation(keyword))
+    }
+
+    fn expects(&self, rule: Rule) -> bool {
+        self.expected.contains(&rule)
+    }
+
+    fn is_word(&self) -> bool {
+        is_name(self.found)
+    }
+
+    fn edit(&self, range: Range<usize>, text: &str) -> Edit {
+        let span = Span { file: self.file, start: range.start as u32, end: range.end as u32 };
+        Edit { span, text: text.to_owned() }
+    }
+
+    fn change(message: String, edits: Vec<Edit>) -> Intended {
+        Intended::Change(Fix { message, edits, applies: Applies::Probably })
+    }
+
+    /// Where what stands here ends.
+    fn end(&self) -> usize {
+        self.rest.last().map_or(self.at, |token| token.end())
+    }
+
+    /// `small-end`, where a name is declared.
+    fn of_a_hyphen(&self, last: &Token<'_>) -> Option<Intended> {
+        let keyword = self.before.get(self.before.len().checked_sub(2)?)?.text;
+        if self.found != "-" || !is_declaration(keyword) {
+            return None;
+        }
+        let name = hyphenated_at(self.text, last.start)?;
+        let written = name.replace('-', "_");
+        let uses = tokens(self.text).into_iter().filter(|token| hyphenated_at(self.text, token.start) == Some(name));
+        let edits = uses.map(|token| self.edit(token.start..token.start + name.len(), &written)).collect();
+        Some(Intent::change(format!("a name has no `-`: write `{written}`"), edits))
+    }
+
+    /// `50 [mm]`
+    fn of_a_unit_in_brackets(&self, last: &Token<'_>) -> Option<Intended> {
+        let (unit, _) = self.text[self.at..].strip_prefix('[')?.split_once(']')?;
+        let is_unit = unit.split(['/', '*', '^']).next().is_some_and(|unit| Unit::named(unit.trim()).is_some());
+        let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
+        (is_unit && is_number).then(|| {
+            let unit_only = self.edit(self.at..self.at + unit.len() + 2, unit.trim());
+            let message = format!("a unit follows its number without brackets: `{} {}`", last.text, unit.trim());
+            Intent::change(message, vec![unit_only])
+        })
+    }
+
+    /// `point A = r, 0`, `at 0, 0, 0`, `along 30 deg`
+    fn of_a_pair(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        let what = match (keyword, last.text) {
+            ("point", "=") => "a point is a pair",
+            ("body", "at") => "a pose is two lengths and an angle",
+            ("axis", "along") => "a direction is a pair",
+            _ => return None,
+        };
+        let is_inside = |token: &&Token<'_>| token.text != "{" && token.text != "=";
+        let end = self.rest.iter().take_while(is_inside).last()?.end();
+        let written = &self.text[self.at..end];
+        let is_list = written.contains(',');
+        if !self.expects(Rule::paren) || !is_list && last.text != "along" {
+            return None;
+        }
+        Some(if is_list {
+            let edits = vec![self.edit(self.at..self.at, "("), self.edit(end..end, ")")];
+            Intent::change(format!("{what} in parentheses: `({written})`"), edits)
+        } else {
+            let pair = format!("(cos({written}), sin({written}))");
+            Intent::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(self.at..end, &pair)])
+        })
+    }
+
+    /// `crank A`
+    fn of_a_feature(&self, last: &Token<'_>) -> Option<Intended> {
+        if let ("ground", Some(feature)) = (self.found, self.rest.get(1).filter(|token| is_name(token.text))) {
+            let (end, message) = (self.at + self.found.len(), "what belongs to the ground is written");
+            let dot = self.edit(end..feature.start, ".");
+            return Some(Intent::change(format!("{message} `ground.{}`", feature.text), vec![dot]));
+        }
+        let is_owner = last.text == "ground" || self.bodies.contains(&last.text);
+        let is_in_formula = self.before.iter().any(|token| token.text == "(") && self.before.len() > 2;
+        (self.is_word() && is_owner && is_in_formula).then(|| {
+            let message = format!("what belongs to a body is written `{}.{}`", last.text, self.found);
+            Intent::change(message, vec![self.edit(last.end()..self.at, ".")])
+        })
+    }
+
+    /// `angle(rod) in deg`, `displacement(guide) mm`
+    fn of_a_unit_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
+        if !self.expects(Rule::infix) || is_number {
+            return None;
+        }
+        let named = |k: usize| {
+            let word = self.rest.get(k)?.text;
+            let meant = || Synonym::of(Place::Unit, word).and_then(|synonym| synonym.means.first().copied());
+            Unit::named(word).map(|unit| unit.word.name).or_else(meant)
+        };
+        let is_joined = ["in", "as"].contains(&self.found) && named(1).is_some();
+        let from = usize::from(is_joined);
+        let unit = named(from)?;
+        if !is_joined && Unit::named(last.text).is_some() {
+            return Some(Intent::both_ways(unit));
+        }
+        let behind: Vec<&str> = self.rest[from + 1..].iter().map(|token| token.text).collect();
+        let unit = match behind[..] {
+            [] => format!("1 {unit}"),
+            ["/", "s"] => format!("(1 {unit}/s)"),
+            _ => return Some(Intent::both_ways(unit)),
+        };
+        let start = self.before.iter().position(|token| token.text == "=").map(|k| &self.before[k + 1..]);
+        let formula = start.filter(|formula| keyword == "measure" && holds_quantity(formula));
+        let Some([first, ..]) = formula else { return Some(Intent::both_ways(unit.trim_start_matches("1 "))) };
+        let is_sum = formula.is_some_and(|formula| is_a_sum(formula));
+        let written = &self.text[first.start..last.end()];
+        let written = if is_sum { format!("({written})") } else { written.to_owned() };
+        let name = unit.trim_matches(['(', ')']).trim_start_matches("1 ");
+        let message =
+            format!("a formula has no unit of its own behind it; its number in `{name}` is `{written} / {unit}`");
+        let replaced = self.edit(first.start..self.end(), &format!("{written} / {unit}"));
+        Some(Intent::change(message, vec![replaced]))
+    }
+
+    fn both_ways(unit: &str) -> Intended {
+        Intended::Words(format!(
+            "a unit follows a number only: `… * 1 {unit}` gives it to a pure number, `… / 1 {unit}` takes it away"
+        ))
+    }
+
+    /// `rotation(main) speed 600 rpm`
+    fn of_an_equation(&self, keyword: &str) -> Option<Intended> {
+        let is_equation = ["driver", "constraint"].contains(&keyword);
+        if !is_equation || !self.is_word() || !self.expects(Rule::equals) {
+            return None;
+        }
+        let left = self.before.iter().position(|token| token.text == ":").and_then(|k| self.before.get(k + 1))?;
+        let left = &self.text[left.start..self.at].trim_end();
+        let [first, last] = [self.rest.get(1), self.rest.last()];
+        let value = first.zip(last).map(|(first, last)| &self.text[first.start..last.end()]).unwrap_or_default();
+        Some(if keyword == "driver" && is_rate(self.rest.get(1..).unwrap_or_default()) {
+            let edits =
+                vec![self.edit(self.at..self.at + self.found.len(), "="), self.edit(self.end()..self.end(), " * t")];
+            Intent::change(format!("a driver is an equation: `{left} = {value} * t`"), edits)
+        } else {
+            Intended::Words(format!("a {keyword} is an equation: `{left} = …`"))
+        })
+    }
+}
+
+/// A name with hyphens that begins at a byte.
+pub(super) fn hyphenated_at(text: &str, start: usize) -> Option<&str> {
+    let is_part = |c: char| c.is_alphanumeric() || c == '_';
+    let rest = &text[start..];
+    let mut end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
+    let first = end;
+    while let Some(next) = rest[end..].strip_prefix('-').filter(|next| next.starts_with(is_part)) {
+        end += 1 + next.find(|c| !is_part(c)).unwrap_or(next.len());
+    }
+    (is_name(rest) && end > first).then(|| &rest[..end])
+}
+
+fn is_name(word: &str) -> bool {
+    word.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+fn holds_quantity(formula: &[Token<'_>]) -> bool {
+    let is_quantity = |word: &str| word == "der" || QuantityWord::named(word).is_some();
+    formula.windows(2).any(|pair| is_quantity(pair[0].text) && pair[1].text == "(")
+}
+
+/// Whether a formula has a sum that no parentheses are around.
+fn is_a_sum(formula: &[Token<'_>]) -> bool {
+    let mut depth = 0;
+    formula.iter().any(|token| {
+        depth += i32::from(token.text == "(") - i32::from(token.text == ")");
+        depth == 0 && ["+", "-", "if"].contains(&token.text)
+    })
+}
+
+/// `600 rpm`, `10 mm/s`
+fn is_rate(words: &[Token<'_>]) -> bool {
+    let words: Vec<&str> = words.iter().map(|token| token.text).collect();
+    match words[..] {
+        [number, unit] => {
+            number.parse::<f64>().is_ok() && Unit::named(unit).is_some_and(|u| u.dimension.is(Dimension::RATE))
+        }
+        [number, unit, "/", per] => number.parse::<f64>().is_ok() && Unit::named(unit).is_some() && per == "s",
+        _ => false,
+    }
+}

@@ -1,0 +1,129 @@
+//! Names that one would choose where the name is a word of the language.
+
+use super::{is_called, is_taken};
+
+/// What a name is to be the name of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum KindOfName {
+    /// A body.
+    Body,
+    /// A joint.
+    Joint,
+    /// A driver or constraint.
+    Equation,
+    /// A point, axis, circle or curve.
+    Feature,
+    /// A parameter or measure.
+    Value,
+    /// A function or table.
+    Function,
+    /// The argument of a function or curve.
+    Argument,
+}
+
+impl KindOfName {
+    /// What the keyword before a name makes it the name of.
+    #[must_use]
+    pub fn behind(keyword: &str) -> KindOfName {
+        match keyword {
+            "body" | "mechanism" => KindOfName::Body,
+            "joint" => KindOfName::Joint,
+            "driver" | "constraint" => KindOfName::Equation,
+            "point" | "axis" | "circle" | "curve" => KindOfName::Feature,
+            "fn" | "table" => KindOfName::Function,
+            _ => KindOfName::Value,
+        }
+    }
+
+    /// Names that say nothing but that.
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            KindOfName::Body => &["arm", "slide", "link", "lever", "plate"],
+            KindOfName::Joint => &["hinge", "pin", "guide", "bearing"],
+            KindOfName::Equation => &["motor", "feed", "coupling"],
+            KindOfName::Feature => &["tip", "center", "edge", "heel"],
+            KindOfName::Value => &["size", "offset", "width", "height"],
+            KindOfName::Function => &["law", "lift", "shape"],
+            KindOfName::Argument => &["u", "v", "w", "x", "y", "z"],
+        }
+    }
+}
+
+/// Words of the language, with what else such a thing may be called: as a body, as a joint or equation, as a feature or value.
+const OTHERS: &[(&str, [&str; 3])] = &[
+    // ---- units and constants
+    ("s", ["slide", "guide", "stroke"]),
+    ("m", ["arm", "mount", "module"]),
+    ("mm", ["arm", "mount", "length"]),
+    ("cm", ["arm", "mount", "length"]),
+    ("in", ["input_arm", "input", "input"]),
+    ("ft", ["foot", "foot_pin", "height"]),
+    ("ms", ["slide", "guide", "delay"]),
+    ("deg", ["arm", "hinge", "tilt"]),
+    ("rad", ["wheel", "bearing", "r"]),
+    ("rev", ["wheel", "bearing", "turns"]),
+    ("rpm", ["rotor", "spindle", "speed"]),
+    ("t", ["top", "top_pin", "thickness"]),
+    ("pi", ["shaft", "pin", "ratio"]),
+    ("tau", ["arm", "hinge", "delay"]),
+    // ---- keywords
+    ("analysis", ["sample", "probe", "study"]),
+    ("axis", ["shaft", "shaft_bearing", "line"]),
+    ("body", ["housing", "mount", "center"]),
+    ("circle", ["wheel", "hub", "rim"]),
+    ("constraint", ["stop", "coupling", "limit"]),
+    ("curve", ["cam", "contact", "profile"]),
+    ("driver", ["crank", "motor", "input"]),
+    ("ground", ["base", "base_pin", "base"]),
+    ("joint", ["knuckle", "hinge", "pivot"]),
+    ("measure", ["gauge", "gauge_pin", "reading"]),
+    ("mechanism", ["machine", "hinge", "machine"]),
+    ("param", ["arm", "hinge", "value"]),
+    ("point", ["pointer", "tip_pin", "tip"]),
+    ("table", ["plate", "plate_pin", "top"]),
+    // ---- what is called
+    ("x", ["arm", "hinge", "across"]),
+    ("y", ["arm", "hinge", "height"]),
+    ("angle", ["arm", "hinge", "tilt"]),
+    ("distance", ["arm", "hinge", "reach"]),
+    ("rotation", ["arm", "hinge", "turn"]),
+    ("displacement", ["arm", "hinge", "travel"]),
+];
+
+/// A free name for what cannot have the name of a word of the language.
+pub fn another_name(word: &str, kind: KindOfName, is_free: impl Fn(&str) -> bool) -> Option<&'static str> {
+    let own = OTHERS.iter().find(|(other, _)| *other == word).map(|(_, names)| match kind {
+        KindOfName::Body => names[0],
+        KindOfName::Joint | KindOfName::Equation => names[1],
+        KindOfName::Feature | KindOfName::Value | KindOfName::Function => names[2],
+        KindOfName::Argument => "u",
+    });
+    own.into_iter()
+        .chain(kind.names().iter().copied())
+        .find(|name| !is_taken(name) && !is_called(name) && is_free(name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{KindOfName, OTHERS, another_name};
+    use crate::vocabulary::{Keyword, Unit, is_called, is_taken};
+
+    #[test]
+    fn every_proposed_name_can_be_declared() {
+        let general = ["body", "joint", "driver", "point", "param", "fn"].map(KindOfName::behind);
+        let names = OTHERS.iter().flat_map(|(_, names)| names).chain(general.iter().flat_map(|kind| kind.names()));
+        for name in names {
+            let is_word = is_taken(name) || is_called(name) || Unit::named(name).is_some();
+            assert!(!is_word && Keyword::named(name).is_none(), "`{name}` is a word of the language");
+        }
+    }
+
+    #[test]
+    fn a_name_is_proposed_that_the_text_does_not_use() {
+        let kind = KindOfName::behind("body");
+        assert_eq!(another_name("s", kind, |_| true), Some("slide"));
+        assert_eq!(another_name("s", kind, |name| name != "slide"), Some("arm"));
+        assert_eq!(another_name("cosh", kind, |name| !["arm", "slide"].contains(&name)), Some("link"));
+        assert_eq!(another_name("s", kind, |_| false), None);
+    }
+}
