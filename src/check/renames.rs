@@ -4,7 +4,7 @@ use super::names::{Entity, mentioned};
 use crate::diag::{Applies, Edit, Fix};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
-use crate::vocabulary::{Constant, StandsFor};
+use crate::vocabulary::{Constant, StandsFor, Unit};
 
 /// A name and its uses with another one in their place.
 pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
@@ -31,7 +31,7 @@ pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, entity: Entity) ->
     let is_time =
         Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
     let mut open: Vec<&Expr> = mechanism.items.iter().flat_map(formulas).collect();
-    let mut uses = Vec::new();
+    let (mut uses, mut units) = (Vec::new(), Vec::new());
     while let Some(e) = open.pop() {
         let used = match &e.kind {
             ExprKind::Call { name, .. } if is_called => Some(name),
@@ -40,9 +40,28 @@ pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, entity: Entity) ->
             _ => None,
         };
         uses.extend(used.filter(|name| name.text == declared.text).map(|name| name.span));
+        units.extend(units_in(e));
         open.extend(e.children());
     }
+    uses.retain(|span| !units.contains(span));
     uses
+}
+
+/// What stands behind a unit in a product is a unit too, whatever else has its name: `10 mm/s * t`.
+fn units_in(e: &Expr) -> Vec<Span> {
+    let is_unit = |factor: &Expr| match &factor.kind {
+        ExprKind::Literal { unit, .. } => unit.is_some(),
+        ExprKind::Name(name) => Unit::named(&name.text).is_some(),
+        _ => false,
+    };
+    let ExprKind::Product(first, rest) = &e.kind else { return Vec::new() };
+    let before = std::iter::once(&**first).chain(rest.iter().map(|(_, factor)| factor));
+    let behind = rest.iter().map(|(_, factor)| factor);
+    before
+        .zip(behind)
+        .filter(|(before, factor)| is_unit(before) && is_unit(factor))
+        .map(|(_, factor)| factor.span)
+        .collect()
 }
 
 /// The formulas of a declaration.
