@@ -29,7 +29,9 @@ impl<'a> Comments<'a> {
             for item in &mechanism.items {
                 take(&item.docs, item.span);
                 if let ItemKind::Ground { features } | ItemKind::Body { features, .. } = &item.kind {
-                    features.iter().for_each(|feature| take(&feature.docs, feature.span));
+                    for feature in features {
+                        take(&feature.docs, feature.span);
+                    }
                 }
             }
         }
@@ -76,5 +78,5 @@ impl<'a> Comments<'a> {
 
 /// A line for each.
 pub(super) fn lines(comments: &[String], indent: &str) -> String {
-    comments.iter().map(|comment| format!("{indent}{comment}\n")).collect()
+    comments.iter().flat_map(|comment| [indent, comment.as_str(), "\n"]).collect()
 }
