@@ -300,11 +300,14 @@ fn inputs() -> Vec<Mistaken> {
         paths.sort();
         for path in paths.into_iter().filter(|path| path.extension().is_some_and(|ending| ending == "mech")) {
             let input = Mistaken::of(&std::fs::read_to_string(&path).unwrap());
-            // what is told of a whole mechanism, or later, is not that of a declaration
+            // what is told of a whole mechanism, or later, is not that of a declaration; and in what is nested too deep nothing
+            // is read, a misspelt keyword behind it neither
             list.extend(input.filter(|input| {
                 let text = input.text();
                 let markers = markers(&text);
-                !markers.is_empty() && markers.iter().all(|(_, code)| !code.contains('5')) && told(&text) == markers
+                !markers.is_empty()
+                    && markers.iter().all(|(_, code)| !code.contains('5') && *code != "E0103")
+                    && told(&text) == markers
             }));
         }
     }

@@ -78,7 +78,7 @@ impl Parsed {
     /// The text as it would be written; that of what cannot be read is left out.
     #[must_use]
     pub fn formatted(&self) -> String {
-        syntax::format(&self.read.tree)
+        syntax::format_with_comments(&self.read.tree, &self.read.trivia, &self.sources.get(self.file).text)
     }
 
     pub(super) fn tree(&self) -> &ast::File {

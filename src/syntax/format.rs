@@ -1,14 +1,17 @@
 //! Tree to text: a file as a person would write it.
 //!
 //! What is printed reads back as the same tree, apart from places and from parentheses that change nothing. Columns
-//! are aligned, and a blank line stands where the kind of declaration changes. Comments other than `///` are not in
-//! the tree, and so not in the text either.
+//! are aligned, and a blank line stands where the kind of declaration changes. Comments stay beside the declaration that they stood
+//! beside; those within one go above it.
 //!
 //! This room knows how things are written, not what they mean: a tree that `check` would refuse is printed as well.
 
+mod comments;
 mod expression;
 
 use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
+use super::trivia::Trivia;
+use comments::{Comments, lines};
 pub use expression::expression;
 
 /// One level of indentation.
@@ -20,20 +23,36 @@ const WIDEST_CELL: usize = 40;
 /// A table's rows stand on one line up to this width, and on a line each beyond it.
 const WIDEST_LIST: usize = 72;
 
-/// A file as text. It ends with a line end, and is empty if the file is.
+/// A tree as text. It ends with a line end, and is empty if the tree is.
 #[must_use]
 pub fn format(file: &File) -> String {
-    let mechanisms: Vec<String> = file.mechanisms.iter().map(mechanism).collect();
-    mechanisms.join("\n")
+    format_with(file, Comments::none())
 }
 
-fn mechanism(mechanism: &Mechanism) -> String {
-    let groups: Vec<String> =
-        mechanism.items.chunk_by(|a, b| Group::of(&a.kind) == Group::of(&b.kind)).map(group).collect();
-    let mut text = documentation(&mechanism.docs, "");
-    text += &format!("mechanism {} ", mechanism.name.text);
-    text += &braces(&groups.join("\n"), "");
-    text + "\n"
+/// The same of a tree that was read from a text, with the text's comments.
+#[must_use]
+pub fn format_with_comments(file: &File, trivia: &Trivia, text: &str) -> String {
+    format_with(file, Comments::of(file, trivia, text))
+}
+
+fn format_with(file: &File, mut comments: Comments<'_>) -> String {
+    let mechanisms: Vec<String> = file.mechanisms.iter().map(|of_file| mechanism(of_file, &mut comments)).collect();
+    let text = mechanisms.join("\n");
+    let rest = lines(&comments.rest(), "");
+    if text.is_empty() || rest.is_empty() { text + &rest } else { format!("{text}\n{rest}") }
+}
+
+fn mechanism(mechanism: &Mechanism, comments: &mut Comments<'_>) -> String {
+    let above = lines(&comments.before(mechanism.span.start), "");
+    let groups = mechanism.items.chunk_by(|a, b| Group::of(&a.kind) == Group::of(&b.kind));
+    let mut groups: Vec<String> = groups.map(|items| group(items, comments)).collect();
+    let at_the_end = lines(&comments.before(mechanism.span.end), INDENT);
+    if !at_the_end.is_empty() {
+        groups.push(at_the_end);
+    }
+    let trailing = comments.behind(mechanism.span.end).map_or(String::new(), |comment| format!(" {comment}"));
+    let docs = documentation(&mechanism.docs, "");
+    format!("{above}{docs}mechanism {} {}{trailing}\n", mechanism.name.text, braces(&groups.join("\n"), ""))
 }
 
 /// Declarations that stand together, without a blank line between them.
@@ -70,16 +89,33 @@ impl Group {
 
 /// A declaration in columns; the last one is as wide as it likes.
 struct Row<'a> {
+    /// Comments on lines of their own.
+    above: Vec<String>,
     docs: &'a [String],
     cells: Vec<String>,
+    /// The comment behind it.
+    behind: Option<String>,
 }
 
-fn group(items: &[Item]) -> String {
-    let rows: Vec<Row<'_>> = items.iter().map(|item| Row { docs: &item.docs, cells: item_cells(&item.kind) }).collect();
+fn group(items: &[Item], comments: &mut Comments<'_>) -> String {
+    let rows: Vec<Row<'_>> = items.iter().map(|item| item_row(item, comments)).collect();
     columns(&rows, INDENT)
 }
 
-fn item_cells(kind: &ItemKind) -> Vec<String> {
+fn item_row<'a>(item: &'a Item, comments: &mut Comments<'_>) -> Row<'a> {
+    let (above, block) = match &item.kind {
+        ItemKind::Ground { features } | ItemKind::Body { features, .. } => {
+            let above = comments.before(item.span.start);
+            (above, body(features, item.span.end, comments))
+        }
+        _ => (comments.around(item), String::new()),
+    };
+    let cells = item_cells(&item.kind, &block);
+    Row { above, docs: &item.docs, cells, behind: comments.behind(item.span.end) }
+}
+
+/// With the block of a body or of the ground as text.
+fn item_cells(kind: &ItemKind, block: &str) -> Vec<String> {
     match kind {
         // what is broken has no form
         ItemKind::Broken { .. } => Vec::new(),
@@ -88,11 +124,9 @@ fn item_cells(kind: &ItemKind) -> Vec<String> {
             cells(["fn", &format!("{}({})", name.text, argument.text), &defined(value)])
         }
         ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
-        ItemKind::Ground { features } => vec![format!("ground {}", body(features))],
-        ItemKind::Body { name, pose: None, features } => vec![format!("body {} {}", name.text, body(features))],
-        ItemKind::Body { name, pose: Some(pose), features } => {
-            vec![format!("body {} at {} {}", name.text, pair(pose), body(features))]
-        }
+        ItemKind::Ground { .. } => vec![format!("ground {block}")],
+        ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", name.text)],
+        ItemKind::Body { name, pose: Some(pose), .. } => vec![format!("body {} at {} {block}", name.text, pair(pose))],
         ItemKind::Joint { name, kind, arguments, .. } => {
             cells(["joint", &label(name), &format!("{}({})", kind.text, list(arguments))])
         }
@@ -144,10 +178,16 @@ fn table(periodic: bool, rows: &TableRows) -> String {
 }
 
 /// The features of a body or of the ground in their braces.
-fn body(features: &[Feature]) -> String {
-    let rows: Vec<Row<'_>> =
-        features.iter().map(|feature| Row { docs: &feature.docs, cells: feature_cells(feature) }).collect();
-    braces(&columns(&rows, &INDENT.repeat(2)), INDENT)
+fn body(features: &[Feature], end: u32, comments: &mut Comments<'_>) -> String {
+    let mut rows = Vec::new();
+    for feature in features {
+        let above = comments.before(feature.span.end);
+        let behind = comments.behind(feature.span.end);
+        rows.push(Row { above, docs: &feature.docs, cells: feature_cells(feature), behind });
+    }
+    let indent = INDENT.repeat(2);
+    let at_the_end = lines(&comments.before(end), &indent);
+    braces(&(columns(&rows, &indent) + &at_the_end), INDENT)
 }
 
 fn feature_cells(feature: &Feature) -> Vec<String> {
@@ -217,6 +257,7 @@ fn columns(rows: &[Row<'_>], indent: &str) -> String {
     let widths: Vec<usize> = (0..count).map(widest).collect();
     let mut text = String::new();
     for row in rows {
+        text += &lines(&row.above, indent);
         text += &documentation(row.docs, indent);
         text += indent;
         if let Some((last, others)) = row.cells.split_last() {
@@ -224,6 +265,10 @@ fn columns(rows: &[Row<'_>], indent: &str) -> String {
                 text += &format!("{cell:wide$} ");
             }
             text += last;
+        }
+        if let Some(comment) = &row.behind {
+            text += " ";
+            text += comment;
         }
         text += "\n";
     }
