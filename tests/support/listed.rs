@@ -2,6 +2,11 @@
 
 use libtest_mimic::{Arguments, Trial};
 
+/// Whether the command line asks for a test of a name.
+pub fn is_asked_for(name: &str) -> bool {
+    !Arguments::from_args().is_filtered_out(&Trial::test(name, || Ok(())))
+}
+
 /// Tests in the making, by their names.
 #[derive(Default)]
 pub struct Tests(Vec<Trial>);
