@@ -48,7 +48,9 @@ fn files(folder: PathBuf, found: &mut Vec<PathBuf>) {
 fn texts() -> Vec<String> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut found = Vec::new();
-    ["examples", "tests/cases", "tests/ui"].map(|folder| files(root.join(folder), &mut found));
+    for folder in ["examples", "tests/cases", "tests/ui"] {
+        files(root.join(folder), &mut found);
+    }
     found.sort();
     found.iter().filter_map(|path| std::fs::read_to_string(path).ok()).collect()
 }

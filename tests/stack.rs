@@ -6,11 +6,9 @@
 mod deepest;
 
 use deepest::{all_ways, deepest};
-use mechc::check;
-use mechc::math;
-use mechc::model::Mechanism;
-use mechc::source::Sources;
-use mechc::syntax;
+use mechc::Sources;
+use mechc::rooms::model::Mechanism;
+use mechc::rooms::{check, math, syntax};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::thread;
