@@ -1,8 +1,7 @@
 //! What is said of a mechanism that does not pass.
 
-use super::mends::{is_bare_number, with_factors, with_unit};
+use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
-use super::renames::renamed;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;

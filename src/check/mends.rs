@@ -1,7 +1,8 @@
-//! Changes of a formula's text that mend its dimension.
+//! Changes of the text that mend a dimension or a name.
 
 use crate::diag::{Applies, Edit, Fix};
 use crate::source::Span;
+use crate::syntax::ast::Name;
 
 /// Whether a text is a number and nothing else.
 pub(super) fn is_bare_number(text: &str) -> bool {
@@ -22,4 +23,11 @@ pub(super) fn with_factors(span: Span, text: &str, [before, behind]: [&str; 2], 
     let edits = vec![edit(span.start, format!("{before}{open}")), edit(span.end, format!("{close}{behind}"))];
     let edits = edits.into_iter().filter(|edit| !edit.text.is_empty()).collect();
     Fix { message: words.to_owned(), edits, applies: Applies::Probably }
+}
+
+/// A name and its uses with another one in their place.
+pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
+    let places = std::iter::once(&name.span).chain(uses);
+    let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
+    Fix { message, edits, applies: Applies::Probably }
 }

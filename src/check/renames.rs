@@ -1,17 +1,9 @@
-//! Another name for what cannot have its own, wherever it is used.
+//! Where a name is used that is to have another one.
 
 use super::names::{Entity, mentioned};
-use crate::diag::{Applies, Edit, Fix};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
 use crate::vocabulary::{Constant, StandsFor, Unit};
-
-/// A name and its uses with another one in their place.
-pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -> Fix {
-    let places = std::iter::once(&name.span).chain(uses);
-    let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
-    Fix { message, edits, applies: Applies::Probably }
-}
 
 /// Where the argument of a function or curve stands in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {

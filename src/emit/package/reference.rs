@@ -14,7 +14,8 @@ fn the_motion_is_that_of_mechc_run() -> Result<(), Error> {
         step(t, &mut state)?;
         for ((name, value), expected) in NAMES.iter().zip(state.row()).zip(expected) {
             // a measure may have no value
-            let is_same = value.to_bits() == expected.to_bits() || (value.is_nan() && expected.is_nan());
+            let is_same =
+                value.to_bits() == expected.to_bits() || (value.is_nan() && expected.is_nan());
             assert!(is_same, "{name} at {t} s is {value:?}, not {expected:?}");
         }
     }
