@@ -11,17 +11,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
+use support::random::Random;
 use support::{compile_number, files, follow};
-
-/// Random numbers, the same on every run.
-struct Random(u64);
-
-impl Random {
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        low + (high - low) * (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-}
 
 /// A run with what stopped it, and when bifurcations were passed (s).
 struct Run {
@@ -53,10 +44,8 @@ fn try_run(text: &str, path: &Path, times: Option<Times>, passing: bool) -> Opti
     let own = compiled.times()?;
     outcome.diagnostics = Diagnostics::default();
     let options = RunOptions { pass_bifurcations: passing, ..RunOptions::default() };
-    follow(&compiled, &times.unwrap_or(own), &options, &mut outcome);
+    let has_begun = follow(&compiled, &times.unwrap_or(own), &options, &mut outcome);
     let (stop, passed) = (outcome.stop().cloned(), outcome.passed());
-    // a mechanism that does not begin has no rows
-    let has_begun = !outcome.rows.is_empty();
     has_begun.then_some(Run { columns: outcome.columns, rows: outcome.rows, stop, passed })
 }
 
@@ -231,7 +220,7 @@ fn measures_agree_with_the_bodies_on_every_row_of_all_cases() {
 
 #[test]
 fn rows_over_change_points_have_the_motion_of_their_closed_form() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for number in 0..24 {
         let (length, start) = (random.between(0.3, 3.0), random.between(1.2, 1.45));
         let (rate, bend) = (random.between(0.2, 1.5), random.between(0.3, 6.0));
@@ -271,7 +260,7 @@ fn rows_over_change_points_have_the_motion_of_their_closed_form() {
 
 #[test]
 fn an_overshoot_beyond_a_dead_point_is_a_lock_up_at_its_time() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     for _ in 0..12 {
         let (rod, stroke) = (random.between(1.3, 4.0), random.between(0.1, 0.5));
         for over in [1e-4, 1e-6, 1e-8, 1e-9] {
@@ -297,7 +286,7 @@ fn an_overshoot_beyond_a_dead_point_is_a_lock_up_at_its_time() {
 
 #[test]
 fn a_rod_that_is_ever_so_little_shorter_than_its_crank_is_a_lock_up_and_no_bifurcation() {
-    let mut random = Random(19);
+    let mut random = Random::new(19);
     for short in [1e-4, 1e-6, 1e-8, 1e-9, 1e-10] {
         let (length, short) = (random.between(0.5, 2.0), short * random.between(1.0, 3.0));
         let analysis = "analysis from 0 to 1 every 0.01";
@@ -319,7 +308,7 @@ fn a_rod_that_is_ever_so_little_shorter_than_its_crank_is_a_lock_up_and_no_bifur
 
 #[test]
 fn what_comes_after_the_last_time_keeps_no_row_back() {
-    let mut random = Random(13);
+    let mut random = Random::new(13);
     for _ in 0..10 {
         let (rod, stroke) = (random.between(1.3, 4.0), random.between(0.2, 0.6));
         let text = pushed(rod, stroke, 0.0);
@@ -341,7 +330,7 @@ fn what_comes_after_the_last_time_keeps_no_row_back() {
 
 #[test]
 fn all_rows_are_printed_with_passing_that_are_printed_without_it() {
-    let mut random = Random(17);
+    let mut random = Random::new(17);
     for number in 0..30 {
         let (length, start) = (random.between(0.5, 2.0), random.between(1.2, 1.5));
         let (over, rate) = (random.between(0.003, 0.3), random.between(1.0, 4.0));
@@ -380,7 +369,9 @@ fn compare_with_passing(text: &str, path: &Path) {
                 continue;
             }
             let off = (a_k - b_k).abs();
-            assert!(off <= tolerance * (1.0 + a_k.abs()), "{} at t = {}: {a_k} and {b_k}", plain.columns[k], a[0]);
+            // a measure may have no value
+            let is_near = off <= tolerance * (1.0 + a_k.abs()) || (a_k.is_nan() && b_k.is_nan());
+            assert!(is_near, "{} at t = {}: {a_k} and {b_k}", plain.columns[k], a[0]);
         }
     }
 }

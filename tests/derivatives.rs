@@ -7,21 +7,8 @@ mod support;
 use mechc::rooms::expr::{Binary, ExprId, Graph, Motion, Symbol, Unary};
 use mechc::rooms::ir::ConstraintSystem;
 use std::fs;
+use support::random::Random;
 use support::{Span, compile, files, run, stem};
-
-/// Numbers in [0, 1) that are the same on every run.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    fn between(&mut self, low: f64, high: f64) -> f64 {
-        low + (high - low) * self.next()
-    }
-}
 
 const X: Symbol = Symbol::Coordinate { index: 0, order: 0 };
 const Y: Symbol = Symbol::Coordinate { index: 1, order: 0 };
@@ -45,7 +32,7 @@ fn check_function(name: &str, range: [f64; 2], build: impl Fn(&mut Graph, ExprId
     let (fx, fy) = (along(&mut graph, f, X), along(&mut graph, f, Y));
     let (fxx, fxy) = (along(&mut graph, fx, X), along(&mut graph, fx, Y));
     let gradient = graph.gradient(f, mechc::rooms::expr::Dependence::coordinates(0));
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for _ in 0..200 {
         let (x, y) = (random.between(range[0], range[1]), random.between(range[0], range[1]));
         let h = 1e-5;
@@ -283,7 +270,7 @@ fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: 
 
 #[test]
 fn jacobians_and_right_sides_of_every_element() {
-    let mut random = Random(11);
+    let mut random = Random::new(11);
     // 1000 km from the origin a difference is nothing but rounding
     for (name, system) in systems().into_iter().filter(|(name, _)| name != "far_away") {
         let n = system.coordinates.len();

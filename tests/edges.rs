@@ -6,6 +6,7 @@ mod support;
 
 use mechc::Diagnostic;
 use mechc::rooms::math;
+use support::random::Random;
 use support::{Outcome, Span, run};
 
 /// A block on a slide that is driven, in metres, over two seconds in steps of a tenth.
@@ -219,11 +220,8 @@ fn edges_are_where_their_guards_are_zero() {
 
 #[test]
 fn random_guards_are_met_where_they_are_zero() {
-    let mut seed = 7_u64;
-    let mut random = || {
-        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (seed >> 11) as f64 / (1_u64 << 53) as f64
-    };
+    let mut numbers = Random::new(7);
+    let mut random = || numbers.part();
     for _ in 0..60 {
         let (a, b, p, c) = (2.0 + 9.0 * random(), 2.0 + 9.0 * random(), 6.0 * random(), 0.8 * random() - 0.4);
         let guard = |t: f64| 0.3 * math::sin(a * t) + 0.2 * math::cos(b * t + p) - c;

@@ -11,6 +11,7 @@ use mechc::rooms::{check, import};
 use mechc::{Code, Color, Diagnostics, Format, Severity, render};
 use proptest::prelude::*;
 use std::fmt::Write;
+use support::random::Random;
 use support::{Span, run};
 
 /// What became of a model.
@@ -427,7 +428,7 @@ fn places_in_formulas_count_escapes() {
 
 #[test]
 fn formulas_keep_their_value() {
-    let mut random = matlab::Random::new(20_240_611);
+    let mut random = Random::new(20_240_611);
     let mut compared = 0;
     for _ in 0..1500 {
         let formula = matlab::formula(&mut random, 4);

@@ -227,3 +227,16 @@ fn rooms_know_no_files_threads_clock_or_environment() {
     }
     assert!(allowed > 0, "nothing was found where something is");
 }
+
+/// Each stage of the façade shows how it is used.
+#[test]
+fn every_stage_has_an_example_that_is_run() {
+    for stage in ["Parsed", "Checked", "Compiled", "Run"] {
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("src/stages/{}.rs", stage.to_lowercase()));
+        let text = fs::read_to_string(path).expect("a text");
+        let (before, _) = text.split_once(&format!("\npub struct {stage} {{")).expect("the stage");
+        let docs: Vec<&str> = before.lines().rev().take_while(|line| line.starts_with(['/', '#'])).collect();
+        assert_eq!(docs.iter().filter(|line| line.starts_with("/// ```")).count(), 2, "`{stage}` has no example");
+        assert!(docs.contains(&"/// ```"), "the example of `{stage}` is not run");
+    }
+}

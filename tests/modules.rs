@@ -67,6 +67,7 @@ impl Batch {
                 fs::write(self.folder.path().join(format!("{}.rs", module.name)), &module.made().text)
                     .expect("written");
             }
+            fs::write(self.folder.path().join("random.rs"), include_str!("support/random.rs")).expect("written");
             let (source, binary) = (self.folder.path().join("main.rs"), self.folder.path().join("main"));
             fs::write(&source, main_of(&self.modules)).expect("written");
             compile("rustc", &["-C", "opt-level=0", "-o", &binary.to_string_lossy()], &source).map(|()| binary)
@@ -180,18 +181,10 @@ fn main_of(modules: &[Module]) -> String {
         writeln!(calls, "        Some(\"{name}\") => run_{name}(),").expect("a string takes everything");
     }
     main + &format!(
-        "fn points(n: usize) -> Vec<(Vec<f64>, Vec<f64>, f64)> {{
-    (1..={POINTS}_u64).map(|seed| point(n, seed)).collect()
-}}
-fn point(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {{
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
-    let mut next = || {{
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }};
-    let q = (0..n).map(|_| next()).collect();
-    let qd = (0..n).map(|_| 3.0 * next()).collect();
-    (q, qd, next().abs())
+        "mod random;
+fn points(n: usize) -> Vec<(Vec<f64>, Vec<f64>, f64)> {{
+    let point = |mut random: random::Random| (random.vector(n, 1.0), random.vector(n, 3.0), random.part());
+    (1..={POINTS}_u64).map(|seed| point(random::Random::new(seed))).collect()
 }}
 fn print(values: &[f64]) {{
     let bits: Vec<String> = values.iter().map(|v| if v.is_nan() {{ f64::NAN.to_bits() }} else {{ (v + 0.0).to_bits() }}).map(|b| b.to_string()).collect();

@@ -70,7 +70,8 @@ const KINDS: &[(&str, Option<(&str, &str)>)] = &[
     ("sin(atan2(U - C, -1))", None),
     ("sqrt((U - C)^2 + 1e-4)", None),
     ("0.1 * acos(0.999 * cos(2 * (U - C)))", None),
-    ("0.01 * tan(U - C)", None),
+    // its poles lie behind the end
+    ("0.01 * tan(0.5 * (U - C))", None),
     ("sqrt(1 + U^2)", None),
 ];
 
@@ -109,7 +110,7 @@ fn both_sides_of_a_rim_of_the_motion_decide() {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(40))]
+    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn random_inner_zeros_are_told(kind in 0..KINDS.len(), c in 0.1..1.0_f64, every in 0.011..0.9_f64, slope in -0.5..0.5_f64) {

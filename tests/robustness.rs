@@ -6,6 +6,7 @@ mod support;
 
 use mechc::{Choice, Memory, Parsed};
 use std::fmt::Write;
+use support::random::Random;
 use support::{Outcome, Span, compiled, run};
 
 /// A pendulum whose driver is a formula, with more declarations before it.
@@ -87,11 +88,8 @@ fn functions_that_share_stay_linear() {
 
 #[test]
 fn random_text_is_answered() {
-    let mut state = 12345_u64;
-    let mut random = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize
-    };
+    let mut numbers = Random::new(12345);
+    let mut random = || numbers.below(usize::MAX);
     let words = [
         "mechanism",
         "m",

@@ -13,6 +13,7 @@ use serde_json::Value;
 use std::cell::RefCell;
 use std::collections::HashMap;
 use std::fs;
+use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
 use support::{compile_number, compiled, files, mechanisms, stem};
@@ -413,9 +414,7 @@ fn some_number(symbol: Symbol, seed: u64) -> f64 {
         Symbol::Coordinate { index, order } => 10 + 4 * u64::from(index) + u64::from(order),
         _ => 1,
     };
-    let mixed = (number * 1000 + seed).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-    let mixed = (mixed ^ (mixed >> 29)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    (mixed >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+    Random::new(number * 1000 + seed).between(-1.0, 1.0)
 }
 
 #[test]

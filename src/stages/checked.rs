@@ -21,6 +21,15 @@ pub struct Choice {
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
+///
+/// ```
+/// use mechc::{Choice, Memory, Parsed};
+///
+/// let parsed = Parsed::of("lever.mech", "mechanism lever { body bar { point P = (1 m, 0) } driver d: angle(bra) = t }");
+/// let checked = parsed.check(&Choice::default(), &Memory::default());
+/// assert!(!checked.is_sound());
+/// assert_eq!(checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>(), ["E0201"]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Checked {
     parsed: Parsed,

@@ -21,6 +21,22 @@ pub enum Redundant {
 }
 
 /// A mechanism that is shown to be determined.
+///
+/// ```
+/// use mechc::{Cancel, Choice, Memory, Parsed, Redundant};
+///
+/// let text = "mechanism disc {
+///      ground { point O = (0, 0) }
+///      body wheel { point O = (0, 0) }
+///      joint axle: revolute(ground.O, wheel.O)
+///      driver motor: rotation(axle) = 90 deg/s * t
+///  }";
+/// let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+/// let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+/// let compiled = compiled.expect("it is determined");
+/// assert!(said.is_empty());
+/// assert_eq!(compiled.drivers(), [("motor".to_owned(), "rotation(axle) = 90 deg/s * t".to_owned())]);
+/// ```
 #[derive(Clone)]
 pub struct Compiled {
     sources: Sources,

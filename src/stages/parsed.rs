@@ -8,6 +8,12 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// A file that was read, whatever its faults.
+///
+/// ```
+/// let parsed = mechc::Parsed::of("two.mech", "mechanism arm { } mechanism leg { body foot { } } // to come");
+/// assert!(parsed.faults().is_empty());
+/// assert_eq!(parsed.mechanisms().collect::<Vec<_>>(), ["arm", "leg"]);
+/// ```
 #[derive(Clone, Debug)]
 pub struct Parsed {
     sources: Sources,

@@ -37,6 +37,26 @@ pub struct Assembly {
 }
 
 /// A motion, which owns all it needs: an iterator over its rows.
+///
+/// ```
+/// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
+/// # let text = "mechanism disc {
+/// #     ground { point O = (0, 0) }
+/// #     body wheel { point O = (0, 0) }
+/// #     joint axle: revolute(ground.O, wheel.O)
+/// #     driver motor: rotation(axle) = 90 deg/s * t
+/// # }";
+/// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+/// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
+/// # let compiled = compiled.expect("it is determined");
+/// let times = Times::grid(0.0, 2.0, 0.5).expect("a grid");
+/// let (run, _) = compiled.run(&times, &RunOptions::default());
+/// let run = run.expect("it assembles");
+/// assert_eq!(run.columns()[..4], ["t", "wheel.x", "wheel.y", "wheel.phi"]);
+/// let turned: Vec<f64> = run.map(|row| row.expect("it moves")[3]).collect();
+/// assert_eq!(turned.len(), 5);
+/// assert!((turned[4] - std::f64::consts::PI).abs() < 1e-12);
+/// ```
 pub struct Run {
     motion: Motion,
     columns: Arc<[String]>,

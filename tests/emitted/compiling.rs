@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+use crate::support::random::Random;
 use crate::support::{all_rows, compile_number, compile_without_redundant};
 use mechc::rooms::program::Stage;
 use mechc::{Compiled, LARGEST_STRAIGHT, RustOptions};
@@ -114,14 +115,8 @@ pub fn compile(compiler: &str, arguments: &[&str], source: &Path) -> Result<(), 
 
 /// Coordinates, velocities and a time that are the same wherever they are made.
 pub fn point(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {
-    let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) + 1;
-    let mut next = || {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    };
-    let q = (0..n).map(|_| next()).collect();
-    let qd = (0..n).map(|_| 3.0 * next()).collect();
-    (q, qd, next().abs())
+    let mut random = Random::new(seed);
+    (random.vector(n, 1.0), random.vector(n, 3.0), random.part())
 }
 
 /// What the interpreter makes of a point: Φ, Φ_q, Φ_t, ν, γ, as bits.

@@ -1,27 +1,11 @@
 //! MATLAB's meaning of a formula, and the language's, each evaluated on its own; and random formulas to compare them.
 
+use crate::support::random::Random;
 use mechc::rooms::math;
 use mechc::rooms::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
 use std::f64::consts::PI;
 
 // ---- random formulas
-
-pub struct Random(u64);
-
-impl Random {
-    pub fn new(seed: u64) -> Random {
-        Random(seed)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % n
-    }
-
-    fn of<'a>(&mut self, list: &[&'a str]) -> &'a str {
-        list[self.below(list.len())]
-    }
-}
 
 const OPERATORS: &[&str] = &[
     " + ", "-", "*", ".*", "/", "./", "\\", "^", ".^", " < ", "<=", ">", ">=", "==", "~=", "&", "|", "&&", "||", "^-",

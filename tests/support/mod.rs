@@ -3,6 +3,7 @@
 #![allow(dead_code)] // each test file uses its part
 
 pub mod listed;
+pub mod random;
 pub mod reading;
 pub mod shape;
 pub mod tex;
@@ -157,12 +158,12 @@ pub fn all_rows(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Option<Di
     (outcome.rows, stop)
 }
 
-/// Follows a motion to its last row, or to where it stops.
-pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome: &mut Outcome) {
+/// Follows a motion to its last row, or to where it stops; gives whether it began.
+pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome: &mut Outcome) -> bool {
     outcome.columns = compiled.columns();
     let (run, said) = compiled.run(times, options);
     outcome.diagnostics.extend(said);
-    let Some(mut run) = run else { return };
+    let Some(mut run) = run else { return false };
     let mut why = None;
     for row in run.by_ref() {
         match row {
@@ -172,6 +173,7 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
     }
     outcome.diagnostics.extend(run.take_remarks());
     outcome.diagnostics.extend(why);
+    true
 }
 
 /// A run that goes on beyond bifurcations, with another output step if one is given; and the times of those it has passed (s).
