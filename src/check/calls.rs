@@ -218,9 +218,9 @@ impl<'a> Checker<'a> {
         while self.calls.is_given_up && !self.calls.is_too_large {
             self.make_up(before, context.place);
             value = self.reading(before, &mut read);
-            if !self.calls.is_given_up {
-                self.forget_repeated_conditions(conditions);
-            }
+        }
+        if !self.calls.is_given_up {
+            self.forget_repeated_conditions(conditions);
         }
         self.calls.waiting.clear();
         value
@@ -274,8 +274,11 @@ impl<'a> Checker<'a> {
         (self.untaken, self.guard, self.caller) = outer;
     }
 
-    /// What was read again has asked for the same again.
+    /// What was read again, or is called twice, has asked for the same again.
     fn forget_repeated_conditions(&mut self, from: usize) {
+        if self.model.conditions.len() <= from + 1 {
+            return;
+        }
         let mut known = FxHashSet::default();
         let asked = self.model.conditions.split_off(from);
         let new = asked.into_iter().filter(|condition| known.insert((condition.positive, condition.span)));
