@@ -7,7 +7,7 @@
 mod formula;
 mod letters;
 
-use crate::expr::{ExprId, Table};
+use crate::expr::{ExprId, Node, Table};
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
 use formula::{Formulas, coordinate, param};
 use letters::{Set, Style, numeral, symbol, words};
@@ -59,12 +59,22 @@ pub fn latex(system: &ConstraintSystem, file: &str) -> String {
     writer.text + "\n\\end{document}\n"
 }
 
+/// A measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
+fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
+    let is_none =
+        |id: ExprId| system.graph.dependence(id).is_constant() && !system.graph.value(id, |_| 0.0).is_finite();
+    match system.graph.node(measure) {
+        Node::Select(_, value, otherwise) if is_none(otherwise) => value,
+        _ => measure,
+    }
+}
+
 /// Every formula that is written.
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu.iter().chain(&system.gamma));
-    roots.extend(system.measures.iter().map(|measure| measure.value));
+    roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
     roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
     roots
 }
@@ -277,7 +287,7 @@ impl Writer<'_> {
             self.section("Measures");
         }
         for (k, measure) in self.system.measures.iter().enumerate() {
-            let text = self.formulas.text(measure.value);
+            let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
             self.entry(&symbol(&measure.name, Style::Italic, k).text, &text);
             self.terms();
         }
