@@ -1,9 +1,9 @@
 //! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
 
-use super::renames::{uses_in, uses_of_argument};
+use super::mentions::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, FeatureKind, ItemKind, Mechanism, Name};
+use crate::syntax::ast::{Expr, FeatureKind, ItemKind, Mechanism, Name};
 use crate::vocabulary::{KindOfName, another_name, is_called, is_taken};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -134,7 +134,7 @@ impl Checker<'_> {
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             let is_reserved = is_taken(&name.text) || callable && is_called(&name.text);
             if is_reserved {
-                let uses = uses_in(mechanism, name, entity);
+                let uses = uses_in(mechanism, name, callable);
                 self.report_reserved(name, entity.kind_of_name(), &uses);
             }
             // declared all the same, so that its uses are not reported too
@@ -290,18 +290,4 @@ impl Checker<'_> {
 /// Every word of a text.
 fn words_of(text: &str) -> FxHashSet<&str> {
     text.split(|c: char| !(c.is_alphanumeric() || c == '_')).collect()
-}
-
-/// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and
-/// quantities, whose names something else may share.
-pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
-    let mut open = vec![formula];
-    while let Some(e) = open.pop() {
-        match &e.kind {
-            ExprKind::Call { name, .. } if is_called(&name.text) => {}
-            ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
-            _ => {}
-        }
-        open.extend(e.children().into_iter().rev());
-    }
 }

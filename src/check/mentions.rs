@@ -1,9 +1,8 @@
-//! Where a name is used that is to have another one.
+//! Which names formulas mention, and where.
 
-use super::names::{Entity, mentioned};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
-use crate::vocabulary::{Constant, StandsFor, Unit};
+use crate::vocabulary::{Constant, StandsFor, Unit, is_called};
 
 /// Where the argument of a function or curve stands in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
@@ -16,9 +15,8 @@ pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     uses
 }
 
-/// Where a mechanism names one of its declarations.
-pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, entity: Entity) -> Vec<Span> {
-    let is_called = matches!(entity, Entity::Function(_) | Entity::Table(_));
+/// Where a mechanism names one of its declarations, which is called or is not.
+pub(super) fn uses_in(mechanism: &Mechanism, declared: &Name, is_called: bool) -> Vec<Span> {
     // alone, `t` may as well be the time
     let is_time =
         Constant::named(&declared.text).is_some_and(|constant| matches!(constant.stands_for, StandsFor::Time));
@@ -82,5 +80,19 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
         FeatureKind::AxisTo { origin, target } => vec![origin, target],
         FeatureKind::Circle { center, radius } => vec![center, radius],
         FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
+    }
+}
+
+/// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and
+/// quantities, whose names something else may share.
+pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
+    let mut open = vec![formula];
+    while let Some(e) = open.pop() {
+        match &e.kind {
+            ExprKind::Call { name, .. } if is_called(&name.text) => {}
+            ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
+            _ => {}
+        }
+        open.extend(e.children().into_iter().rev());
     }
 }
