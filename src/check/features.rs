@@ -2,7 +2,7 @@
 
 use super::formula::Context;
 use super::names::{Entity, Space};
-use super::{Checker, declared, errors, instead};
+use super::{Checker, declared, errors, mends};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
@@ -231,8 +231,8 @@ impl Checker<'_> {
             let found = if parts.is_empty() { 1 } else { parts.len() };
             let word = Keyword::named("at").map(|keyword| &keyword.word);
             let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
-            let fix = self.decimal_comma(parts, 3).or_else(|| instead::angle_missing(parts));
-            self.report(instead::fixed_first(diagnostic, fix));
+            let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
+            self.report(mends::fixed_first(diagnostic, fix));
             return None;
         };
         let lengths = self.lengths([x, y], "the estimate of a pose");

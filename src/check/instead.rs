@@ -3,6 +3,7 @@
 use super::Checker;
 use super::errors::list;
 use super::features::Feature;
+use super::mends::fixed_first;
 use super::names::Entity;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::model::{Dimension, Frame, JointKind};
@@ -184,21 +185,4 @@ impl Checker<'_> {
 
 fn is_unit_of_angle(unit: &str) -> bool {
     Unit::named(unit).is_some_and(|unit| unit.dimension.is(Dimension::PURE))
-}
-
-/// `at (0, 0)`: the angle that is missing.
-pub(super) fn angle_missing(parts: &[Expr]) -> Option<Fix> {
-    let [_, y] = parts else { return None };
-    Some(Fix::append(y.span, ", 0 deg", "a pose has an angle too: `at (x, y, 0 deg)`", Applies::Probably))
-}
-
-/// With the fix in front of the form.
-pub(super) fn fixed_first(mut diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
-    match fix {
-        Some(fix) => {
-            diagnostic.help.clear();
-            diagnostic.fix(fix)
-        }
-        None => diagnostic,
-    }
 }

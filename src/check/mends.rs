@@ -1,8 +1,8 @@
 //! Changes of the text that mend a dimension or a name.
 
-use crate::diag::{Applies, Edit, Fix};
+use crate::diag::{Applies, Diagnostic, Edit, Fix};
 use crate::source::Span;
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Expr, Name};
 
 /// Whether a text is a number and nothing else.
 pub(super) fn is_bare_number(text: &str) -> bool {
@@ -30,4 +30,21 @@ pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -
     let places = std::iter::once(&name.span).chain(uses);
     let edits = places.map(|&span| Edit { span, text: free.to_owned() }).collect();
     Fix { message, edits, applies: Applies::Probably }
+}
+
+/// With the fix in front of the form.
+pub(super) fn fixed_first(mut diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
+    match fix {
+        Some(fix) => {
+            diagnostic.help.clear();
+            diagnostic.fix(fix)
+        }
+        None => diagnostic,
+    }
+}
+
+/// `at (0, 0)`: the angle that is missing.
+pub(super) fn angle_missing(parts: &[Expr]) -> Option<Fix> {
+    let [_, y] = parts else { return None };
+    Some(Fix::append(y.span, ", 0 deg", "a pose has an angle too: `at (x, y, 0 deg)`", Applies::Probably))
 }

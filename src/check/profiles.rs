@@ -2,7 +2,7 @@
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
-use super::{Checker, errors, instead};
+use super::{Checker, errors, mends};
 use crate::expr::Dependence;
 use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
 use crate::source::Span;
@@ -129,7 +129,7 @@ impl Checker<'_> {
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
-                    self.report(instead::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
+                    self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
                     None
                 }
             }
