@@ -142,12 +142,6 @@ impl Started {
         inverses.iter().map(|inverse| 1.0 / inverse).collect()
     }
 
-    /// Names of the result's columns, in order.
-    #[must_use]
-    pub fn columns(&self) -> Vec<String> {
-        columns(self.kinematics.system())
-    }
-
     /// The motion from the start on, a row for each of some times, which do not come before the start.
     #[must_use]
     pub fn into_motion(self, times: &Times) -> Motion {

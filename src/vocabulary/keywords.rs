@@ -401,3 +401,16 @@ pub static KEYWORDS: &[Keyword] = &[
         ON_THE_RIGHT,
     ),
 ];
+
+#[cfg(test)]
+mod tests {
+    use super::{KEYWORDS, Keyword, LONGEST};
+
+    #[test]
+    fn every_keyword_is_found_by_its_name() {
+        assert_eq!(KEYWORDS.iter().map(|keyword| keyword.word.name.len()).max(), Some(LONGEST));
+        for keyword in KEYWORDS {
+            assert!(Keyword::named(keyword.word.name).is_some(), "{}", keyword.word.name);
+        }
+    }
+}
