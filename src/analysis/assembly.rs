@@ -3,11 +3,12 @@
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
+use super::branches::{self, Doubt};
 use super::edges::behind_start;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
-use super::least_squares::{Values, minimize};
 use super::open_loop;
+use super::search::{Noise, levenberg_marquardt};
 use super::singular;
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, WatchKind};
@@ -55,6 +56,8 @@ pub struct Moved {
     pub angle_body: usize,
     /// Whether the estimates led nowhere, and others near them had to be tried.
     pub perturbed: bool,
+    /// Why this may not be the position that the estimates mean.
+    pub doubt: Option<Doubt>,
 }
 
 /// Assembles at time `t`.
@@ -75,7 +78,8 @@ pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Mo
         Some(q) => (q, false),
         None => by_least_squares(kinematics, &start, t)?,
     };
-    let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
+    let doubt = branches::doubt(kinematics, &estimates, &q);
+    let moved = Moved { perturbed, doubt, ..moved(system, &estimates, &q) };
     refuse_vanishing_tangents(kinematics, &q, t)?;
     refuse_singular(kinematics, &q, t)?;
     Ok((State::new(t, q), moved))
@@ -183,7 +187,7 @@ fn by_least_squares(
     t: f64,
 ) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
     let mut nearest = None;
-    let mut noise = Noise(0x9e37_79b9_7f4a_7c15);
+    let mut noise = Noise::new();
     for size in std::iter::once(0.0).chain(PERTURBATIONS) {
         if kinematics.is_cancelled() {
             break;
@@ -344,29 +348,4 @@ fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Vec<f64> {
         }
     }
     q
-}
-
-fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u32], columns: &[u32]) {
-    let determined = kinematics.determined();
-    let system = determined.system();
-    // where the equations have no value there, the position stays as it is
-    let _ = minimize(system, columns, q, None, |q, weights| {
-        kinematics.set_position(q).ok()?;
-        let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));
-        Values { system, phi, phi_q }.linear(rows, columns, weights)
-    });
-}
-
-/// Numbers in [−1, 1] that are the same on every run (G. Steele et al., *SplitMix*, 2014).
-struct Noise(u64);
-
-impl Noise {
-    fn next(&mut self) -> f64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^= z >> 31;
-        (z >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
-    }
 }

@@ -10,6 +10,7 @@
 //! coordinate hold by that.
 
 mod assembly;
+mod branches;
 mod bridge;
 mod dense;
 mod determinant;
@@ -29,6 +30,7 @@ mod reach;
 mod redundancy;
 mod rims;
 mod rows;
+mod search;
 mod signals;
 mod singular;
 mod sparse;
@@ -37,6 +39,7 @@ mod touch;
 mod yardstick;
 
 pub use assembly::Moved;
+pub use branches::{Doubt, Off};
 pub use determine::determine;
 pub use march::Motion;
 pub use times::Times;

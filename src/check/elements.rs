@@ -94,6 +94,11 @@ impl Checker<'_> {
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
         self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
+        for (side, value, other) in [(left, a, right), (right, b, left)] {
+            if is_a_length(other) {
+                self.remember_length(side, value.id, context.judged);
+            }
+        }
         if !self.a_body_moves([a.id, b.id]) {
             self.report(errors::nobody_moves(driver, name, left.span.to(right.span)));
             return None;

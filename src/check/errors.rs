@@ -281,6 +281,9 @@ pub fn derivative_too_high(span: Span) -> Diagnostic {
 
 // ---- dimensions and values
 
+/// Places of one kind that are shown beside the first one, at most.
+const MOST_PLACES: usize = 4;
+
 /// A part of a formula, for a message about it.
 #[derive(Clone, Copy)]
 pub struct Part {
@@ -562,6 +565,46 @@ pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
         .help(words)
         .change(is_bare.then(|| unit("deg")))
         .change(is_bare.then(|| unit("rad")))
+}
+
+/// A plain length, for the words about it.
+pub struct WithoutUnit<'n> {
+    /// In metres.
+    pub value: f64,
+    pub span: Span,
+    /// Of the parameter.
+    pub name: Option<&'n str>,
+    /// Whether a number stands there alone, behind which the unit can be written.
+    pub is_number: bool,
+}
+
+/// All lengths without a unit, those first that dwarf the largest one with a unit (m): so many.
+pub fn no_unit_of_length(lengths: &[WithoutUnit<'_>], dwarfing: usize, largest: f64, unit: &str) -> Diagnostic {
+    let first = &lengths[0];
+    let [largest, taken] = [largest, first.value].map(|value| told(value, Dimension::LENGTH));
+    let what = first.name.map_or("a length".to_owned(), |name| format!("`{name}`"));
+    let message = format!("{what} has no unit and is taken as {taken}; the largest length with a unit is {largest}");
+    let mut diagnostic = Diagnostic::new(Code::W0402, message).at(first.span, "no unit, so in metres");
+    for length in lengths[..dwarfing].iter().skip(1).take(MOST_PLACES) {
+        diagnostic = diagnostic.also(length.span, format!("taken as {}", told(length.value, Dimension::LENGTH)));
+    }
+    // a formula is told where its unit is missing by whoever wrote it
+    let written = |unit: &str| {
+        if first.is_number { format!("`{} {unit}`", readable(first.value)) } else { format!("`{unit}`") }
+    };
+    let with = |unit: &str| {
+        let numbers = lengths.iter().filter(|length| length.is_number);
+        let edit = |length: &WithoutUnit<'_>| Edit {
+            span: Span { start: length.span.end, ..length.span },
+            text: format!(" {unit}"),
+        };
+        let message = format!("write {}", written(unit));
+        Fix { message, edits: numbers.map(edit).collect(), applies: Applies::Probably }
+    };
+    diagnostic
+        .help(format!("write {}, or {} if metres are meant", written(unit), written("m")))
+        .change(first.is_number.then(|| with(unit)))
+        .change(first.is_number.then(|| with("m")))
 }
 
 // ---- the whole

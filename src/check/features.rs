@@ -212,6 +212,7 @@ impl Checker<'_> {
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
+            self.remember_length(part, value.id, context.judged);
         }
         Some([x.id, y.id])
     }

@@ -578,6 +578,9 @@ impl Checker<'_> {
             return None;
         }
         self.demand(place, wanted, e.span, value.dim, &context)?;
+        if wanted.is(Dimension::LENGTH) {
+            self.remember_length(e, value.id, judged);
+        }
         let number = self.constant_value(value.id)?;
         Some((value.id, number))
     }

@@ -55,7 +55,7 @@ fn units_in(e: &Expr) -> Vec<Span> {
 }
 
 /// The formulas of a declaration.
-fn formulas(item: &Item) -> Vec<&Expr> {
+pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
     match &item.kind {
         ItemKind::Param { value, .. } | ItemKind::Function { value, .. } | ItemKind::Measure { value, .. } => {
             vec![value]

@@ -12,6 +12,7 @@ mod features;
 mod formula;
 mod instead;
 mod joints;
+mod lengths;
 mod mends;
 mod mentions;
 mod names;
@@ -32,6 +33,7 @@ use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
+use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -190,6 +192,8 @@ struct Checker<'a> {
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
+    /// The constant lengths come upon.
+    lengths: Lengths,
     /// Bodies whose place in the drawing is not known.
     broken_poses: FxHashSet<Frame>,
     /// Parameters that are given in a unit of angle, with the places of their names.
@@ -232,6 +236,7 @@ impl<'a> Checker<'a> {
             bodies: Vec::new(),
             joints: Vec::new(),
             features: FxHashMap::default(),
+            lengths: Lengths::default(),
             broken_poses: FxHashSet::default(),
             angle_params: FxHashMap::default(),
             named: FxHashMap::default(),
@@ -255,6 +260,7 @@ impl<'a> Checker<'a> {
         self.measures(&measures);
         self.equations();
         self.analysis();
+        self.warn_of_plain_lengths();
         if self.bodies.is_empty() && !has_broken(self.tree) {
             self.report(errors::empty(&self.tree.name));
         }

@@ -97,6 +97,7 @@ catalogue! {
         E0416 Error "a row of a table that is not two numbers"
         E0417 Error "an argument out of a table's range"
         W0401 Warning "an angle that was probably meant in degrees"
+        W0402 Warning "a length that has lost its unit"
     }
     "degrees of freedom and the start" {
         E0501 Error "an empty mechanism"

@@ -2,6 +2,7 @@
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::assembly::Moved;
+use crate::analysis::branches::Off;
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
@@ -92,7 +93,7 @@ pub fn cannot_assemble(system: &ConstraintSystem, row: usize, residual: f64, t: 
         .datum("residual", residual)
 }
 
-/// A remark where assembly moved a body so far that its branch may not be the one meant.
+/// A remark where the estimates leave in doubt that the position taken is the one meant.
 ///
 /// From the estimates to the assembled position.
 pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, [from, to]: [&[f64]; 2], t: f64) -> Option<Diagnostic> {
@@ -106,14 +107,12 @@ pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, [from, to]: [&[f6
                 .change(assembled()),
         );
     }
-    let (far, turned) = (moved.length > system.length, moved.angle > std::f64::consts::FRAC_PI_2);
-    if !far && !turned {
-        return None;
-    }
-    let body = if far { moved.length_body } else { moved.angle_body };
-    let body = &system.bodies[body];
-    let how =
-        if far { format!("moved by {}", length(moved.length)) } else { format!("turned by {}", degrees(moved.angle)) };
+    let doubt = moved.doubt?;
+    let body = &system.bodies[doubt.body];
+    let how = match doubt.off {
+        Off::Moved(by) => format!("moved by {}", length(by)),
+        Off::Turned(by) => format!("turned by {}", degrees(by)),
+    };
     Some(
         Diagnostic::new(Code::N0601, format!("body `{}` was {how} by the assembly at {}", body.name, at(t)))
             .at(body.span, "far from its estimate")
