@@ -1,6 +1,6 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
-use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Name, TableRows};
+use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
 use crate::diag::Diagnostic;
@@ -83,16 +83,13 @@ pub fn is_name(text: &str) -> bool {
 impl Reader<'_> {
     /// A pair's place, without the white space and comments that the parser may have taken in behind it.
     pub(super) fn span(&self, pair: &Pair<'_, Rule>) -> Span {
-        let start = pair.as_span().start();
-        let mut last = pair.clone();
-        while !ends_with_a_token(last.as_rule()) {
-            match last.clone().into_inner().next_back() {
-                Some(inner) => last = inner,
-                None => break,
-            }
-        }
+        let whole = pair.as_span();
+        let ends_with_white_space = whole.as_str().ends_with(char::is_whitespace);
+        // a comment that was taken in reaches to the end of its line, and with it what ends the line, or to the end of the text
+        let is_last = whole.end() == whole.get_input().len();
+        let end = if ends_with_white_space || is_last { end_of_last_token(pair) } else { whole.end() };
         let place = |at: usize| (self.base + at) as u32;
-        Span { file: self.file, start: place(start), end: place(last.as_span().end()) }
+        Span { file: self.file, start: place(whole.start()), end: place(end) }
     }
 
     /// The words that a span covers.
@@ -115,9 +112,49 @@ impl Reader<'_> {
         Box::new(errors::misplaced(span, "a declaration is not complete", "more was expected before this"))
     }
 
+    /// What a pair holds and nothing else, beside what may follow it.
+    pub(super) fn only<'i>(&self, pair: Pair<'i, Rule>) -> Built<Pair<'i, Rule>> {
+        pair.into_inner().next().ok_or_else(|| self.truncated())
+    }
+
+    /// All mechanisms of a file.
+    pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<Vec<Mechanism>> {
+        let mechanisms = pair.into_inner().filter(|pair| pair.as_rule() == Rule::mechanism);
+        mechanisms.map(|pair| self.mechanism(pair)).collect()
+    }
+
+    fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
+        let span = self.span(&pair);
+        let mut inner = pair.into_inner();
+        let (name, _) = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
+        let mut items = Vec::new();
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::close => {}
+                Rule::ground | Rule::body => items.push(self.block(pair)?),
+                _ => items.push(self.plain_item(pair)?),
+            }
+        }
+        Ok(Mechanism { docs: self.docs_above(span.start), name, span, items })
+    }
+
+    /// The ground or a body.
+    fn block(&self, pair: Pair<'_, Rule>) -> Built<Item> {
+        let (span, is_ground) = (self.span(&pair), pair.as_rule() == Rule::ground);
+        let mut inner = pair.into_inner();
+        let head = inner.next().ok_or_else(|| self.truncated())?;
+        let features = inner.filter(|pair| pair.as_rule() != Rule::close).map(|pair| self.feature(pair));
+        let kind = if is_ground {
+            ItemKind::Ground { features: features.collect::<Built<_>>()? }
+        } else {
+            let (name, pose) = self.head(head)?;
+            ItemKind::Body { name, pose, features: features.collect::<Built<_>>()? }
+        };
+        Ok(Item { docs: self.docs_above(span.start), span, kind })
+    }
+
     /// A declaration of the mechanism that has no block.
     pub(super) fn plain_item(&self, pair: Pair<'_, Rule>) -> Built<Item> {
-        let pair = pair.into_inner().next().ok_or_else(|| self.truncated())?;
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
         let rule = pair.as_rule();
@@ -207,7 +244,6 @@ impl Reader<'_> {
 
     /// A feature of a body or of the ground.
     pub(super) fn feature(&self, pair: Pair<'_, Rule>) -> Built<Feature> {
-        let pair = pair.into_inner().next().ok_or_else(|| self.truncated())?;
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
         let rule = pair.as_rule();
@@ -275,6 +311,18 @@ pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
         .collect();
     docs.reverse();
     docs
+}
+
+/// The byte behind the last word or bracket of a pair.
+fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
+    let mut last = pair.clone();
+    while !ends_with_a_token(last.as_rule()) {
+        match last.clone().into_inner().next_back() {
+            Some(inner) => last = inner,
+            None => break,
+        }
+    }
+    last.as_span().end()
 }
 
 /// Whether a rule's last part is a word or a bracket, which it ends with and not behind.

@@ -1,8 +1,8 @@
-//! From a text to its tree, declaration by declaration: a fault spoils the one it stands in, and no other.
+//! From a text to its tree. A text that follows the grammar is read by it at once. Any other one is read declaration by
+//! declaration: a fault spoils the one it stands in, and no other.
 //!
 //! The grammar says what a declaration is; where it begins, and where its block ends, is seen beforehand from words and braces
-//! ([`Outline`]). So a text that follows the grammar is read as the grammar has it, and of any other one everything is read that
-//! does.
+//! ([`Outline`]). Read this way, a text that follows the grammar has the same tree.
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
@@ -41,6 +41,21 @@ pub struct Parsed {
 #[must_use]
 pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let source = sources.get(file);
+    let whole = Piece { source, file, range: 0..source.text.len() };
+    // once for the whole text: a stack of its own takes longer than most declarations
+    let (mechanisms, mut faults) = stacker::maybe_grow(STACK, STACK, || {
+        let at_once = whole.read(Rule::file, |reader, pair| reader.file(pair));
+        at_once.map_or_else(|_| by_declarations(source, file), |mechanisms| (mechanisms, Diagnostics::default()))
+    });
+    if mechanisms.is_empty() && faults.is_empty() {
+        faults.push(errors::no_mechanism(sources.end_of(file)));
+    }
+    faults.sort_by_place();
+    Parsed { tree: File { mechanisms }, trivia: trivia::of(&source.text, file), faults }
+}
+
+/// The mechanisms of a text that may have faults, with those.
+fn by_declarations(source: &Source, file: FileId) -> (Vec<Mechanism>, Diagnostics) {
     let mut reading = Reading {
         source,
         file,
@@ -51,14 +66,8 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
         has_told_the_end: false,
         last_told: None,
     };
-    // once for the whole text: a stack of its own takes longer than most declarations
-    let mechanisms = stacker::maybe_grow(STACK, STACK, || reading.file());
-    let mut faults = reading.faults;
-    if mechanisms.is_empty() && faults.is_empty() {
-        faults.push(errors::no_mechanism(sources.end_of(file)));
-    }
-    faults.sort_by_place();
-    Parsed { tree: File { mechanisms }, trivia: trivia::of(&source.text, file), faults }
+    let mechanisms = reading.file();
+    (mechanisms, reading.faults)
 }
 
 /// A formula alone, as the command line takes it.
@@ -269,7 +278,9 @@ impl Reading<'_> {
     fn plain_item(&mut self) -> Item {
         let first = self.at;
         let read = if self.outline.begins_large_declaration(first) {
-            self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| reader.plain_item(pair))
+            self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| {
+                reader.plain_item(reader.only(pair)?)
+            })
         } else {
             Err(self.fault_of(Rule::item_or_close))
         };
@@ -289,7 +300,9 @@ impl Reading<'_> {
     fn feature(&mut self) -> Feature {
         let first = self.at;
         let read = if self.outline.is_feature(first) {
-            self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| reader.feature(pair))
+            self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| {
+                reader.feature(reader.only(pair)?)
+            })
         } else {
             Err(self.fault_of(Rule::feature_or_close))
         };
@@ -469,12 +482,25 @@ mod tests {
     const MORE: &str = include_str!("../../examples/cam_with_dwells.mech");
 
     #[test]
+    fn a_text_without_faults_has_one_tree_both_ways() {
+        for text in [TEXT, MORE, include_str!("../../tests/stages/everything/input.mech")] {
+            let mut sources = Sources::default();
+            let file = sources.add("text.mech", text);
+            let (mechanisms, faults) = super::by_declarations(sources.get(file), file);
+            assert!(faults.is_empty(), "{faults:?}");
+            assert_eq!(parse(&sources, file).tree.mechanisms, mechanisms);
+        }
+    }
+
+    #[test]
     fn what_is_read_without_faults_is_what_the_grammar_has() {
         let (mut state, mut refused) = (1, 0);
         for k in 0..600 {
             let text = damaged(if k % 2 == 0 { TEXT } else { MORE }, &mut state);
             let is_in_the_grammar = Grammar::parse(Rule::file, &text).is_ok();
-            let faults = parsed(&text).faults;
+            let mut sources = Sources::default();
+            let file = sources.add("text.mech", text.as_str());
+            let (_, faults) = super::by_declarations(sources.get(file), file);
             // what the grammar lets pass may still be no formula
             let is_let_pass = faults.iter().all(|f| f.code == Code::E0309 || f.message.contains("unit"));
             assert_eq!(is_in_the_grammar, faults.is_empty() || is_let_pass, "{text}\n{faults:?}");
