@@ -3,7 +3,6 @@
 //! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
 //! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
 
-use super::branches::{self, Doubt};
 use super::edges::behind_start;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
@@ -56,8 +55,6 @@ pub struct Moved {
     pub angle_body: usize,
     /// Whether the estimates led nowhere, and others near them had to be tried.
     pub perturbed: bool,
-    /// Why this may not be the position that the estimates mean.
-    pub doubt: Option<Doubt>,
 }
 
 /// Assembles at time `t`.
@@ -78,8 +75,7 @@ pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Mo
         Some(q) => (q, false),
         None => by_least_squares(kinematics, &start, t)?,
     };
-    let doubt = branches::doubt(kinematics, &estimates, &q);
-    let moved = Moved { perturbed, doubt, ..moved(system, &estimates, &q) };
+    let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
     refuse_vanishing_tangents(kinematics, &q, t)?;
     refuse_singular(kinematics, &q, t)?;
     Ok((State::new(t, q), moved))

@@ -1,12 +1,12 @@
-//! Whether the estimates say which of several positions is meant.
+//! Whether estimates that are far off leave in doubt which position is meant.
 //!
 //! Most loops can be assembled in more than one way, and assembly takes the one that it comes to. Where it had to move a
 //! body of a loop far, others are looked for; where one of them is not clearly farther from the estimates, the reader is
 //! told. What follows from drivers and joints without iteration is right however far off its estimate is.
 
-use super::kinematics::Kinematics;
+use super::kinematics::{Kinematics, State};
 use super::search::{Noise, levenberg_marquardt};
-use crate::ir::CoordinateKind;
+use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::structure::Determined;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
@@ -16,17 +16,20 @@ const TURNED_OVER: f64 = FRAC_PI_2;
 const AS_NEAR: f64 = 2.0;
 /// Positions that differ by less than this, scaled, are the same.
 const SAME: f64 = 1e-3;
-/// No others are looked for in loops of more coordinates.
-const LARGEST_LOOP: usize = 100;
+/// No others are looked for in loops of more coordinates, nor in larger systems than this: each search evaluates the whole.
+const LARGEST_LOOP: usize = 60;
+const LARGEST_SYSTEM: usize = 300;
+/// Loops in which others are looked for.
+const MOST_LOOPS: usize = 8;
 /// Positions from which others are looked for at random.
 const RANDOM_STARTS: usize = 8;
 
 /// Why the position taken may not be the one meant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Doubt {
-    /// Index of the body that was moved farthest.
+    /// Index of the body whose estimate is off.
     pub body: usize,
-    /// How far, as an estimate is off.
+    /// How far.
     pub off: Off,
 }
 
@@ -35,48 +38,55 @@ pub struct Doubt {
 pub enum Off {
     /// It was turned by this much (rad).
     Turned(f64),
-    /// It was moved by this much (m), and the loop can be assembled otherwise, no farther from the estimates, or is too
+    /// It was moved by this much (m), and the loop can be assembled otherwise, hardly farther from the estimates, or is too
     /// large to look.
     Moved(f64),
 }
 
-/// Equations that have to be solved together, with those that follow from them one after the other.
+/// Equations that have to be solved by iteration, with those that follow from them one after the other.
 #[derive(Default)]
 struct Loop {
     rows: Vec<u32>,
     columns: Vec<u32>,
 }
 
-/// Whether the estimates `from` leave in doubt that the assembled position `to` is the one meant. Leaves the kinematics at
-/// another position.
-pub(super) fn doubt(kinematics: &mut Kinematics, from: &[f64], to: &[f64]) -> Option<Doubt> {
+/// Whether the estimates `from` leave in doubt that the assembled state is the one meant.
+pub(super) fn doubt(kinematics: &mut Kinematics, from: &[f64], state: &State) -> Option<Doubt> {
     let determined = kinematics.determined();
     let system = determined.system();
-    let farthest = |columns: &mut dyn Iterator<Item = usize>| {
-        let mut moved: Option<Doubt> = None;
-        for column in columns {
-            let Some(body) = system.body_of(column) else { continue };
-            let kind = system.coordinates[column].kind;
-            let way = distance_of(kind, from[column], to[column]);
-            match kind {
-                CoordinateKind::Angle if way > TURNED_OVER => return Some(Doubt { body, off: Off::Turned(way) }),
-                CoordinateKind::Length if way > system.length && moved.is_none_or(|known| known.by() < way) => {
-                    moved = Some(Doubt { body, off: Off::Moved(way) });
-                }
-                _ => {}
-            }
-        }
-        moved
-    };
     // most estimates are near
-    farthest(&mut (0..to.len()))?;
-    loops(&determined).iter().find_map(|found| {
-        let doubt = farthest(&mut found.columns())?;
-        let is_open = matches!(doubt.off, Off::Turned(_))
-            || found.columns.len() > LARGEST_LOOP
-            || is_another_as_near(kinematics, found, from, to);
-        is_open.then_some(doubt)
-    })
+    farthest(system, 0..from.len(), from, &state.q)?;
+    let is_large = |found: &Loop| from.len() > LARGEST_SYSTEM || found.columns.len() > LARGEST_LOOP;
+    let loops = loops(&determined);
+    let far = loops.iter().filter_map(|found| Some((found, farthest(system, found.columns(), from, &state.q)?)));
+    let doubt = far.take(MOST_LOOPS).find(|(found, doubt)| {
+        matches!(doubt.off, Off::Turned(_)) || is_large(found) || is_another_as_near(kinematics, found, from, &state.q)
+    });
+    kinematics.restore(state);
+    doubt.map(|(_, doubt)| doubt)
+}
+
+/// The first body that turned over, or else the one that moved farthest, if that is far.
+fn farthest(
+    system: &ConstraintSystem,
+    columns: impl Iterator<Item = usize>,
+    from: &[f64],
+    to: &[f64],
+) -> Option<Doubt> {
+    let (mut farthest, mut moved) = (system.length, None);
+    for column in columns {
+        let Some(body) = system.body_of(column) else { continue };
+        let kind = system.coordinates[column].kind;
+        let way = distance_of(kind, from[column], to[column]);
+        match kind {
+            CoordinateKind::Angle if way > TURNED_OVER => return Some(Doubt { body, off: Off::Turned(way) }),
+            CoordinateKind::Length if way > farthest => {
+                (farthest, moved) = (way, Some(Doubt { body, off: Off::Moved(way) }));
+            }
+            _ => {}
+        }
+    }
+    moved
 }
 
 /// The loops, in their order of solution. What follows from drivers and joints without iteration is in none.
@@ -106,18 +116,13 @@ impl Loop {
     }
 }
 
-impl Doubt {
-    fn by(&self) -> f64 {
-        match self.off {
-            Off::Turned(by) | Off::Moved(by) => by,
-        }
-    }
-}
-
 /// Whether a loop can be assembled in another position that is as near to the estimates.
 fn is_another_as_near(kinematics: &mut Kinematics, within: &Loop, from: &[f64], to: &[f64]) -> bool {
     let most = AS_NEAR * distance(kinematics, within, from, to);
     starts(kinematics, within, from, to).into_iter().any(|mut q| {
+        if kinematics.is_cancelled() {
+            return false;
+        }
         levenberg_marquardt(kinematics, &mut q, &within.rows, &within.columns);
         let is_assembled = kinematics.set_position(&q).is_ok()
             && kinematics.factor().is_ok()

@@ -39,7 +39,6 @@ mod touch;
 mod yardstick;
 
 pub use assembly::Moved;
-pub use branches::{Doubt, Off};
 pub use determine::determine;
 pub use march::Motion;
 pub use times::Times;
@@ -50,6 +49,7 @@ use crate::ir::ConstraintSystem;
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
+use branches::Doubt;
 use kinematics::{Kinematics, State};
 use std::sync::Arc;
 
@@ -69,6 +69,8 @@ pub struct Started {
     kinematics: Kinematics,
     state: State,
     moved: Moved,
+    /// Why this may not be the position that the estimates mean.
+    doubt: Option<Doubt>,
     /// What solves for the rows; none where it would be too large.
     solver: Option<Arc<Solver>>,
 }
@@ -89,7 +91,9 @@ pub fn start(
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
     let solver = kinematics.solver().map(Arc::new);
-    Ok(Started { kinematics, state, moved, solver })
+    let estimates = kinematics.estimates();
+    let doubt = if moved.perturbed { None } else { branches::doubt(&mut kinematics, &estimates, &state) };
+    Ok(Started { kinematics, state, moved, doubt, solver })
 }
 
 impl Started {
@@ -99,7 +103,7 @@ impl Started {
         let mut diagnostics = Diagnostics::default();
         let (system, state) = (self.kinematics.system(), &self.state);
         let from = self.kinematics.estimates();
-        diagnostics.extend(errors::far_estimates(system, &self.moved, [&from, &state.q], state.t));
+        diagnostics.extend(errors::far_estimates(system, self.moved.perturbed, self.doubt, [&from, &state.q], state.t));
         diagnostics.extend(system.fits.iter().filter_map(|fit| errors::misfit(system, fit, &state.q, state.t)));
         diagnostics
     }

@@ -567,44 +567,45 @@ pub fn degrees(span: Span, value: f64, text: &str) -> Diagnostic {
         .change(is_bare.then(|| unit("rad")))
 }
 
-/// A plain length, for the words about it.
-pub struct WithoutUnit<'n> {
-    /// In metres.
+/// A length whose formula holds no unit, and where that would be written.
+#[derive(Clone, Copy)]
+pub struct Plain<'a> {
+    /// In metres, without its sign.
     pub value: f64,
     pub span: Span,
-    /// Of the parameter.
-    pub name: Option<&'n str>,
-    /// Whether a number stands there alone, behind which the unit can be written.
+    /// Of the parameter that it is.
+    pub name: Option<&'a str>,
+    /// Whether a number stands there, behind which the unit can be written.
     pub is_number: bool,
 }
 
-/// All lengths without a unit, those first that dwarf the largest one with a unit (m): so many.
-pub fn no_unit_of_length(lengths: &[WithoutUnit<'_>], dwarfing: usize, largest: f64, unit: &str) -> Diagnostic {
+/// All lengths without a unit, in their order in the text, which dwarf the largest one with a unit (m).
+pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Diagnostic {
+    let taken = |plain: &Plain<'_>| format!("taken as {}", told(plain.value, Dimension::LENGTH));
     let first = &lengths[0];
-    let [largest, taken] = [largest, first.value].map(|value| told(value, Dimension::LENGTH));
-    let what = first.name.map_or("a length".to_owned(), |name| format!("`{name}`"));
-    let message = format!("{what} has no unit and is taken as {taken}; the largest length with a unit is {largest}");
+    let (what, largest) =
+        (first.name.map_or("a length".to_owned(), |name| format!("`{name}`")), told(largest, Dimension::LENGTH));
+    let message = format!("{what} has no unit and is {}; the largest length with a unit is {largest}", taken(first));
     let mut diagnostic = Diagnostic::new(Code::W0402, message).at(first.span, "no unit, so in metres");
-    for length in lengths[..dwarfing].iter().skip(1).take(MOST_PLACES) {
-        diagnostic = diagnostic.also(length.span, format!("taken as {}", told(length.value, Dimension::LENGTH)));
+    for plain in lengths.iter().skip(1).take(MOST_PLACES) {
+        diagnostic = diagnostic.also(plain.span, taken(plain));
     }
-    // a formula is told where its unit is missing by whoever wrote it
-    let written = |unit: &str| {
-        if first.is_number { format!("`{} {unit}`", readable(first.value)) } else { format!("`{unit}`") }
+    // where a formula wants its unit is known to whoever wrote it
+    let written = |unit: &str| match lengths {
+        [only] if only.is_number => format!("`{} {unit}`", readable(only.value)),
+        _ => format!("`{unit}` behind the numbers that have no unit"),
     };
+    let numbers: Vec<Span> = lengths.iter().filter(|plain| plain.is_number).map(|plain| plain.span).collect();
     let with = |unit: &str| {
-        let numbers = lengths.iter().filter(|length| length.is_number);
-        let edit = |length: &WithoutUnit<'_>| Edit {
-            span: Span { start: length.span.end, ..length.span },
-            text: format!(" {unit}"),
-        };
+        let edit = |span: &Span| Edit { span: Span { start: span.end, ..*span }, text: format!(" {unit}") };
         let message = format!("write {}", written(unit));
-        Fix { message, edits: numbers.map(edit).collect(), applies: Applies::Probably }
+        Fix { message, edits: numbers.iter().map(edit).collect(), applies: Applies::Probably }
     };
+    let can_be_written = !numbers.is_empty();
     diagnostic
-        .help(format!("write {}, or {} if metres are meant", written(unit), written("m")))
-        .change(first.is_number.then(|| with(unit)))
-        .change(first.is_number.then(|| with("m")))
+        .help(format!("write {}; if metres are meant, `m`", written(unit)))
+        .change(can_be_written.then(|| with(unit)))
+        .change(can_be_written.then(|| with("m")))
 }
 
 // ---- the whole

@@ -212,7 +212,11 @@ impl Checker<'_> {
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
-            self.remember_length(part, value.id, context.judged);
+            if context.judged {
+                self.remember_length(value.id);
+            } else {
+                self.remember_plain_length(part, value.id);
+            }
         }
         Some([x.id, y.id])
     }

@@ -578,8 +578,10 @@ impl Checker<'_> {
             return None;
         }
         self.demand(place, wanted, e.span, value.dim, &context)?;
-        if wanted.is(Dimension::LENGTH) {
-            self.remember_length(e, value.id, judged);
+        match (wanted.is(Dimension::LENGTH), judged) {
+            (true, true) => self.remember_length(value.id),
+            (true, false) => self.remember_plain_length(e, value.id),
+            _ => {}
         }
         let number = self.constant_value(value.id)?;
         Some((value.id, number))

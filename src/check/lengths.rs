@@ -1,116 +1,121 @@
 //! Lengths without a unit beside lengths with one.
 //!
-//! A plain formula is taken in metres. Where all lengths are plain that is what was meant, or all are too large alike; but
-//! a plain one that dwarfs those with a unit has lost its own.
+//! A plain formula is taken in metres. Where all lengths are plain that is what was meant, or all are too large alike. But plain
+//! ones that dwarf those with a unit, and would fit to them if they had it too, have lost it.
 
 use super::Checker;
-use super::errors::{self, WithoutUnit};
+use super::errors::{self, Plain};
 use super::mentions::formulas;
 use super::names::Entity;
 use crate::expr::ExprId;
-use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, ItemKind};
-use crate::vocabulary::{Dimension, Unit};
+use crate::math;
+use crate::syntax::ast::{Expr, ExprKind};
+use crate::vocabulary::{Dimension, UNITS, Unit};
 use rustc_hash::FxHashMap;
 
-/// A plain length that is larger than this many times the largest one with a unit has lost its unit: millimetres that are
-/// taken for metres are a thousand times too large, inches 39 times.
-const TIMES: f64 = 25.0;
+/// A plain length this many times as large as the largest one with a unit has probably lost its own.
+const DWARFS: f64 = 10.0;
+/// Numbers below this are not written in millimetres or inches, but in metres.
+const IN_METRES: f64 = 1.0;
 
 /// The lengths of a mechanism, as they are come upon.
 #[derive(Default)]
-pub(super) struct Lengths {
-    /// The largest with a unit (m).
-    with_unit: f64,
-    plain: Vec<Plain>,
+pub(super) struct Lengths<'a> {
+    /// The smallest and the largest with a unit (m).
+    with_unit: Option<[f64; 2]>,
+    plain: Vec<Plain<'a>>,
 }
 
-/// A length whose formula holds no unit.
-#[derive(Clone, Copy)]
-struct Plain {
-    /// In metres.
-    value: f64,
-    span: Span,
-    /// The parameter that it is, with its sign at most.
-    param: Option<usize>,
-    is_number: bool,
-}
-
-impl Checker<'_> {
-    /// Remembers a constant length.
-    pub(super) fn remember_length(&mut self, e: &Expr, id: ExprId, judged: bool) {
-        let Some(value) = self.constant_value(id).filter(|value| *value != 0.0) else { return };
-        if judged {
-            self.lengths.with_unit = self.lengths.with_unit.max(value.abs());
-        } else {
-            let param = self.param_alone(e);
-            let is_number = e.bare_number().is_some();
-            self.lengths.plain.push(Plain { value, span: e.span, param, is_number });
+impl<'a> Checker<'a> {
+    /// Remembers a constant length with a unit.
+    pub(super) fn remember_length(&mut self, id: ExprId) {
+        if let Some(value) = self.constant_value(id).map(f64::abs).filter(|value| *value > 0.0) {
+            let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
+            self.lengths.with_unit = Some([least.min(value), most.max(value)]);
         }
     }
 
-    fn param_alone(&self, e: &Expr) -> Option<usize> {
-        match &e.bare().kind {
-            ExprKind::Negate(inner) => self.param_alone(inner),
-            ExprKind::Name(name) => match self.entity(name) {
-                Some(Entity::Param(k)) => Some(k),
-                _ => None,
-            },
-            _ => None,
+    /// Remembers a length without one: a constant, or the constant terms of a sum.
+    pub(super) fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
+        if let Some(value) = self.constant_value(id).map(f64::abs) {
+            let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
+            self.lengths.plain.extend(Some(plain).filter(|plain| plain.value > 0.0));
+        } else if let ExprKind::Sum(first, rest) = &e.bare().kind {
+            for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
+                let plain = self.root_of(term).filter(|plain| plain.value > 0.0);
+                // beside a unit the other terms want theirs too
+                self.lengths.plain.extend(plain.map(|plain| Plain { is_number: false, ..plain }));
+            }
         }
     }
 
-    /// Warns of those plain lengths that dwarf all with a unit.
-    pub(super) fn warn_of_plain_lengths(&mut self) {
-        let largest = self.lengths.with_unit;
-        if largest == 0.0 {
-            return;
-        }
-        let is_dwarfing = |value: f64| value.abs() > TIMES * largest;
-        if !self.lengths.plain.iter().any(|length| is_dwarfing(length.value)) {
-            return;
-        }
-        let params: Vec<(&str, &Expr)> = self.items().iter().filter_map(|item| as_param(&item.kind)).collect();
-        let mut without: Vec<WithoutUnit<'_>> = Vec::new();
-        for &Plain { value, span, param, is_number } in &self.lengths.plain {
-            let (name, span, is_number) = match param.map(|k| params[k]) {
-                // what was set from outside is mended there
-                Some((name, formula)) => {
-                    let is_set = self.settings.iter().any(|setting| setting.name == name);
-                    (Some(name), formula.span, !is_set && formula.bare_number().is_some())
+    /// The number or parameter that a formula is, but for its sign; through parameters that are nothing else.
+    fn root_of(&mut self, e: &Expr) -> Option<Plain<'a>> {
+        let mut found: Option<Plain<'a>> = None;
+        let mut e = e;
+        loop {
+            match &e.kind {
+                ExprKind::Paren(inner) | ExprKind::Negate(inner) => e = inner,
+                ExprKind::Literal { value, unit: None } => {
+                    let name = found.and_then(|plain| plain.name);
+                    let is_number = found.is_none_or(|plain| plain.is_number);
+                    return Some(Plain { value: value.abs(), span: e.span, name, is_number });
                 }
-                None => (None, span, is_number),
-            };
-            without.push(WithoutUnit { value, span, name, is_number });
+                ExprKind::Name(name) => {
+                    let Some(Entity::Param(k)) = self.entity(name) else { return found };
+                    let (name, formula, is_in_the_text) = self.param_as_given(k);
+                    let value = self.params[k].and_then(|value| self.constant_value(value.id))?.abs();
+                    let is_number = is_in_the_text && found.is_none_or(|plain| plain.is_number);
+                    found = Some(Plain { value, span: formula.span, name: Some(name), is_number });
+                    e = formula;
+                }
+                _ => return found.map(|plain| Plain { is_number: false, ..plain }),
+            }
         }
-        without.sort_by_key(|length| length.span);
-        without.dedup_by_key(|length| length.span);
-        without.sort_by_key(|length| !is_dwarfing(length.value));
-        let dwarfing = without.partition_point(|length| is_dwarfing(length.value));
-        self.report(errors::no_unit_of_length(&without, dwarfing, largest, self.usual_unit_of_length()));
     }
 
-    /// The unit in which most lengths of the mechanism are written.
-    fn usual_unit_of_length(&self) -> &'static str {
-        let mut counts: FxHashMap<&'static str, usize> = FxHashMap::default();
+    /// A parameter's name and formula; whether that stands in the text, or was given from outside.
+    fn param_as_given(&self, k: usize) -> (&'a str, &'a Expr, bool) {
+        let (name, value) = self.param_formulas[k];
+        let setting = self.settings.iter().rev().find(|setting| setting.name == name.text);
+        (&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none())
+    }
+
+    /// Warns of plain lengths that dwarf all with a unit, and would fit to them if they had that unit.
+    pub(super) fn warn_of_plain_lengths(&mut self) {
+        let Some([least, most]) = self.lengths.with_unit else { return };
+        let plain = &self.lengths.plain;
+        let dwarfs = plain.iter().any(|length| length.value > DWARFS * most);
+        if !dwarfs || plain.iter().any(|length| length.value < IN_METRES) {
+            return;
+        }
+        let unit = self.usual_unit_of_length();
+        let is_off = |value: f64| math::ln((value / most).max(least / value).max(1.0));
+        let is_off_with = |factor: f64| plain.iter().map(|length| is_off(factor * length.value)).sum::<f64>();
+        if is_off_with(unit.to_si(1.0, 1)) >= is_off_with(1.0) {
+            return;
+        }
+        let mut plain = std::mem::take(&mut self.lengths.plain);
+        plain.sort_by_key(|length| length.span);
+        plain.dedup_by_key(|length| length.span);
+        self.report(errors::no_unit_of_length(&plain, most, unit.word.name));
+    }
+
+    /// The unit in which most lengths of the mechanism are written; the metre where there is none.
+    fn usual_unit_of_length(&self) -> &'static Unit {
+        let mut counts: FxHashMap<&'static str, (usize, &'static Unit)> = FxHashMap::default();
         for e in self.items().iter().flat_map(formulas) {
             let mut open = vec![e];
             while let Some(e) = open.pop() {
                 if let ExprKind::Literal { unit: Some((name, 1)), .. } = &e.kind
                     && let Some(unit) = Unit::named(&name.text).filter(|unit| unit.dimension.is(Dimension::LENGTH))
                 {
-                    *counts.entry(unit.word.name).or_default() += 1;
+                    counts.entry(unit.word.name).or_insert((0, unit)).0 += 1;
                 }
                 open.extend(e.children());
             }
         }
-        counts.into_iter().max_by_key(|&(name, count)| (count, name)).map_or("mm", |(name, _)| name)
-    }
-}
-
-fn as_param(kind: &ItemKind) -> Option<(&str, &Expr)> {
-    match kind {
-        ItemKind::Param { name, value } => Some((&name.text, value)),
-        _ => None,
+        let most = counts.into_values().max_by_key(|&(count, unit)| (count, unit.word.name));
+        most.map_or(&UNITS[0], |(_, unit)| unit)
     }
 }

@@ -186,6 +186,8 @@ struct Checker<'a> {
     space: Space<Entity>,
     /// By the parameter's position; `None` where it is broken.
     params: Vec<Option<Value>>,
+    /// As the text has them, by the same position.
+    param_formulas: Vec<(&'a Name, &'a Expr)>,
     functions: Vec<Function<'a>>,
     tables: Vec<TableState<'a>>,
     measures: Vec<MeasureState<'a>>,
@@ -193,7 +195,7 @@ struct Checker<'a> {
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
-    lengths: Lengths,
+    lengths: Lengths<'a>,
     /// Bodies whose place in the drawing is not known.
     broken_poses: FxHashSet<Frame>,
     /// Parameters that are given in a unit of angle, with the places of their names.
@@ -230,6 +232,7 @@ impl<'a> Checker<'a> {
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
             space: Space::new(),
             params: Vec::new(),
+            param_formulas: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
             measures: Vec::new(),
@@ -298,6 +301,7 @@ impl<'a> Checker<'a> {
                     entities.push(Entity::Param(self.params.len()));
                     definitions.push((name, vec![value]));
                     self.params.push(None);
+                    self.param_formulas.push((name, value));
                 }
                 ItemKind::Function { name, argument, value } => {
                     entities.push(Entity::Function(self.functions.len()));

@@ -298,12 +298,11 @@ impl Reader<'_> {
 
 /// The `///` lines directly above a declaration that begins its line.
 pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
-    let text = &text[..start];
-    let line_start = text.rfind('\n').map_or(0, |at| at + 1);
-    if !text[line_start..].trim().is_empty() {
+    let before = text[..start].trim_end_matches(|c: char| c != '\n' && c.is_whitespace());
+    if !(before.is_empty() || before.ends_with('\n')) {
         return Vec::new();
     }
-    let mut docs: Vec<String> = text[..line_start]
+    let mut docs: Vec<String> = before
         .lines()
         .rev()
         .map_while(|line| line.trim_start().strip_prefix("///"))

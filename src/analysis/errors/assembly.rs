@@ -2,7 +2,7 @@
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::assembly::Moved;
-use crate::analysis::branches::Off;
+use crate::analysis::branches::{Doubt, Off};
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
@@ -96,9 +96,15 @@ pub fn cannot_assemble(system: &ConstraintSystem, row: usize, residual: f64, t: 
 /// A remark where the estimates leave in doubt that the position taken is the one meant.
 ///
 /// From the estimates to the assembled position.
-pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, [from, to]: [&[f64]; 2], t: f64) -> Option<Diagnostic> {
+pub fn far_estimates(
+    system: &ConstraintSystem,
+    perturbed: bool,
+    doubt: Option<Doubt>,
+    [from, to]: [&[f64]; 2],
+    t: f64,
+) -> Option<Diagnostic> {
     let assembled = || assembled_poses(system, from, to);
-    if moved.perturbed {
+    if perturbed {
         let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
         return Some(
             Diagnostic::new(Code::N0601, message)
@@ -107,7 +113,7 @@ pub fn far_estimates(system: &ConstraintSystem, moved: &Moved, [from, to]: [&[f6
                 .change(assembled()),
         );
     }
-    let doubt = moved.doubt?;
+    let doubt = doubt?;
     let body = &system.bodies[doubt.body];
     let how = match doubt.off {
         Off::Moved(by) => format!("moved by {}", length(by)),
