@@ -157,11 +157,15 @@ fn rows(compiled: &Compiled, determined: &Determined, program: &Program, mut run
                 assert_eq!(row.len(), columns.len(), "a row is as long as its header");
                 assert_eq!(row[0].to_bits(), t.to_bits(), "a row is at its time");
                 let n = determined.system().coordinates.len();
-                let measures = determined.system().measures.len();
+                let measures = &determined.system().measures;
+                let firsts = measures.iter().filter(|measure| measure.first.is_some()).count();
+                let (q, rest) = row[1..].split_at(n);
+                let (qd, rest) = rest[measures.len()..].split_at(n);
+                let qdd = &rest[firsts..][..n];
                 // a measure may have no value, a coordinate always has
-                let mut moving = row[1..].chunks(n + measures).flat_map(|part| part.iter().take(n));
+                let mut moving = q.iter().chain(qd).chain(qdd);
                 assert!(moving.all(|value| value.is_finite()), "not finite: {columns:?} {row:?}");
-                holds(determined, program, t, &row[1..=n], &row[1 + n + measures..][..n]);
+                holds(determined, program, t, q, qd);
                 known += 1;
             }
             Err(why) => {
