@@ -5,6 +5,7 @@
 
 use super::Checker;
 use super::errors::{self, Part};
+use super::meaning::{Alone, alone};
 use super::names::Entity;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
@@ -237,32 +238,30 @@ impl Checker<'_> {
     }
 
     fn name(&mut self, name: &Name, context: &Context<'_>) -> Option<Value> {
-        if let Some((argument, value)) = context.argument
-            && argument == name.text
-        {
-            return Some(value);
-        }
-        match Constant::named(&name.text).map(|constant| constant.stands_for) {
-            Some(StandsFor::Time) if context.time => {
-                let id = self.model.graph.symbol(Symbol::Time);
-                return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
+        let argument = context.argument.map(|(argument, _)| argument);
+        match alone(&name.text, argument, self.space.get(&name.text)) {
+            Alone::Argument => return context.argument.map(|(_, value)| value),
+            Alone::Constant(constant) => match constant.stands_for {
+                StandsFor::Time if context.time => {
+                    let id = self.model.graph.symbol(Symbol::Time);
+                    return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
+                }
+                // a parameter was meant
+                StandsFor::Time if self.is_declared_though_taken(name) => return None,
+                StandsFor::Time => {
+                    self.report(errors::time_in(context.place, name.span, None));
+                    return None;
+                }
+                StandsFor::Number(number) => return Some(self.pure(number)),
+                StandsFor::Ground => {}
+            },
+            // `10 mm/s` beside `param s`
+            Alone::Declared(_) if self.is_declared_though_taken(name) => return None,
+            Alone::Unit(unit) => {
+                let id = self.model.graph.constant(unit.to_si(1.0, 1));
+                return Some(Value { id, dim: Dim::Of(unit.dimension) });
             }
-            // a parameter was meant
-            Some(StandsFor::Time) if self.is_declared_though_taken(name) => return None,
-            Some(StandsFor::Time) => {
-                self.report(errors::time_in(context.place, name.span, None));
-                return None;
-            }
-            Some(StandsFor::Number(number)) => return Some(self.pure(number)),
-            Some(StandsFor::Ground) | None => {}
-        }
-        // `10 mm/s` beside `param s`
-        if self.is_declared_though_taken(name) {
-            return None;
-        }
-        if let Some(unit) = self.unit_alone(name) {
-            let id = self.model.graph.constant(unit.to_si(1.0, 1));
-            return Some(Value { id, dim: Dim::Of(unit.dimension) });
+            Alone::Declared(_) | Alone::Unknown => {}
         }
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(k)) => self.params[k],

@@ -13,6 +13,7 @@ mod formula;
 mod instead;
 mod joints;
 mod lengths;
+mod meaning;
 mod mends;
 mod mentions;
 mod names;

@@ -3,10 +3,11 @@
 //!
 //! By the tree alone: so it is there for a text with mistakes too, and costs nothing where nobody asks.
 
+use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
 use crate::syntax::keywords_in;
-use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, Unit, Word};
+use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A declaration, by its number in the order of the text.
@@ -308,7 +309,8 @@ impl Walk {
                     self.formula(radius, plain);
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
-                    let declared = self.declare(argument, NameKind::Argument, feature.span, None);
+                    let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
+                    let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
                     self.formula(at, Scope { argument: Some((&argument.text, declared)), ..plain });
                     if let Some(estimate) = estimate {
                         self.formula(estimate, plain);
@@ -347,24 +349,27 @@ impl Walk {
         }
     }
 
-    /// A name in a formula, in the order in which a formula knows them.
+    /// A name in a formula; where it stands for a place, a point of its own body comes first.
     fn name(&mut self, name: &Name, scope: Scope<'_>, is_alone: bool) {
-        let own =
-            scope.body.filter(|_| is_alone).and_then(|body| self.features.get(&(body, name.text.clone())).copied());
-        let argument = scope.argument.filter(|(argument, _)| *argument == name.text).map(|(_, id)| id);
-        let user = self.names.get(&name.text).copied();
-        if let Some(id) = own.or(argument) {
+        let body = scope.body.filter(|_| is_alone);
+        if let Some(&id) = body.and_then(|body| self.features.get(&(body, name.text.clone()))) {
             self.declared(name, id);
-        } else if name.text == "ground" && self.ground.is_some() {
-            self.ground.into_iter().for_each(|id| self.declared(name, id));
-        } else if let Some(constant) = Constant::named(&name.text) {
-            self.word(name, &constant.word);
-        } else if let Some(unit) = Unit::named(&name.text) {
-            self.word(name, &unit.word);
-        } else if let Some(id) = user {
-            self.declared(name, id);
-        } else if let Some(side) = Keyword::named(&name.text).filter(|keyword| keyword.role == Role::Side) {
-            self.word(name, &side.word);
+            return;
+        }
+        let argument = scope.argument.map(|(argument, _)| argument);
+        match alone(&name.text, argument, self.names.get(&name.text).copied()) {
+            Alone::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
+            Alone::Constant(Constant { stands_for: StandsFor::Ground, .. }) if self.ground.is_some() => {
+                self.ground.into_iter().for_each(|id| self.declared(name, id));
+            }
+            Alone::Constant(constant) => self.word(name, &constant.word),
+            Alone::Unit(unit) => self.word(name, &unit.word),
+            Alone::Declared(id) => self.declared(name, id),
+            Alone::Unknown => {
+                if let Some(side) = Keyword::named(&name.text).filter(|keyword| keyword.role == Role::Side) {
+                    self.word(name, &side.word);
+                }
+            }
         }
     }
 
@@ -452,6 +457,12 @@ mod tests {
         assert_eq!(of("ground.O", "‸ground.O"), ["ground { point O = (0, 0) }", "joint j: revolute(ground.O, b.O)"]);
         assert_eq!(of("rotation(j)", "rotation(‸j)").len(), 2);
         assert_eq!(of("= f(t)", "= ‸f(t)").len(), 2);
+    }
+
+    #[test]
+    fn a_declared_name_wins_over_a_unit_that_gives_way() {
+        let text = "mechanism m {\n param ‸Hz = 3\n body b { point P = (2 / Hz, 0) }\n measure k = 5 Hz * Hz\n}";
+        assert_eq!(places(text).len(), 3);
     }
 
     #[test]
