@@ -13,51 +13,18 @@ use std::fs;
 use std::path::Path;
 use support::files;
 
-/// Each room with the rooms that it may name.
-const ROOMS: &[(&str, &[&str])] = &[
-    ("source", &[]),
-    ("math", &[]),
-    ("vocabulary", &[]),
-    ("cancel", &[]),
-    ("output", &[]),
-    ("diag", &["source"]),
-    ("world", &["source", "diag"]),
-    ("expr", &["math"]),
-    ("syntax", &["source", "vocabulary", "diag"]),
-    ("model", &["source", "vocabulary", "expr"]),
-    ("check", &["source", "math", "vocabulary", "diag", "expr", "syntax", "model"]),
-    ("ir", &["source", "expr"]),
-    ("lower", &["expr", "model", "ir", "math"]),
-    ("structure", &["ir", "expr", "diag"]),
-    ("program", &["ir", "expr", "math"]),
-    ("solver", &["program", "structure", "ir", "expr", "math"]),
-    ("analysis", &["solver", "program", "structure", "ir", "expr", "diag", "math", "cancel"]),
-    ("emit", &["source", "solver", "program", "structure", "ir", "expr"]),
-    ("import", &["source", "vocabulary", "diag", "syntax"]),
-    (
-        "stages",
-        &[
-            "source",
-            "vocabulary",
-            "cancel",
-            "diag",
-            "world",
-            "expr",
-            "syntax",
-            "model",
-            "check",
-            "ir",
-            "lower",
-            "structure",
-            "program",
-            "solver",
-            "analysis",
-            "emit",
-            "import",
-        ],
-    ),
-    ("cli", &["source", "vocabulary", "cancel", "output", "diag", "world", "expr", "analysis", "emit", "stages"]),
-];
+/// Each room with the rooms that it may name, as the table of the page has them.
+fn rooms() -> Vec<(String, Vec<String>)> {
+    let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md")).expect("the page");
+    let (_, behind) = page.split_once("| room | what it is for | may use |\n").expect("the table of rooms");
+    let rows = behind.lines().skip(1).take_while(|line| line.starts_with('|'));
+    let room = |line: &str| {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let used = cells[2].split(", ").filter(|name| *name != "–").map(str::to_owned);
+        (cells[0].trim_matches('`').to_owned(), used.collect())
+    };
+    rows.map(room).collect()
+}
 
 /// What the command line names of rooms behind the façade: all of a room, or single things of it.
 const COMMAND_LINE: &[&str] = &[
@@ -97,31 +64,36 @@ fn read() -> Crate {
 }
 
 #[test]
-fn rooms_know_only_those_before_them() {
-    let all = read();
-    let rooms: Vec<&str> = ROOMS.iter().map(|(room, _)| *room).collect();
+fn rooms_know_only_those_that_they_may_use() {
+    let (all, rooms) = (read(), rooms());
+    let mut unused: Vec<(&str, &str)> =
+        rooms.iter().flat_map(|(room, used)| used.iter().map(move |used| (room.as_str(), used.as_str()))).collect();
     let mut seen = 0;
     for (module, file) in all.files.iter().filter(|(module, _)| !module.is_empty() && module[0] != "main") {
         let room = module[0].as_str();
-        let known = ROOMS.iter().find(|(name, _)| *name == room);
-        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `{room}` is not in the list"));
+        let known = rooms.iter().find(|(name, _)| name == room);
+        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `{room}` is not in the table"));
         seen += 1;
         for line in file.code.lines() {
             let hidden = ["crate::{", "super::super", "mechc::"].iter().find(|form| line.contains(**form));
             assert!(hidden.is_none(), "{}: a room is named as `crate::room::…`, not by {hidden:?}", file.place);
         }
         let used = all.named(module).into_iter().filter_map(|path| path.into_iter().next());
-        for used in used.filter(|used| used != room && rooms.contains(&used.as_str())) {
-            assert!(allowed.contains(&used.as_str()), "{}: `{room}` must not know `{used}`", file.place);
+        for used in used.filter(|used| used != room && rooms.iter().any(|(name, _)| name == used)) {
+            assert!(allowed.contains(&used), "{}: `{room}` must not know `{used}`", file.place);
+            unused.retain(|known| *known != (room, used.as_str()));
         }
     }
     assert!(seen > 100, "only {seen} files were looked at");
+    assert!(unused.is_empty(), "the table allows what nobody needs: {unused:?}");
 }
 
 #[test]
 fn rooms_are_listed_behind_those_that_they_know() {
-    for (k, (room, allowed)) in ROOMS.iter().enumerate() {
-        let later = allowed.iter().find(|name| !ROOMS[..k].iter().any(|(before, _)| before == *name));
+    let rooms = rooms();
+    assert!(rooms.len() > 15, "only {} rooms", rooms.len());
+    for (k, (room, allowed)) in rooms.iter().enumerate() {
+        let later = allowed.iter().find(|name| !rooms[..k].iter().any(|(before, _)| before == *name));
         assert!(later.is_none(), "`{room}` knows {later:?}, which does not stand before it");
     }
 }
@@ -217,6 +189,7 @@ fn rooms_know_no_files_threads_clock_or_environment() {
         }
         let text = fs::read_to_string(&path).expect("a text");
         for line in text.lines().filter(|line| !line.trim_start().starts_with("//")) {
+            assert!(!line.contains("std::{"), "{}: modules of `std` are named one by one", inside.display());
             for used in ["fs", "thread", "time", "env", "net", "process", "io::stdout", "io::stderr", "io::stdin"] {
                 let used = format!("std::{used}");
                 let is_allowed = PLATFORM.iter().any(|&(place, known)| inside.ends_with(place) && used == known);

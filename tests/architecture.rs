@@ -1,0 +1,86 @@
+//! What `ARCHITECTURE.md` names is there: files, tests, constants.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn page() -> String {
+    fs::read_to_string(root().join("ARCHITECTURE.md")).expect("the page")
+}
+
+/// What stands between backticks.
+fn quoted(text: &str) -> impl Iterator<Item = &str> {
+    text.split('`').skip(1).step_by(2)
+}
+
+/// Where a path of the page leads, if anywhere.
+fn place(path: &str) -> Option<PathBuf> {
+    [root().join("src"), root()].into_iter().map(|base| base.join(path)).find(|path| path.exists())
+}
+
+fn is_word(text: &str) -> bool {
+    !text.is_empty() && text.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+}
+
+#[test]
+fn every_path_leads_somewhere() {
+    let page = page();
+    let mut looked_at = 0;
+    for path in quoted(&page) {
+        let is_path = path.contains('/') && path.chars().all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c));
+        // of a kind, or in a path that is only described
+        let is_pattern = ["NAME", "AREA", "CODE", "FILE"].iter().any(|part| path.contains(part));
+        if is_path && !is_pattern {
+            looked_at += 1;
+            assert!(place(path).is_some(), "`{path}` is not there");
+        }
+    }
+    assert!(looked_at > 100, "only {looked_at} paths were looked at");
+}
+
+#[test]
+fn every_test_is_there() {
+    let page = page();
+    let mut looked_at = 0;
+    let words = page.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_' || c == ':'));
+    for (file, name) in words.filter_map(|word| word.split_once("::")).filter(|(_, name)| is_word(name)) {
+        let Ok(text) = fs::read_to_string(root().join(format!("tests/{file}.rs"))) else {
+            continue;
+        };
+        // a module of the library may have the name of a test
+        if name.len() < 12 && place(&format!("{file}/mod.rs")).is_some() {
+            continue;
+        }
+        looked_at += 1;
+        let is_there = text.contains(&format!("fn {name}(")) || text.contains(&format!("\"{name}\""));
+        assert!(is_there, "tests/{file}.rs has no `{name}`");
+    }
+    assert!(looked_at > 30, "only {looked_at} tests were looked at");
+}
+
+/// The constants of a row of "Numbers" stand in one of its files.
+#[test]
+fn every_constant_of_a_table_is_in_its_file() {
+    let page = page();
+    let mut looked_at = 0;
+    for line in page.lines().filter(|line| line.starts_with("| ")) {
+        let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
+        let [_, _, files, constants, _] = cells.as_slice() else { continue };
+        let texts: Vec<String> = quoted(files)
+            .filter(|path| Path::new(path).extension().is_some_and(|ending| ending == "rs"))
+            .filter_map(|path| fs::read_to_string(place(path)?).ok())
+            .collect();
+        let is_constant = |word: &&str| is_word(word) && word.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+        for constant in quoted(constants).filter(is_constant) {
+            looked_at += 1;
+            let is_there = texts.iter().any(|text| text.contains(&format!("const {constant}:")));
+            assert!(is_there, "`{constant}` is not in {files}");
+        }
+    }
+    assert!(looked_at > 100, "only {looked_at} constants were looked at");
+}
