@@ -36,6 +36,9 @@ impl Checker<'_> {
         if let (Group::Derivative, [argument]) = (function.group, arguments) {
             return self.derivative(e, argument, context);
         }
+        if function.group == Group::Points {
+            return self.number_of_points(e, name, arguments, context);
+        }
         let values: Vec<Option<Value>> = arguments.iter().map(|argument| self.number(argument, context)).collect();
         let values: Vec<Argument> = arguments
             .iter()
@@ -56,8 +59,8 @@ impl Checker<'_> {
             }
             Group::Motion => self.motion(name, Motion::named(name)?, arguments, context),
             Group::Polynomial => self.polynomial(arguments, context),
-            // a derivative is taken of a formula, not of its value
-            Group::Alike | Group::Derivative => self.apply_to_alike(name, arguments, context),
+            // a derivative is taken of a formula, not of its value; points are no numbers
+            Group::Alike | Group::Derivative | Group::Points => self.apply_to_alike(name, arguments, context),
         }
     }
 

@@ -10,7 +10,6 @@ use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
-use crate::vocabulary::is_called;
 use rustc_hash::FxHashSet;
 
 /// Parts that one formula may have, written out.
@@ -64,7 +63,7 @@ pub(super) struct Calls<'a> {
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
-        if is_called(&name.text) {
+        if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {
                 return None;
             }
@@ -175,9 +174,12 @@ impl<'a> Checker<'a> {
     /// Expands a call, and remembers it unless it had to be given up.
     fn expansion(&mut self, call: Call, formula: &Expr, context: &Context<'_>) -> Option<Value> {
         let outer = std::mem::replace(&mut self.calls.is_given_up, false);
+        // what is called knows nothing of the body in which it is called
+        let scope = std::mem::take(&mut self.scope);
         let (complete, visited) = (self.calls.complete, self.visited);
         let first = self.model.conditions.len();
         let value = self.number(formula, context);
+        self.scope = scope;
         if self.calls.is_given_up {
             self.calls.given_up.insert(call);
         } else {

@@ -1,14 +1,16 @@
 //! Bodies, the ground, and their features; circles and curves have `profiles`.
 
-use super::formula::Context;
+use super::formula::{Context, Value};
+use super::kinds::{self, Wanted, coordinate};
 use super::names::{Entity, Space};
-use super::{Checker, declared, errors, mends};
+use super::sites::{Drawn, Site};
+use super::{Checker, declared, errors};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
-use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
-use crate::syntax::keywords_in;
+use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name, Pose};
 use crate::vocabulary::Keyword;
+use rustc_hash::FxHashMap;
 
 /// What a name of a body's space stands for; `None` where it is broken, which has been said.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -33,10 +35,10 @@ impl Feature {
     }
 }
 
-impl Checker<'_> {
+impl<'a> Checker<'a> {
     /// Bodies first, then all points, then what needs them: each may be used before it is declared.
     pub(super) fn features(&mut self) {
-        let mut frames: Vec<(Frame, &[ast::Feature])> = Vec::new();
+        let mut frames: Vec<(Frame, &'a [ast::Feature])> = Vec::new();
         self.features.insert(Frame::Ground, Space::new());
         for item in self.items() {
             match &item.kind {
@@ -55,26 +57,13 @@ impl Checker<'_> {
             self.axes_of(frame, features);
             self.profiles_of(frame, features);
         }
-        let mut bodies = 0..;
-        for item in self.items() {
-            if let ItemKind::Body { pose, .. } = &item.kind
-                && let Some(k) = bodies.next()
-            {
-                let is_broken = match pose {
-                    Some(pose) => self.pose(k, pose).is_none(),
-                    None => self.has_unread_pose(item),
-                };
-                if is_broken {
-                    self.broken_poses.insert(Frame::Body(self.bodies[k]));
-                }
-            }
-        }
+        self.poses();
     }
 
     fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
         let zero = self.model.graph.constant(0.0);
         let pose_span = match &item.kind {
-            ItemKind::Body { pose, .. } => pose.as_ref().map(|pose| pose.span),
+            ItemKind::Body { pose, .. } => pose.as_ref().map(Pose::span),
             _ => None,
         };
         let declared = declared(name);
@@ -106,35 +95,75 @@ impl Checker<'_> {
         }
     }
 
-    fn points_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+    /// Each after those that its formula needs.
+    fn points_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
+        let mut points = Vec::new();
         for feature in features {
-            let FeatureKind::Point { at } = &feature.kind else {
-                continue;
-            };
-            let point = self.pair_of(at, "point", "a point", None).map(|at| {
-                let name = Some(feature.name.text.clone());
-                self.model.add_point(Point { frame, name, span: feature.name.span, at })
+            if let FeatureKind::Point { at } = &feature.kind {
+                points.push((&feature.name, at.as_ref()));
+            }
+        }
+        let uses = self.uses_of_points(frame, &points);
+        for k in self.ordered(&uses) {
+            let (name, at) = points[k];
+            let drawn = self.at_site(Site::Inside(frame), Some(&name.text), |checker| match at {
+                Some(at) => checker.place_of(at, "point", "a point", None),
+                None => checker.point_of_the_mechanism(name),
             });
-            self.settle(frame, &feature.name, Feature::Point(point));
+            let point = drawn.map(|Drawn { at, dimensional }| {
+                let point = Point { frame, name: Some(name.text.clone()), span: name.span, at };
+                let id = self.model.add_point(point);
+                self.dimensional_points.extend(dimensional.then_some(id));
+                id
+            });
+            self.settle(frame, name, Feature::Point(point));
         }
     }
 
-    fn axes_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+    /// Which points of a body the formula of each one names.
+    fn uses_of_points<'n>(
+        &mut self,
+        frame: Frame,
+        points: &[(&'n Name, Option<&'a Expr>)],
+    ) -> Vec<(&'n Name, Vec<(usize, Span)>)> {
+        // a name that is taken twice keeps its first meaning
+        let mut positions = FxHashMap::default();
+        for (k, (name, _)) in points.iter().enumerate() {
+            positions.entry(name.text.as_str()).or_insert(k);
+        }
+        let outer = std::mem::replace(&mut self.scope.site, Site::Inside(frame));
+        let uses = points.iter().map(|&(name, formula)| {
+            let mut uses = Vec::new();
+            if let Some(formula) = formula {
+                let hidden = |name: &str| self.hidden.contains(name);
+                kinds::names_in(formula, Wanted::Point, hidden, |used, wanted| {
+                    let is_own = used.text != name.text && self.own_point(used, wanted).is_some();
+                    uses.extend(positions.get(used.text.as_str()).filter(|_| is_own).map(|&k| (k, used.span)));
+                });
+            }
+            (name, uses)
+        });
+        let uses = uses.collect();
+        self.scope.site = outer;
+        uses
+    }
+
+    fn axes_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let ends = match &feature.kind {
-                FeatureKind::AxisAlong { origin, direction } => {
-                    let origin = self.place(frame, origin);
-                    let direction = self.direction_of(direction);
+                FeatureKind::AxisAlong { origin, direction } => self.at_site(Site::Inside(frame), None, |checker| {
+                    let origin = checker.place(frame, origin);
+                    let direction = checker.direction_of(direction);
                     origin.zip(direction)
-                }
-                FeatureKind::AxisTo { origin, target } => {
-                    let (from, to) = (self.place(frame, origin), self.place(frame, target));
-                    from.zip(to).and_then(|(from, to)| {
-                        let (p, q) = (self.model[from].at, self.model[to].at);
-                        let direction = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
-                        self.not_zero(direction, origin.span.to(target.span)).map(|direction| (from, direction))
-                    })
-                }
+                }),
+                FeatureKind::AxisTo { origin, target } => self.at_site(Site::Inside(frame), None, |checker| {
+                    let (from, to) = (checker.place(frame, origin), checker.place(frame, target));
+                    let (from, to) = (from?, to?);
+                    let (p, q) = (checker.model[from].at, checker.model[to].at);
+                    let direction = [0, 1].map(|k| checker.model.graph.sub(q[k], p[k]));
+                    let direction = checker.not_zero(direction, origin.span.to(target.span))?;
+                    Some((from, direction))
+                }),
                 _ => continue,
             };
             let axis = ends.map(|(origin, direction)| {
@@ -195,14 +224,18 @@ impl Checker<'_> {
         Context { judged, ..Context::constant(place) }
     }
 
-    /// Two lengths, judged together.
-    fn lengths(&mut self, parts: [&Expr; 2], place: &'static str) -> Option<[ExprId; 2]> {
-        let context = self.pair_context(parts, place, None);
-        self.lengths_in(parts, &context)
+    pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
+        let values = parts.map(|part| self.formula(part, context));
+        self.two_lengths(parts, values, context)
     }
 
-    pub(super) fn lengths_in(&mut self, parts: [&Expr; 2], context: &Context<'_>) -> Option<[ExprId; 2]> {
-        let [x, y] = parts.map(|part| self.formula(part, context));
+    /// The two coordinates of a point, judged together.
+    pub(super) fn two_lengths(
+        &mut self,
+        parts: [&Expr; 2],
+        [x, y]: [Option<Value>; 2],
+        context: &Context<'_>,
+    ) -> Option<[ExprId; 2]> {
         let (x, y) = (x?, y?);
         self.alike("the coordinates of a point are", (parts[0].span, x.dim), (parts[1].span, y.dim), context)?;
         for part in parts {
@@ -212,40 +245,9 @@ impl Checker<'_> {
         }
         for (part, value) in parts.into_iter().zip([x, y]) {
             self.demand("a coordinate", Dimension::LENGTH, part.span, value.dim, context)?;
-            if context.judged {
-                self.remember_length(value.id);
-            } else {
-                self.remember_plain_length(part, value.id);
-            }
+            self.remember_any_length(part, value.id, context.judged);
         }
         Some([x.id, y.id])
-    }
-
-    /// Whether a body has a pose that does not follow the grammar, which has been said.
-    fn has_unread_pose(&self, item: &Item) -> bool {
-        let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
-        keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
-    }
-
-    fn pose(&mut self, body: usize, e: &Expr) -> Option<()> {
-        let parts = match &e.kind {
-            ExprKind::Tuple(parts) => parts.as_slice(),
-            _ => &[],
-        };
-        let [x, y, phi] = parts else {
-            let found = if parts.is_empty() { 1 } else { parts.len() };
-            let word = Keyword::named("at").map(|keyword| &keyword.word);
-            let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
-            let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
-            self.report(mends::fixed_first(diagnostic, fix));
-            return None;
-        };
-        let lengths = self.lengths([x, y], "the estimate of a pose");
-        let angle = self.angle(phi, "the angle of a pose");
-        let ([x, y], phi) = (lengths?, angle?);
-        let id = self.bodies[body];
-        self.model.bodies[id.index()].pose = [x, y, phi];
-        Some(())
     }
 
     /// A constant angle, with a warning where degrees were probably meant.
@@ -263,24 +265,39 @@ impl Checker<'_> {
         }
     }
 
-    /// A point where an axis begins or ends: one of the frame by name, or a literal one.
+    /// A point where an axis begins or ends: one of the frame by name, or a formula of points.
     pub(super) fn place(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
-        if let ExprKind::Name(name) = &e.kind {
-            self.point_named(frame, name)
-        } else {
-            let at = self.pair_of(e, "point", "a point", None)?;
-            Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
+        match &e.kind {
+            ExprKind::Name(name)
+                if self.own_point(name, Wanted::Point).is_some() || self.point_param(name).is_none() =>
+            {
+                self.scope_takes_own(name);
+                self.point_named(frame, name)
+            }
+            _ => self.unnamed_point(frame, e),
         }
     }
 
-    /// A point of a body or of the ground, or a literal global one.
+    fn unnamed_point(&mut self, frame: Frame, e: &Expr) -> Option<PointId> {
+        let at = self.place_of(e, "point", "a point", None)?.at;
+        Some(self.model.add_point(Point { frame, name: None, span: e.span, at }))
+    }
+
+    /// A point of a body or of the ground, or a global one as a formula of points.
     pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {
-            ExprKind::Tuple(_) => self.place(Frame::Ground, e),
+            ExprKind::Tuple(_) => self.unnamed_point(Frame::Ground, e),
+            ExprKind::Member { owner, feature }
+                if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
+            {
+                self.report(errors::coordinate_as_point(e.span, owner));
+                None
+            }
             ExprKind::Member { owner, feature } => {
                 let frame = self.body(owner)?;
                 self.point_named(frame, feature)
             }
+            _ if self.is_point(e) => self.unnamed_point(Frame::Ground, e),
             ExprKind::Name(name) => {
                 self.bare_name(name, "point");
                 None
@@ -292,7 +309,7 @@ impl Checker<'_> {
         }
     }
 
-    fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
+    pub(super) fn point_named(&mut self, frame: Frame, name: &Name) -> Option<PointId> {
         match self.feature(frame, name, "point", |feature| matches!(feature, Feature::Point(_)))? {
             Feature::Point(point) => point,
             other => {

@@ -5,6 +5,7 @@
 
 use super::Checker;
 use super::errors::{self, Part};
+use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use super::names::Entity;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
@@ -99,23 +100,44 @@ impl Checker<'_> {
 
     /// The same of the formula of a function or curve, over its argument.
     pub(super) fn is_dimensional_over(&self, argument: Option<&str>, formula: &Expr) -> bool {
-        let mut open = vec![formula];
-        while let Some(e) = open.pop() {
+        self.holds_dimension(argument, formula, Wanted::Number)
+    }
+
+    /// The same of a formula of numbers or of points.
+    pub(super) fn holds_dimension(&self, argument: Option<&str>, formula: &Expr, wanted: Wanted) -> bool {
+        let mut open = vec![(formula, wanted, wanted != Wanted::Number)];
+        while let Some((e, wanted, with_points)) = open.pop() {
             let holds = match &e.kind {
                 ExprKind::Literal { unit: Some((name, _)), .. } => {
                     Unit::named(&name.text).is_some_and(|unit| !unit.dimension.is(Dimension::PURE))
                 }
                 ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
+                ExprKind::Name(name) if self.own_point(name, wanted).is_some() => {
+                    self.is_dimensional_point(name, wanted)
+                }
                 ExprKind::Name(name) => self.is_dimensional_name(name),
-                ExprKind::Call { name, .. } if !is_called(&name.text) => self.is_dimensional_name(name),
-                // a literal point says nothing about the formula around it
-                ExprKind::Tuple(_) => continue,
+                ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
+                    self.is_dimensional_point(owner, Wanted::Point)
+                }
+                ExprKind::Call { name, .. } if !self.is_of_language(&name.text) => self.is_dimensional_name(name),
+                // a literal point says nothing about the formula of a number around it
+                ExprKind::Tuple(_) if !with_points => continue,
                 _ => false,
             };
             if holds {
                 return true;
             }
-            open.extend(e.children());
+            // but all about the length between it and another one
+            let with_points = match &e.kind {
+                ExprKind::Call { name, .. } if self.is_of_language(&name.text) => match name.text.as_str() {
+                    "length" => true,
+                    "direction" => false,
+                    _ => with_points,
+                },
+                _ => with_points,
+            };
+            let inside = kinds::inside(e, wanted, |name| self.hidden.contains(name));
+            open.extend(inside.into_iter().map(|(e, wanted)| (e, wanted, with_points)));
         }
         false
     }
@@ -127,6 +149,7 @@ impl Checker<'_> {
         match self.entity(name) {
             Some(Entity::Param(k)) => {
                 matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
+                    || self.drawn[k].is_some_and(|drawn| drawn.dimensional)
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
@@ -182,6 +205,9 @@ impl Checker<'_> {
             ExprKind::Power(base, exponent) => self.power(base, exponent, context),
             ExprKind::If { arms, otherwise } => self.choice(arms, otherwise, context),
             ExprKind::Member { owner, feature } => {
+                if let Ok(coordinate) = self.coordinate_of(e, context) {
+                    return coordinate;
+                }
                 let what = self.describe_member(owner, feature);
                 let diagnostic = errors::wrong_kind(e.span, "a number", &what);
                 self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
@@ -200,7 +226,7 @@ impl Checker<'_> {
     }
 
     /// Refuses a constant that is not finite, where it arises.
-    fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
+    pub(super) fn finite(&mut self, span: Span, value: Value) -> Option<Value> {
         match self.constant_value(value.id) {
             Some(number) if !number.is_finite() && !self.untaken => {
                 self.report(errors::not_finite(span, number));
@@ -264,6 +290,10 @@ impl Checker<'_> {
             Alone::Declared(_) | Alone::Unknown => {}
         }
         match self.resolve(name).ok()?.filter(|_| context.names) {
+            Some(Entity::Param(_)) if self.point_param(name).is_some() => {
+                self.report(errors::point_as_number(name));
+                None
+            }
             Some(Entity::Param(k)) => self.params[k],
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) => {
@@ -290,6 +320,10 @@ impl Checker<'_> {
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
+        if self.own_point(name, Wanted::Point).is_some() {
+            self.report(errors::point_as_number(name));
+            return;
+        }
         if name.text == "min" {
             self.report(errors::not_a_unit(name, "", false));
             return;
@@ -577,10 +611,8 @@ impl Checker<'_> {
             return None;
         }
         self.demand(place, wanted, e.span, value.dim, &context)?;
-        match (wanted.is(Dimension::LENGTH), judged) {
-            (true, true) => self.remember_length(value.id),
-            (true, false) => self.remember_plain_length(e, value.id),
-            _ => {}
+        if wanted.is(Dimension::LENGTH) {
+            self.remember_any_length(e, value.id, judged);
         }
         let number = self.constant_value(value.id)?;
         Some((value.id, number))

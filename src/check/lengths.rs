@@ -27,6 +27,15 @@ pub(super) struct Lengths<'a> {
 }
 
 impl<'a> Checker<'a> {
+    /// Remembers a length, of a formula that holds a unit or does not.
+    pub(super) fn remember_any_length(&mut self, e: &Expr, id: ExprId, judged: bool) {
+        if judged {
+            self.remember_length(id);
+        } else {
+            self.remember_plain_length(e, id);
+        }
+    }
+
     /// Remembers a constant length with a unit.
     pub(super) fn remember_length(&mut self, id: ExprId) {
         if let Some(value) = self.constant_value(id).map(f64::abs).filter(|value| *value > 0.0) {

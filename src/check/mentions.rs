@@ -1,13 +1,14 @@
 //! Which names formulas mention, and where.
 
+use super::kinds::coordinate;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
-use crate::vocabulary::{Constant, StandsFor, Unit, is_called};
+use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
+use crate::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 
 /// Where the argument of a function or curve stands in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
-    mentioned(formula, |name| {
+    mentioned(formula, gives_way, |name| {
         if name.text == argument.text {
             uses.push(name.span);
         }
@@ -64,7 +65,8 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),
         ItemKind::Body { pose, features, .. } => {
-            pose.iter().chain(features.iter().flat_map(|feature| parts(&feature.kind))).collect()
+            let pose = pose.iter().flat_map(Pose::parts);
+            pose.chain(features.iter().flat_map(|feature| parts(&feature.kind))).collect()
         }
         ItemKind::Joint { arguments, .. } => arguments.iter().collect(),
         ItemKind::Equation { left, right, .. } => vec![left, right],
@@ -75,7 +77,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
 fn parts(feature: &FeatureKind) -> Vec<&Expr> {
     match feature {
         FeatureKind::Broken => Vec::new(),
-        FeatureKind::Point { at } => vec![at],
+        FeatureKind::Point { at } => at.iter().collect(),
         FeatureKind::AxisAlong { origin, direction } => vec![origin, direction],
         FeatureKind::AxisTo { origin, target } => vec![origin, target],
         FeatureKind::Circle { center, radius } => vec![center, radius],
@@ -83,14 +85,15 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
     }
 }
 
-/// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and
-/// quantities, whose names something else may share.
-pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
+/// Every name that a formula mentions on its own, or before `.x` and `.y`, or calls, but for the calls of the language's own functions
+/// and quantities, whose names something else may share; `hidden` tells the functions and tables of the file that hide one of those.
+pub(super) fn mentioned<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {
-            ExprKind::Call { name, .. } if is_called(&name.text) => {}
+            ExprKind::Call { name, .. } if is_called(&name.text) && !hidden(&name.text) => {}
             ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
+            ExprKind::Member { owner, feature } if coordinate(feature).is_some() => each(owner),
             _ => {}
         }
         open.extend(e.children().into_iter().rev());

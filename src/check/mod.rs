@@ -12,13 +12,18 @@ mod features;
 mod formula;
 mod instead;
 mod joints;
+mod kinds;
 mod lengths;
 mod meaning;
 mod mends;
 mod mentions;
+mod named_points;
 mod names;
+mod points;
+mod poses;
 mod profiles;
 mod quantities;
+mod sites;
 mod symbols;
 mod table_file;
 mod tables;
@@ -27,8 +32,8 @@ pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::expr::{ExprId, Graph, Symbol};
-use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
+use crate::expr::{Dependence, ExprId, Graph, Symbol};
+use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PointId};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
 use calls::{Call, Calls};
@@ -38,6 +43,7 @@ use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
 use rustc_hash::{FxHashMap, FxHashSet};
+use sites::{Drawn, Scope};
 use tables::TableState;
 
 /// How many mistakes of one file are worth a suggestion.
@@ -57,6 +63,8 @@ pub struct Surroundings {
 pub struct Setting {
     /// The parameter.
     pub name: String,
+    /// Which of its coordinates, where it is a point of which one is set.
+    pub coordinate: Option<usize>,
     /// Its formula, which names nothing of the file.
     pub value: Expr,
 }
@@ -187,6 +195,16 @@ struct Checker<'a> {
     space: Space<Entity>,
     /// By the parameter's position; `None` where it is broken.
     params: Vec<Option<Value>>,
+    /// Those of them that are points, by the same position.
+    drawn: Vec<Option<Drawn>>,
+    /// The names of params that are points.
+    point_params: FxHashSet<&'a str>,
+    /// The names of functions and tables that hide a function of the language.
+    hidden: FxHashSet<&'a str>,
+    /// Where the formula that is being read stands.
+    scope: Scope<'a>,
+    /// The points whose formulas hold a unit.
+    dimensional_points: FxHashSet<PointId>,
     /// As the text has them, by the same position.
     param_formulas: Vec<(&'a Name, &'a Expr)>,
     functions: Vec<Function<'a>>,
@@ -233,6 +251,11 @@ impl<'a> Checker<'a> {
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
             space: Space::new(),
             params: Vec::new(),
+            drawn: Vec::new(),
+            point_params: kinds::point_params(tree),
+            hidden: kinds::own_functions(tree),
+            scope: Scope::default(),
+            dimensional_points: FxHashSet::default(),
             param_formulas: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
@@ -302,6 +325,7 @@ impl<'a> Checker<'a> {
                     entities.push(Entity::Param(self.params.len()));
                     definitions.push((name, vec![value]));
                     self.params.push(None);
+                    self.drawn.push(None);
                     self.param_formulas.push((name, value));
                 }
                 ItemKind::Function { name, argument, value } => {
@@ -336,10 +360,14 @@ impl<'a> Checker<'a> {
             let (name, formulas) = &definitions[at];
             match entities[at] {
                 Entity::Param(k) => {
-                    self.params[k] = formulas.first().and_then(|value| {
+                    for value in formulas {
                         self.remember_angle(name, value);
-                        self.param(name, docs[at], value)
-                    });
+                        if self.point_param(name) == Some(k) {
+                            self.drawn[k] = self.point_of_param(name, docs[at], value);
+                        } else {
+                            self.params[k] = self.param(name, docs[at], value);
+                        }
+                    }
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
@@ -373,14 +401,18 @@ impl<'a> Checker<'a> {
             .map(|(k, (name, formulas))| {
                 let mut uses = Vec::new();
                 for formula in formulas {
-                    mentioned(formula, |used| {
-                        let hidden = arguments.get(&k) == Some(&used.text.as_str());
-                        let is_own = !hidden && !self.is_declared_though_taken(used);
-                        let entity = self.entity(used).filter(|_| is_own);
-                        if let Some(&at) = entity.and_then(|e| position.get(&e)) {
-                            uses.push((at, used.span));
-                        }
-                    });
+                    mentioned(
+                        formula,
+                        |name| self.hidden.contains(name),
+                        |used| {
+                            let hidden = arguments.get(&k) == Some(&used.text.as_str());
+                            let is_own = !hidden && !self.is_declared_though_taken(used);
+                            let entity = self.entity(used).filter(|_| is_own);
+                            if let Some(&at) = entity.and_then(|e| position.get(&e)) {
+                                uses.push((at, used.span));
+                            }
+                        },
+                    );
                 }
                 (*name, uses)
             })
@@ -395,6 +427,10 @@ impl<'a> Checker<'a> {
         let setting = settings.iter().rev().find(|setting| setting.name == name.text);
         let value = match setting {
             None => in_file,
+            Some(Setting { coordinate: Some(k), value, .. }) => {
+                self.report(errors::coordinate_of_number(name, *k, value.span));
+                return None;
+            }
             Some(setting) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 match (in_file.dim, given.dim) {
@@ -414,13 +450,18 @@ impl<'a> Checker<'a> {
                 }
             }
         };
-        if self.model.graph.dependence(value.id).on(crate::expr::Dependence::PARAMS) {
+        self.settable(declared(name), docs, value)
+    }
+
+    /// A number that is a parameter of the model, unless it follows from others.
+    fn settable(&mut self, declared: Declared, docs: &[String], value: Value) -> Option<Value> {
+        if self.follows(value.id) {
             return Some(value);
         }
         let number = self.constant_value(value.id)?;
         let index = self.model.params.len() as u32;
         self.model.params.push(Param {
-            declared: declared(name),
+            declared,
             docs: docs.to_vec(),
             value: number,
             dimension: match value.dim {
@@ -429,6 +470,50 @@ impl<'a> Checker<'a> {
             },
         });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
+    }
+
+    /// A parameter that is a point: each of its coordinates is a parameter of the model, unless it follows from others.
+    fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Drawn> {
+        let Drawn { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
+        let settings = self.settings;
+        for setting in settings.iter().filter(|setting| setting.name == name.text) {
+            let given = self.point_given(name, setting, Drawn { at, dimensional })?;
+            (at, dimensional) = (given.at, given.dimensional);
+        }
+        let mut coordinate = |k: usize, axis: &str| {
+            let declared = Declared { name: format!("{}.{axis}", name.text), span: name.span };
+            // a zero has no sign here: in a direction it would count
+            let is_zero = self.constant_value(at[k]) == Some(0.0);
+            let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
+            self.settable(declared, docs, Value { id, dim: Dim::LENGTH })
+        };
+        let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
+        Some(Drawn { at: [x.id, y.id], dimensional })
+    }
+
+    /// Whether a formula follows from parameters.
+    fn follows(&self, id: ExprId) -> bool {
+        self.model.graph.dependence(id).on(Dependence::PARAMS)
+    }
+
+    /// The point with what is set from outside: `--set A=(12mm,0)`, `--set A.x=12mm`.
+    fn point_given(&mut self, name: &Name, setting: &Setting, before: Drawn) -> Option<Drawn> {
+        let judged = before.dimensional;
+        let context = Context { names: false, judged, ..Context::constant("a parameter") };
+        let Some(k) = setting.coordinate else {
+            if !self.is_point(&setting.value) {
+                self.report(errors::point_set_to_number(name, setting.value.span));
+                return None;
+            }
+            return self.point_formula(&setting.value, &context);
+        };
+        let judged = judged || self.is_dimensional(&setting.value);
+        let value = self.formula(&setting.value, &Context { judged, ..context })?;
+        let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][k]);
+        self.demand(&place, Dimension::LENGTH, setting.value.span, value.dim, &Context { judged, ..context })?;
+        let mut at = before.at;
+        at[k] = value.id;
+        Some(Drawn { at, dimensional: judged })
     }
 
     fn param_value(&mut self, formula: &Expr, context: Context<'_>) -> Option<Value> {
@@ -465,15 +550,19 @@ impl<'a> Checker<'a> {
     /// Where a formula brings time in, if it does.
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
-        mentioned(formula, |name| {
-            let through_a_call = match self.entity(name) {
-                Some(Entity::Function(k)) => self.functions[k].time.is_some(),
-                _ => false,
-            };
-            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call) {
-                time = Some(name.span);
-            }
-        });
+        mentioned(
+            formula,
+            |name| self.hidden.contains(name),
+            |name| {
+                let through_a_call = match self.entity(name) {
+                    Some(Entity::Function(k)) => self.functions[k].time.is_some(),
+                    _ => false,
+                };
+                if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call) {
+                    time = Some(name.span);
+                }
+            },
+        );
         time
     }
 

@@ -4,7 +4,7 @@ use super::mentions::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, FeatureKind, ItemKind, Mechanism, Name};
-use crate::vocabulary::{KindOfName, another_name, is_called, is_taken};
+use crate::vocabulary::{KindOfName, another_name, gives_way, is_called, is_taken};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What a name of the mechanism's space stands for, with its position among its kind in the text.
@@ -132,7 +132,7 @@ impl Checker<'_> {
                 ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
-            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text);
+            let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
             if is_reserved {
                 let uses = uses_in(mechanism, name, callable);
                 self.report_reserved(name, entity.kind_of_name(), &uses);
@@ -171,9 +171,13 @@ impl Checker<'_> {
     /// Whether a name that the language has taken is declared all the same, which has been said: it may mean either.
     pub(super) fn is_declared_though_taken(&self, name: &Name) -> bool {
         let is_callable = |entity| matches!(entity, Entity::Function(_) | Entity::Table(_));
-        self.space
-            .get(&name.text)
-            .is_some_and(|entity| is_taken(&name.text) || is_called(&name.text) && is_callable(entity))
+        let is_function = is_called(&name.text) && !gives_way(&name.text);
+        self.space.get(&name.text).is_some_and(|entity| is_taken(&name.text) || is_function && is_callable(entity))
+    }
+
+    /// Whether a call of a name is one of the language's own functions or quantities.
+    pub(super) fn is_of_language(&self, name: &str) -> bool {
+        is_called(name) && !self.hidden.contains(name)
     }
 
     /// What cannot be read has its names all the same, so that nobody asks where they are.

@@ -2,6 +2,7 @@
 
 use super::features::Feature;
 use super::formula::{Context, Dim, Value};
+use super::sites::{Drawn, Site};
 use super::{Checker, errors, mends};
 use crate::expr::Dependence;
 use crate::model::{Circle, CircleId, Curve, CurveId, Dimension, Frame, Named, Profile};
@@ -9,8 +10,8 @@ use crate::source::Span;
 use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Name};
 use crate::vocabulary::Keyword;
 
-impl Checker<'_> {
-    pub(super) fn profiles_of(&mut self, frame: Frame, features: &[ast::Feature]) {
+impl<'a> Checker<'a> {
+    pub(super) fn profiles_of(&mut self, frame: Frame, features: &'a [ast::Feature]) {
         for feature in features {
             let settled = match &feature.kind {
                 FeatureKind::Circle { center, radius } => {
@@ -26,7 +27,8 @@ impl Checker<'_> {
     }
 
     fn circle_feature(&mut self, frame: Frame, name: &Name, center: &Expr, radius: &Expr) -> Option<CircleId> {
-        let (center, radius) = (self.place(frame, center), self.radius(radius));
+        let center = self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, center));
+        let radius = self.at_site(Site::Inside(frame), None, |checker| checker.radius(radius));
         let (center, radius) = (center?, radius?);
         Some(self.model.add_circle(Circle { frame, name: name.text.clone(), span: name.span, center, radius }))
     }
@@ -42,7 +44,9 @@ impl Checker<'_> {
         let id = self.name_symbol(Named::Argument, 0);
         let value = Value { id, dim: Dim::Of(Dimension::PURE) };
         let known = self.model.conditions.len();
-        let pair = self.pair_of(at, "curve", "a curve", Some((&argument.text, value)));
+        let pair = self.at_site(Site::Inside(frame), None, |checker| {
+            checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))
+        });
         // what must be positive along the curve must be so at a contact only
         let mut conditions = self.model.conditions.split_off(known);
         for condition in &mut conditions {
@@ -50,9 +54,11 @@ impl Checker<'_> {
         }
         let estimate = match estimate {
             None => None,
-            Some(estimate) => Some(self.angle(estimate, "the estimate of a curve's argument")?),
+            Some(estimate) => Some(self.at_site(Site::Inside(frame), None, |checker| {
+                checker.angle(estimate, "the estimate of a curve's argument")
+            })?),
         };
-        let pair = pair?;
+        let pair = pair?.at;
         if !pair.iter().any(|&id| self.model.graph.dependence(id).on(Dependence::NAMED)) {
             self.report(errors::curve_is_a_point(name, &argument.text, at.span));
             return None;
@@ -112,26 +118,37 @@ impl Checker<'_> {
         }
     }
 
-    /// `(x, y)`, two lengths that are judged together; over an argument, if there is one.
-    pub(super) fn pair_of(
+    /// `(x, y)`, two lengths that are judged together, or another formula of points; over an argument, if there is one.
+    pub(super) fn place_of(
         &mut self,
         e: &Expr,
         what: &str,
         place: &'static str,
         argument: Option<(&str, Value)>,
-    ) -> Option<[crate::expr::ExprId; 2]> {
+    ) -> Option<Drawn> {
         match &e.kind {
             ExprKind::Tuple(parts) => {
                 if let [x, y] = parts.as_slice() {
                     let name = argument.map(|(name, _)| name);
                     let context = Context { argument, ..self.pair_context([x, y], place, name) };
-                    self.lengths_in([x, y], &context)
+                    let at = self.lengths_in([x, y], &context)?;
+                    Some(Drawn { at, dimensional: context.judged })
                 } else {
                     let word = Keyword::named(what).map(|keyword| &keyword.word);
                     let diagnostic = errors::argument_count(what, word, e.span, "two lengths", parts.len());
                     self.report(mends::fixed_first(diagnostic, self.decimal_comma(parts, 2)));
                     None
                 }
+            }
+            _ if self.is_point(e) => self.point_formula(e, &Context { argument, ..Context::constant(place) }),
+            ExprKind::Name(name) => {
+                self.no_point_named(name);
+                None
+            }
+            ExprKind::Member { owner, feature } => {
+                let diagnostic = self.no_place(e.span, owner, feature);
+                self.report(diagnostic);
+                None
             }
             ExprKind::Paren(_) => {
                 self.report(errors::argument_count(

@@ -3,9 +3,10 @@
 //!
 //! By the tree alone: so it is there for a text with mistakes too, and costs nothing where nobody asks.
 
+use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
+use crate::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -106,11 +107,13 @@ impl Symbols {
     /// The names of a mechanism; the text is that of its file, where its keywords stand.
     #[must_use]
     pub fn of(tree: &Mechanism, text: &str) -> Symbols {
-        let mut walk = Walk::default();
+        let point_params = kinds::point_params(tree);
+        let mut walk = Walk { point_params, hidden: kinds::own_functions(tree), ..Walk::default() };
         walk.mechanism(tree);
         let mut symbols = walk.symbols;
         symbols.add_keywords(tree.span, text);
-        symbols.uses.sort_by_key(|used| used.span);
+        // where a name declares and is a use of another one, it is the declaration that `at` finds
+        symbols.uses.sort_by_key(|used| (used.span, used.declares));
         symbols
     }
 
@@ -160,7 +163,11 @@ impl Symbols {
 
 /// A walk over a tree, with the names that are declared.
 #[derive(Default)]
-struct Walk {
+struct Walk<'t> {
+    /// The names of params that are points.
+    point_params: FxHashSet<&'t str>,
+    /// The names of functions and tables that hide a function of the language.
+    hidden: FxHashSet<&'t str>,
     symbols: Symbols,
     /// The mechanism's space.
     names: FxHashMap<String, NameId>,
@@ -174,11 +181,13 @@ struct Walk {
 struct Scope<'a> {
     /// The argument of the function or curve around it.
     argument: Option<(&'a str, NameId)>,
-    /// The body whose feature it belongs to, where a point of it may be named alone.
+    /// The body whose feature it belongs to.
     body: Option<NameId>,
+    /// The point whose own formula it is.
+    defined: Option<&'a str>,
 }
 
-impl Walk {
+impl Walk<'_> {
     fn mechanism(&mut self, tree: &Mechanism) {
         self.declare(&tree.name, NameKind::Mechanism, tree.span, None);
         let items: Vec<Option<NameId>> = tree.items.iter().map(|item| self.item(item)).collect();
@@ -265,8 +274,8 @@ impl Walk {
             }
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground),
             ItemKind::Body { pose, features, .. } => {
-                if let Some(pose) = pose {
-                    self.formula(pose, plain);
+                for part in pose.iter().flat_map(Pose::parts) {
+                    self.read(part, plain, Wanted::Either);
                 }
                 self.uses_in_features(features, id);
             }
@@ -292,28 +301,34 @@ impl Walk {
     }
 
     fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>) {
-        let (plain, own) = (Scope::default(), Scope { body, ..Scope::default() });
+        let own = Scope { body, ..Scope::default() };
         for feature in features {
             match &feature.kind {
-                FeatureKind::Point { at } => self.formula(at, plain),
+                FeatureKind::Point { at } => {
+                    let name = &feature.name;
+                    match at {
+                        Some(at) => self.read(at, Scope { defined: Some(&name.text), ..own }, Wanted::Point),
+                        None => self.point_taken(name),
+                    }
+                }
                 FeatureKind::AxisAlong { origin, direction } => {
-                    self.formula(origin, own);
-                    self.formula(direction, plain);
+                    self.read(origin, own, Wanted::Point);
+                    self.formula(direction, own);
                 }
                 FeatureKind::AxisTo { origin, target } => {
-                    self.formula(origin, own);
-                    self.formula(target, own);
+                    self.read(origin, own, Wanted::Point);
+                    self.read(target, own, Wanted::Point);
                 }
                 FeatureKind::Circle { center, radius } => {
-                    self.formula(center, own);
-                    self.formula(radius, plain);
+                    self.read(center, own, Wanted::Point);
+                    self.formula(radius, own);
                 }
                 FeatureKind::Curve { argument, at, estimate } => {
                     let curve = body.and_then(|body| self.features.get(&(body, feature.name.text.clone())).copied());
                     let declared = self.declare(argument, NameKind::Argument, feature.span, curve);
-                    self.formula(at, Scope { argument: Some((&argument.text, declared)), ..plain });
+                    self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Wanted::Point);
                     if let Some(estimate) = estimate {
-                        self.formula(estimate, plain);
+                        self.formula(estimate, own);
                     }
                 }
                 FeatureKind::Broken => {}
@@ -322,17 +337,51 @@ impl Walk {
     }
 
     fn formula(&mut self, formula: &Expr, scope: Scope<'_>) {
-        let mut open = vec![formula];
-        while let Some(e) = open.pop() {
+        self.read(formula, scope, Wanted::Number);
+    }
+
+    /// A formula of numbers or of points.
+    fn read(&mut self, formula: &Expr, scope: Scope<'_>, wanted: Wanted) {
+        let mut open = vec![(formula, wanted)];
+        while let Some((e, wanted)) = open.pop() {
             match &e.kind {
                 ExprKind::Literal { unit: Some((unit, _)), .. } => self.unit(unit),
-                ExprKind::Name(name) => self.name(name, scope, std::ptr::eq(e, formula)),
-                ExprKind::Member { owner, feature } => self.member(owner, feature),
+                ExprKind::Name(name) => self.name(name, scope, wanted),
+                ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
                 ExprKind::Call { name, .. } => self.called(name),
                 _ => {}
             }
-            open.extend(e.children());
+            open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
         }
+    }
+
+    /// `point A` alone, which takes the mechanism's point.
+    fn point_taken(&mut self, name: &Name) {
+        if self.point_params.contains(name.text.as_str())
+            && let Some(&id) = self.names.get(&name.text)
+        {
+            self.declared(name, id);
+        }
+    }
+
+    /// What a name stands for among the features of the body around a formula; the same rule as that of the reader of formulas.
+    fn own(&self, name: &Name, scope: Scope<'_>, wanted: Wanted) -> Option<NameId> {
+        let body = scope.body.filter(|_| wanted != Wanted::Number && scope.defined != Some(&name.text))?;
+        let &id = self.features.get(&(body, name.text.clone()))?;
+        let is_point = matches!(self.symbols.get(id).kind, NameKind::Point | NameKind::Broken);
+        let declared = self.names.get(&name.text).map(|&id| self.symbols.get(id).kind);
+        let is_point_param = declared == Some(NameKind::Param) && self.point_params.contains(name.text.as_str());
+        let is_number = match declared {
+            Some(kind) => kind == NameKind::Param && !is_point_param,
+            None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
+        };
+        let is_own = match wanted {
+            Wanted::Number => false,
+            // where a point is wanted, what is none is told with its name
+            Wanted::Point => is_point || !is_point_param,
+            Wanted::Either => is_point && !is_number,
+        };
+        is_own.then_some(id)
     }
 
     fn word(&mut self, name: &Name, word: &'static Word) {
@@ -349,10 +398,9 @@ impl Walk {
         }
     }
 
-    /// A name in a formula; where it stands for a place, a point of its own body comes first.
-    fn name(&mut self, name: &Name, scope: Scope<'_>, is_alone: bool) {
-        let body = scope.body.filter(|_| is_alone);
-        if let Some(&id) = body.and_then(|body| self.features.get(&(body, name.text.clone()))) {
+    /// A name in a formula; where it stands for a point, one of its own body comes first.
+    fn name(&mut self, name: &Name, scope: Scope<'_>, wanted: Wanted) {
+        if let Some(id) = self.own(name, scope, wanted) {
             self.declared(name, id);
             return;
         }
@@ -373,7 +421,12 @@ impl Walk {
         }
     }
 
-    fn member(&mut self, owner: &Name, feature: &Name) {
+    fn member(&mut self, owner: &Name, feature: &Name, scope: Scope<'_>, wanted: Wanted) {
+        let is_coordinate = wanted != Wanted::Point && coordinate(feature).is_some();
+        if let Some(id) = self.own(owner, scope, Wanted::Point).filter(|_| is_coordinate) {
+            self.declared(owner, id);
+            return;
+        }
         let of = if owner.text == "ground" { self.ground } else { self.names.get(&owner.text).copied() };
         let Some(of) = of else { return };
         self.declared(owner, of);
@@ -382,10 +435,11 @@ impl Walk {
         }
     }
 
-    /// What is called: the language's own functions before the user's.
+    /// What is called: the language's own functions before the user's, unless they give way.
     fn called(&mut self, name: &Name) {
         let function = Function::named(&name.text).map(|function| &function.word);
         let word = function.or_else(|| QuantityWord::named(&name.text).map(|quantity| &quantity.word));
+        let word = word.filter(|_| !self.hidden.contains(name.text.as_str()));
         match (word, self.names.get(&name.text)) {
             (Some(word), _) => self.word(name, word),
             (None, Some(&id)) => self.declared(name, id),

@@ -77,6 +77,7 @@ catalogue! {
         E0309 Error "a number and a condition confused"
         E0310 Error "a time derivative where it may not stand"
         E0311 Error "an equation in which no body takes part"
+        E0318 Error "points of two frames in one formula"
     }
     "dimensions and values" {
         E0401 Error "unlike dimensions"

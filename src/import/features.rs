@@ -166,7 +166,7 @@ impl Features {
         };
         let points = self.points.iter().map(|point| {
             let at = build::tuple(point.at.map(|x| build::length(x, point.span)).into(), point.span);
-            feature(&point.name, point.span, FeatureKind::Point { at })
+            feature(&point.name, point.span, FeatureKind::Point { at: Some(at) })
         });
         let axes = self.axes.iter().map(|axis| {
             let origin = build::word(self.point_name(axis.origin), axis.span);

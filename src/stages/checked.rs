@@ -211,18 +211,29 @@ fn settings(given: &[String], tree: &ast::Mechanism, sources: &mut Sources) -> R
             );
             continue;
         };
-        let name = syntax::normalized(name.trim());
-        if !params.contains(&name.as_str()) {
-            diagnostics.push(no_such_param(&tree.name.text, &name, &params));
+        let path = syntax::normalized(name.trim());
+        let Some((name, coordinate)) = param_of(&path, &params) else {
+            diagnostics.push(no_such_param(&tree.name.text, &path, &params));
             continue;
-        }
-        let file = sources.add_option(format!("--set {name}"), value);
+        };
+        let (name, file) = (name.to_owned(), sources.add_option(format!("--set {path}"), value));
         match syntax::parse_expression(sources, file) {
-            Ok(value) => settings.push(Setting { name, value }),
+            Ok(value) => settings.push(Setting { name, coordinate, value }),
             Err(faults) => diagnostics.extend(faults),
         }
     }
     if diagnostics.is_empty() { Ok(settings) } else { Err(diagnostics) }
+}
+
+/// The parameter that `NAME`, `NAME.x` or `NAME.y` sets, and which of its coordinates.
+fn param_of<'p>(path: &'p str, params: &[&str]) -> Option<(&'p str, Option<usize>)> {
+    let (name, coordinate) = match path.split_once('.') {
+        None => (path, None),
+        Some((name, coordinate)) => {
+            (name.trim_end(), Some(["x", "y"].iter().position(|axis| coordinate.trim_start() == *axis)?))
+        }
+    };
+    params.contains(&name).then_some((name, coordinate))
 }
 
 fn no_such_param(mechanism: &str, name: &str, params: &[&str]) -> Diagnostic {

@@ -75,12 +75,12 @@ pub enum ItemKind {
         /// Its features.
         features: Vec<Feature>,
     },
-    /// `body NAME at (x, y, phi) { … }`
+    /// `body NAME at (x, y, phi) { … }`, `body NAME at (P, phi) { … }`, `body NAME at P toward Q { … }`
     Body {
         /// Its name.
         name: Name,
-        /// The tuple behind `at`.
-        pose: Option<Expr>,
+        /// What stands behind `at`.
+        pose: Option<Pose>,
         /// Its features.
         features: Vec<Feature>,
     },
@@ -143,6 +143,28 @@ pub enum TableRows {
     },
 }
 
+/// Where a body is drawn.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Pose {
+    /// `(x, y, phi)`, `(P, phi)`, or before `toward` a point alone.
+    pub at: Expr,
+    /// The point that the body's x axis goes to.
+    pub toward: Option<Expr>,
+}
+
+impl Pose {
+    /// All that stands behind `at`.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.toward.as_ref().map_or(self.at.span, |toward| self.at.span.to(toward.span))
+    }
+
+    /// Its formulas.
+    pub fn parts(&self) -> impl Iterator<Item = &Expr> {
+        std::iter::once(&self.at).chain(&self.toward)
+    }
+}
+
 /// A feature of a body or of the ground.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Feature {
@@ -161,28 +183,28 @@ pub struct Feature {
 pub enum FeatureKind {
     /// What does not follow the grammar; its name may be empty
     Broken,
-    /// `point P = (x, y)`
+    /// `point P = (x, y)`, or `point P` alone: that of the mechanism
     Point {
-        /// A tuple.
-        at: Expr,
+        /// A formula of points.
+        at: Option<Expr>,
     },
     /// `axis a = P along (dx, dy)`
     AxisAlong {
-        /// A name or a tuple.
+        /// A formula of points.
         origin: Expr,
         /// A tuple.
         direction: Expr,
     },
     /// `axis a = P to Q`
     AxisTo {
-        /// A name or a tuple.
+        /// A formula of points.
         origin: Expr,
-        /// A name or a tuple.
+        /// A formula of points.
         target: Expr,
     },
     /// `circle c = P radius r`
     Circle {
-        /// A name or a tuple.
+        /// A formula of points.
         center: Expr,
         /// A length.
         radius: Expr,
@@ -191,7 +213,7 @@ pub enum FeatureKind {
     Curve {
         /// The name of the parameter.
         argument: Name,
-        /// A tuple.
+        /// A formula of points, over the parameter.
         at: Expr,
         /// First estimate of the parameter.
         estimate: Option<Expr>,

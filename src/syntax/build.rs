@@ -1,6 +1,6 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
-use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
+use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
 use crate::diag::Diagnostic;
@@ -188,11 +188,12 @@ impl Reader<'_> {
     }
 
     /// The name of a mechanism's or body's head, and the pose behind `at`.
-    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<(Name, Option<Expr>)> {
+    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<(Name, Option<Pose>)> {
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
-        let pose = inner.next().map(|pair| formula::build_operand(self, pair, 0)).transpose()?;
-        Ok((name, pose))
+        let at = self.last_expr(&mut inner)?;
+        let toward = self.last_expr(&mut inner)?;
+        Ok((name, at.map(|at| Pose { at, toward })))
     }
 
     /// A formula that is alone in its text.
@@ -251,21 +252,21 @@ impl Reader<'_> {
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
         let kind = match rule {
-            Rule::point => FeatureKind::Point { at: self.next_operand(&mut inner)? },
+            Rule::point => FeatureKind::Point { at: self.last_expr(&mut inner)? },
             Rule::axis if along => FeatureKind::AxisAlong {
-                origin: self.next_operand(&mut inner)?,
+                origin: self.next_expr(&mut inner)?,
                 direction: self.next_operand(&mut inner)?,
             },
             Rule::axis => {
-                FeatureKind::AxisTo { origin: self.next_operand(&mut inner)?, target: self.next_operand(&mut inner)? }
+                FeatureKind::AxisTo { origin: self.next_expr(&mut inner)?, target: self.next_expr(&mut inner)? }
             }
             Rule::circle => {
-                FeatureKind::Circle { center: self.next_operand(&mut inner)?, radius: self.next_expr(&mut inner)? }
+                FeatureKind::Circle { center: self.next_expr(&mut inner)?, radius: self.next_expr(&mut inner)? }
             }
             Rule::curve => FeatureKind::Curve {
                 argument: self.next_name(&mut inner)?,
-                at: self.next_operand(&mut inner)?,
-                estimate: inner.next().map(|e| formula::build(self, e, 0)).transpose()?,
+                at: self.next_expr(&mut inner)?,
+                estimate: self.last_expr(&mut inner)?,
             },
             _ => return Err(self.truncated()),
         };
@@ -284,6 +285,11 @@ impl Reader<'_> {
     fn next_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {
         let pair = pairs.next().ok_or_else(|| self.truncated())?;
         formula::build(self, pair, 0)
+    }
+
+    /// The formula that may come last.
+    fn last_expr<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Option<Expr>> {
+        pairs.next().map(|pair| formula::build(self, pair, 0)).transpose()
     }
 
     fn next_operand<'i>(&self, pairs: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Expr> {

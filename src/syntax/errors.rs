@@ -220,7 +220,9 @@ fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
 fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     let mut words: Vec<&str> = Vec::new();
     let goes_on = rules.iter().any(|rule| matches!(rule, Rule::infix | Rule::unit_power));
-    for rule in rules {
+    // a point may end behind its name, but who goes on there has forgotten the `=`
+    let only_equals = rules.contains(&Rule::equals) && !goes_on;
+    for rule in rules.iter().filter(|rule| !only_equals || **rule == Rule::equals) {
         let word = human(*rule, goes_on, end);
         let is_found = word.trim_matches('`') == found;
         if !word.is_empty() && !is_found && !words.contains(&word) {
@@ -294,6 +296,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::at => "`at`",
+        Rule::toward => "`toward`",
         Rule::along => "`along`",
         Rule::to => "`to`",
         Rule::radius => "`radius`",

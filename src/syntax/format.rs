@@ -9,7 +9,7 @@
 mod comments;
 mod expression;
 
-use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, TableRows};
+use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose, TableRows};
 use super::trivia::Trivia;
 use comments::{Comments, lines};
 pub use expression::expression;
@@ -126,7 +126,9 @@ fn item_cells(kind: &ItemKind, block: &str) -> Vec<String> {
         ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
         ItemKind::Ground { .. } => vec![format!("ground {block}")],
         ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", name.text)],
-        ItemKind::Body { name, pose: Some(pose), .. } => vec![format!("body {} at {} {block}", name.text, pair(pose))],
+        ItemKind::Body { name, pose: Some(pose), .. } => {
+            vec![format!("body {} at {} {block}", name.text, placed(pose))]
+        }
         ItemKind::Joint { name, kind, arguments, .. } => {
             cells(["joint", &label(name), &format!("{}({})", kind.text, list(arguments))])
         }
@@ -194,19 +196,20 @@ fn feature_cells(feature: &Feature) -> Vec<String> {
     let name = &feature.name.text;
     match &feature.kind {
         FeatureKind::Broken => Vec::new(),
-        FeatureKind::Point { at } => cells(["point", name, &format!("= {}", pair(at))]),
+        FeatureKind::Point { at: None } => cells(["point", name]),
+        FeatureKind::Point { at: Some(at) } => cells(["point", name, &defined(at)]),
         FeatureKind::AxisAlong { origin, direction } => {
-            cells(["axis", name, &format!("= {} along {}", place(origin), pair(direction))])
+            cells(["axis", name, &format!("{} along {}", defined(origin), pair(direction))])
         }
         FeatureKind::AxisTo { origin, target } => {
-            cells(["axis", name, &format!("= {} to {}", place(origin), place(target))])
+            cells(["axis", name, &format!("{} to {}", defined(origin), expression(target))])
         }
         FeatureKind::Circle { center, radius } => {
-            cells(["circle", name, &format!("= {} radius {}", place(center), expression(radius))])
+            cells(["circle", name, &format!("{} radius {}", defined(center), expression(radius))])
         }
         FeatureKind::Curve { argument, at, estimate } => {
             let estimate = estimate.as_ref().map_or_else(String::new, |e| format!(" at {}", expression(e)));
-            cells(["curve", &format!("{name}({})", argument.text), &format!("= {}{estimate}", pair(at))])
+            cells(["curve", &format!("{name}({})", argument.text), &format!("{}{estimate}", defined(at))])
         }
     }
 }
@@ -219,12 +222,10 @@ fn pair(e: &Expr) -> String {
     }
 }
 
-/// A point of the body by its name, or in parentheses.
-fn place(e: &Expr) -> String {
-    match &e.bare().kind {
-        ExprKind::Name(name) => name.text.clone(),
-        _ => pair(e),
-    }
+/// What stands behind a body's `at`.
+fn placed(pose: &Pose) -> String {
+    let parts: Vec<String> = pose.parts().map(expression).collect();
+    parts.join(" toward ")
 }
 
 /// Lines in braces, or empty braces if there are none.

@@ -107,25 +107,28 @@ impl<'a> Intent<'a> {
 
     /// `point A = r, 0`, `at 0, 0, 0`, `along 30 deg`
     fn of_a_pair(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
-        let what = match (keyword, last.text) {
-            ("point", "=") => "a point is a pair",
-            ("body", "at") => "a pose is two lengths and an angle",
-            ("axis", "along") => "a direction is a pair",
+        let (what, opening) = match keyword {
+            "point" => ("a point is a pair", "="),
+            "body" => ("a pose is two lengths and an angle", "at"),
+            "axis" => ("a direction is a pair", "along"),
             _ => return None,
         };
+        let behind = self.before.iter().rposition(|token| token.text == opening)? + 1;
+        let start = self.before.get(behind).map_or(self.at, |token| token.start);
         let is_inside = |token: &&Token<'_>| token.text != "{" && token.text != "=";
         let end = self.rest.iter().take_while(is_inside).last()?.end();
-        let written = &self.text[self.at..end];
-        let is_list = written.contains(',');
-        if !self.expects(Rule::paren) || !is_list && last.text != "along" {
+        let written = &self.text[start..end];
+        let is_direction = self.expects(Rule::paren) && last.text == "along";
+        let is_list = written.contains(',') && (is_direction || self.found == ",");
+        if !is_list && !is_direction {
             return None;
         }
         Some(if is_list {
-            let edits = vec![self.edit(self.at..self.at, "("), self.edit(end..end, ")")];
+            let edits = vec![self.edit(start..start, "("), self.edit(end..end, ")")];
             Intent::change(format!("{what} in parentheses: `({written})`"), edits)
         } else {
             let pair = format!("(cos({written}), sin({written}))");
-            Intent::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(self.at..end, &pair)])
+            Intent::change(format!("{what}; that of an angle is `{pair}`"), vec![self.edit(start..end, &pair)])
         })
     }
 

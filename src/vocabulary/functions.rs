@@ -13,6 +13,9 @@ pub struct Function {
     pub most: usize,
     /// What it asks of the dimensions of its arguments.
     pub group: Group,
+    /// Whether a function or table of the file that is called so means itself: texts that were written before there was this function
+    /// mean what they meant.
+    pub gives_way: bool,
 }
 
 /// Functions that ask the same of the dimensions of their arguments.
@@ -28,6 +31,8 @@ pub enum Group {
     Polynomial,
     /// The time derivative.
     Derivative,
+    /// Is a point, or a number of two points.
+    Points,
 }
 
 impl Function {
@@ -73,12 +78,18 @@ const fn pure(
     more: &'static str,
     example: &'static str,
 ) -> Function {
-    Function { word: word(name, forms, meaning, more, example), least: 1, most: 1, group: Group::Pure }
+    Function {
+        word: word(name, forms, meaning, more, example),
+        least: 1,
+        most: 1,
+        group: Group::Pure,
+        gives_way: false,
+    }
 }
 
 /// Of arguments of one dimension.
 const fn alike(least: usize, most: usize, word: Word) -> Function {
-    Function { word, least, most, group: Group::Alike }
+    Function { word, least, most, group: Group::Alike, gives_way: false }
 }
 
 /// From `v0` at `u0` to `v1` at `u1`.
@@ -91,7 +102,12 @@ const fn motion(
 ) -> Function {
     let word =
         Word { name, category: Category::Motion, forms, letters: "", meaning, more, example: Example::Arm(example) };
-    Function { word, least: 5, most: 5, group: Group::Motion }
+    Function { word, least: 5, most: 5, group: Group::Motion, gives_way: false }
+}
+
+/// Of points, or a point.
+const fn of_points(word: Word) -> Function {
+    Function { word, least: 2, most: 2, group: Group::Points, gives_way: true }
 }
 
 /// What is said of all motions but `poly`.
@@ -272,7 +288,36 @@ pub static FUNCTIONS: &[Function] = &[
         least: 1,
         most: 1,
         group: Group::Derivative,
+        gives_way: false,
     },
+    of_points(word(
+        "polar",
+        &["polar(r, angle)"],
+        "the point at a distance r from the origin, in the direction of an angle",
+        "`(r * cos(angle), r * sin(angle))`. Added to a point it leads away from there: `A + polar(20 mm, 30 deg)`.",
+        "param handle = polar(40 mm, 30 deg)\nmeasure reach = distance(handle, arm.tip)",
+    )),
+    of_points(word(
+        "mid",
+        &["mid(P, Q)"],
+        "the point halfway between two points",
+        "`(P + Q) / 2`.",
+        "param A = (20 mm, 0)\nparam B = (60 mm, 40 mm)\nmeasure reach = distance(mid(A, B), arm.tip)",
+    )),
+    of_points(word(
+        "length",
+        &["length(P, Q)"],
+        "how far two drawn points are from each other",
+        "A length, and a constant: P and Q are formulas of points. Of points that move it is `distance(P, Q)`.",
+        "param A = (20 mm, 0)\nparam B = (60 mm, 30 mm)\nmeasure beyond = x(arm.tip) - length(A, B)",
+    )),
+    of_points(word(
+        "direction",
+        &["direction(P, Q)"],
+        "the angle of the way from one drawn point to another, in (−π, π]",
+        "In radians, and a constant: P and Q are formulas of points, and do not coincide. The angle of a body is `angle(b)`.",
+        "param A = (20 mm, 0)\nparam B = (60 mm, 40 mm)\ndriver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
+    )),
     motion(
         "step",
         &["step(u, u0, v0, u1, v1)"],
@@ -330,5 +375,6 @@ pub static FUNCTIONS: &[Function] = &[
         least: 3,
         most: usize::MAX,
         group: Group::Polynomial,
+        gives_way: false,
     },
 ];

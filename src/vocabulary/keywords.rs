@@ -144,9 +144,10 @@ pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Declaration,
         "param",
-        &["param NAME = FORMULA"],
-        "a constant that has a name",
-        "Over other params, functions and tables, without `t`. It may be set from outside: `--set reach=60mm`.",
+        &["param NAME = FORMULA", "param NAME = (x, y)"],
+        "a constant that has a name, or a point of the drawing",
+        "Over other params, functions and tables, without `t`. It may be set from outside: `--set reach=60mm`. A point stands wherever \
+         a literal point may, its coordinates are `NAME.x` and `NAME.y`, and it is set as `--set 'A=(12mm,0)'` or `--set A.x=12mm`.",
         Example::Arm("param reach = 80 mm\nmeasure beyond = x(arm.tip) - reach"),
     ),
     keyword(
@@ -183,18 +184,25 @@ pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Declaration,
         "body",
-        &["body NAME { … }", "body NAME at (x, y, phi) { … }"],
+        &[
+            "body NAME { … }",
+            "body NAME at (x, y, phi) { … }",
+            "body NAME at (P, phi) { … }",
+            "body NAME at P toward Q { … }",
+        ],
         "a rigid body, with its points, axes, circles and curves",
         "It has three coordinates: the place of its frame's origin, and its angle. The pose behind `at` is where the assembly begins \
-         to look for it, `(0, 0, 0)` if it is not given; the features inside are in the body's own frame.",
+         to look for it, `(0, 0, 0)` if it is not given; the features inside are in the body's own frame. P and Q are formulas of \
+         points, with points of other bodies too, which are taken where these are drawn: `at (crank.pin, 30 deg)`.",
         Example::Arm("measure reach = x(arm.tip)"),
     ),
     keyword(
         Role::Feature,
         "point",
-        &["point P = (x, y)"],
+        &["point P = (x, y)", "point P = FORMULA", "point A"],
         "a point of a body or the ground",
-        "Two lengths, in the frame of the body.",
+        "Two lengths, in the frame of the body, or a formula of points: of the body's own, or of params that are points. `point A` \
+         alone is the param A.",
         Example::Arm("measure height = y(arm.tip)"),
     ),
     keyword(
@@ -341,11 +349,32 @@ pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Separator,
         "at",
-        &["at (x, y, phi)"],
+        &["at (x, y, phi)", "at (P, phi)", "at P toward Q"],
         "stands before the pose of a body, or the estimate of a curve's argument",
-        "The pose of `body NAME at (x, y, phi)` is two lengths and an angle: where the assembly begins to look for the body. Gears \
-         and racks mesh as they stand there.",
+        "The pose of `body NAME at (x, y, phi)` is two lengths and an angle, or a point and an angle: where the assembly begins to look \
+         for the body. Gears and racks mesh as they stand there.",
         Example::Of("weld"),
+    ),
+    keyword(
+        Role::Separator,
+        "toward",
+        &["body NAME at P toward Q { … }"],
+        "stands before the point that a body's x axis goes to as it is drawn",
+        "The body's frame begins at P, and its angle is `direction(P, Q)`. The two points do not coincide.",
+        Example::Whole(
+            "\
+param A = (20 mm, 10 mm)
+param B = (60 mm, 40 mm)
+ground {
+    point A
+}
+body crank at A toward B {
+    point A   = (0, 0)
+    point pin = (length(A, B), 0)
+}
+joint main: revolute(ground.A, crank.A)
+driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
+        ),
     ),
     keyword(
         Role::Separator,

@@ -100,10 +100,16 @@ pub fn words() -> impl Iterator<Item = &'static Word> {
     keywords.chain(joints).chain(quantities).chain(functions).chain(constants).chain(units)
 }
 
-/// Whether a name is that of a function or quantity, and so cannot be that of the user's.
+/// Whether a name is that of a function or quantity, and so cannot be that of the user's unless it gives way.
 #[must_use]
 pub fn is_called(name: &str) -> bool {
     Function::named(name).is_some() || QuantityWord::named(name).is_some()
+}
+
+/// Whether a function or table of the file may have the name of this function, and then means itself.
+#[must_use]
+pub fn gives_way(name: &str) -> bool {
+    Function::named(name).is_some_and(|function| function.gives_way)
 }
 
 /// Whether a name of a mechanism's space is taken by a constant, the ground or a unit that does not give way.

@@ -54,8 +54,8 @@ const OTHERS: &[(&str, [&str; 3])] = &[
     // ---- units and constants
     ("s", ["slide", "guide", "stroke"]),
     ("m", ["arm", "mount", "module"]),
-    ("mm", ["arm", "mount", "length"]),
-    ("cm", ["arm", "mount", "length"]),
+    ("mm", ["arm", "mount", "span"]),
+    ("cm", ["arm", "mount", "span"]),
     ("in", ["input_arm", "input", "input"]),
     ("ft", ["foot", "foot_pin", "height"]),
     ("ms", ["slide", "guide", "delay"]),

@@ -239,7 +239,7 @@ pub static SYNONYMS: &[Synonym] = &[
     call(&["xpos", "pos_x", "x_position", "posx"], &["x"], "the x coordinate of a point is `x({0 P})`"),
     call(&["ypos", "pos_y", "y_position", "posy", "height"], &["y"], "the y coordinate of a point is `y({0 P})`"),
     call(
-        &["dist", "length", "separation", "gap", "norm"],
+        &["dist", "separation", "gap", "norm"],
         &["distance"],
         "how far two points are apart is `distance({0 P}, {1 Q})`",
     ),

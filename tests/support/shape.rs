@@ -78,7 +78,10 @@ fn item_shape(kind: &ItemKind) -> String {
             }
         },
         ItemKind::Ground { .. } => "ground".to_owned(),
-        ItemKind::Body { name, pose, .. } => format!("body {} {:?}", name.text, pose.as_ref().map(shape)),
+        ItemKind::Body { name, pose, .. } => {
+            let pose = pose.as_ref().map(|pose| pose.parts().map(shape).collect::<Vec<_>>());
+            format!("body {} {pose:?}", name.text)
+        }
         ItemKind::Joint { name, kind, arguments, .. } => {
             format!("joint {} {}{}", name.text, kind.text, shapes(arguments))
         }
@@ -94,7 +97,7 @@ fn item_shape(kind: &ItemKind) -> String {
 fn feature_shape(feature: &Feature) -> String {
     let text = match &feature.kind {
         FeatureKind::Broken => "broken".to_owned(),
-        FeatureKind::Point { at } => format!("point {}", shape(at)),
+        FeatureKind::Point { at } => format!("point {:?}", at.as_ref().map(shape)),
         FeatureKind::AxisAlong { origin, direction } => format!("along {} {}", shape(origin), shape(direction)),
         FeatureKind::AxisTo { origin, target } => format!("to {} {}", shape(origin), shape(target)),
         FeatureKind::Circle { center, radius } => format!("circle {} {}", shape(center), shape(radius)),

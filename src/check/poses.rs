@@ -1,0 +1,134 @@
+//! Where bodies are drawn: the poses behind `at`, which may follow from those of other bodies.
+
+use super::formula::Context;
+use super::sites::{Place, Site};
+use super::{Checker, errors, mends};
+use crate::expr::ExprId;
+use crate::model::Frame;
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Name, Pose};
+use crate::syntax::keywords_in;
+use crate::vocabulary::Keyword;
+use rustc_hash::FxHashMap;
+
+/// For messages.
+const PLACE: &str = "the estimate of a pose";
+
+impl<'a> Checker<'a> {
+    /// The poses of all bodies, each after those that it needs.
+    pub(super) fn poses(&mut self) {
+        let mut poses = Vec::new();
+        for item in self.items() {
+            if let ItemKind::Body { name, pose, .. } = &item.kind {
+                poses.push((item, name, pose.as_ref()));
+            }
+        }
+        let uses = self.uses_of_poses(&poses);
+        let mut is_sound = vec![false; poses.len()];
+        for k in self.ordered(&uses) {
+            let (item, _, pose) = poses[k];
+            is_sound[k] = match pose {
+                Some(pose) => self.at_site(Site::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
+                None => !self.has_unread_pose(item),
+            };
+            if !is_sound[k] {
+                self.broken_poses.insert(Frame::Body(self.bodies[k]));
+            }
+        }
+        // those on a circle have none
+        let broken = self.bodies.iter().zip(is_sound).filter(|(_, is_sound)| !is_sound);
+        self.broken_poses.extend(broken.map(|(&body, _)| Frame::Body(body)));
+    }
+
+    /// Which bodies the pose of each one names.
+    fn uses_of_poses(&self, poses: &[(&'a Item, &'a Name, Option<&'a Pose>)]) -> Vec<(&'a Name, Vec<(usize, Span)>)> {
+        let mut positions = FxHashMap::default();
+        for (k, (_, name, _)) in poses.iter().enumerate() {
+            positions.entry(name.text.as_str()).or_insert(k);
+        }
+        let uses = poses.iter().map(|&(_, name, pose)| {
+            let mut uses = Vec::new();
+            let mut open: Vec<&Expr> = pose.into_iter().flat_map(Pose::parts).collect();
+            while let Some(e) = open.pop() {
+                if let ExprKind::Member { owner, .. } = &e.kind
+                    && self.point_param(owner).is_none()
+                {
+                    uses.extend(positions.get(owner.text.as_str()).map(|&k| (k, owner.span)));
+                }
+                open.extend(e.children());
+            }
+            (name, uses)
+        });
+        uses.collect()
+    }
+
+    /// Whether a body has a pose that does not follow the grammar, which has been said.
+    fn has_unread_pose(&self, item: &Item) -> bool {
+        let head = self.sources.text(item.span).split('{').next().unwrap_or_default();
+        keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
+    }
+
+    fn pose(&mut self, body: usize, pose: &Pose) -> Option<()> {
+        let (place, phi) = match (&pose.toward, &pose.at.kind) {
+            (Some(toward), _) => self.pose_toward(&pose.at, toward),
+            (None, ExprKind::Tuple(parts)) => match parts.as_slice() {
+                [x, y, phi] => {
+                    let context = self.pair_context([x, y], PLACE, None);
+                    let place = self.lengths_in([x, y], &context);
+                    (place, self.angle(phi, "the angle of a pose"))
+                }
+                [point, phi] if self.is_meant_as_point(point) => {
+                    let place = self.drawn_point_of(point);
+                    (place, self.angle(phi, "the angle of a pose"))
+                }
+                parts => return self.wrong_pose(&pose.at, parts),
+            },
+            _ => return self.wrong_pose(&pose.at, &[]),
+        };
+        let ([x, y], phi) = (place?, phi?);
+        let id = self.bodies[body];
+        self.model.bodies[id.index()].pose = [x, y, phi];
+        Some(())
+    }
+
+    /// `at A toward B`
+    fn pose_toward(&mut self, from: &Expr, to: &Expr) -> (Option<Place>, Option<ExprId>) {
+        let (p, q) = (self.drawn_point_of(from), self.drawn_point_of(to));
+        let (Some(p), Some(q)) = (p, q) else { return (None, None) };
+        let way = [0, 1].map(|k| self.model.graph.sub(q[k], p[k]));
+        (Some(p), self.direction_of_way(way, "`toward`", from.span.to(to.span)))
+    }
+
+    fn drawn_point_of(&mut self, e: &Expr) -> Option<Place> {
+        match &e.kind {
+            ExprKind::Name(name) if !self.is_point(e) => {
+                self.no_point_named(name);
+                None
+            }
+            _ => self.point_formula(e, &Context::constant(PLACE)).map(|drawn| drawn.at),
+        }
+    }
+
+    /// A point, or a name or feature that is not known.
+    fn is_meant_as_point(&self, e: &Expr) -> bool {
+        self.is_point(e)
+            || match &e.kind {
+                ExprKind::Name(name) => !self.is_number_name(name),
+                ExprKind::Member { owner, .. } => self.point_param(owner).is_none(),
+                _ => false,
+            }
+    }
+
+    fn wrong_pose(&mut self, e: &Expr, parts: &[Expr]) -> Option<()> {
+        if parts.is_empty() && self.is_point(e) {
+            self.report(errors::no_angle_of_pose(e.span, self.sources.text(e.span)));
+            return None;
+        }
+        let found = if parts.is_empty() { 1 } else { parts.len() };
+        let word = Keyword::named("at").map(|keyword| &keyword.word);
+        let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
+        let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
+        self.report(mends::fixed_first(diagnostic, fix));
+        None
+    }
+}
