@@ -520,6 +520,23 @@ mod tests {
     }
 
     #[test]
+    fn a_point_of_the_body_comes_before_that_of_the_mechanism() {
+        let text = "mechanism m {\n param A = (1 mm, 2 mm)\n param r = 3 mm\n ground {\n point A\n point P = mid(A, A)\n point r = (r, A.x)\n point Q = r + 2 * A - 2 * (r / 1 mm) * P\n }\n body b at (A, r / 1 m) { point O = A + (A.y, 0) }\n}";
+        let of = |from: &str, to: &str| {
+            assert!(text.contains(from), "{from}");
+            places(&text.replacen(from, to, 1))
+        };
+        let body = "body b at (A, r / 1 m) { point O = A + (A.y, 0) }";
+        assert_eq!(of("param A", "param ‸A"), ["param A = (1 mm, 2 mm)", "point A", body, body, body]);
+        let (second, last) = ("point r = (r, A.x)", "point Q = r + 2 * A - 2 * (r / 1 mm) * P");
+        assert_eq!(of("mid(A", "mid(‸A"), ["point A", "point P = mid(A, A)", "point P = mid(A, A)", second, last]);
+        assert_eq!(of("point A", "point ‸A"), of("mid(A", "mid(‸A"));
+        assert_eq!(of("(r, A.x)", "(‸r, A.x)"), ["param r = 3 mm", second, last, body]);
+        assert_eq!(of("Q = r", "Q = ‸r"), [second, last]);
+        assert_eq!(of("(r, A.x)", "(r, ‸A.x)"), of("mid(A", "mid(‸A"));
+    }
+
+    #[test]
     fn names_are_known_beside_a_fault() {
         let text = "mechanism m {\n param ‸r = 3 mm\n body b { point P = (r, 0) }\n joint j revolute(b.P, ground.O)\n measure k = r\n}";
         assert_eq!(places(text).len(), 3);

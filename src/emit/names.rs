@@ -36,7 +36,13 @@ pub(super) struct Names {
 impl Names {
     pub fn new(system: &ConstraintSystem) -> Names {
         let mut fields = Namer::default();
-        let params: Vec<String> = system.params.iter().map(|param| fields.snake(&param.name)).collect();
+        // a coordinate of a point gives way to a name that is written so
+        let is_path = |k: &usize| system.params[*k].name.contains('.');
+        let (paths, plain): (Vec<usize>, Vec<usize>) = (0..system.params.len()).partition(is_path);
+        let mut params = vec![String::new(); system.params.len()];
+        for k in plain.into_iter().chain(paths) {
+            params[k] = fields.snake(&system.params[k].name);
+        }
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);

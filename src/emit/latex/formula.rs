@@ -644,7 +644,15 @@ fn reference(number: usize) -> Piece {
 
 /// A parameter's symbol.
 pub(super) fn param(system: &ConstraintSystem, number: usize) -> Set {
-    symbol(&system.params[number].name, Style::Italic, number)
+    let name = &system.params[number].name;
+    match name.split_once('.') {
+        None => symbol(name, Style::Italic, number),
+        // a coordinate of a point
+        Some((point, coordinate)) => {
+            let Set { text, width } = symbol(point, Style::Italic, number);
+            Set { text: format!("{text}_{{{coordinate}}}"), width: width + 0.4 }
+        }
+    }
 }
 
 /// A table's symbol.
