@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::syntax;
+use mechc::rooms::{math, syntax};
 use mechc::{Choice, Memory, Parsed, RustOptions, Sources};
 use std::f64::consts::PI;
 use std::fs;
@@ -26,7 +26,8 @@ fn values(declarations: &str, ground: &str, measures: &[&str]) -> Vec<f64> {
 /// The coordinates (mm) of a formula of points, in all the places where one may stand.
 fn place_of(declarations: &str, formula: &str) -> [f64; 2] {
     let declared = format!("{declarations} param drawn = {formula}");
-    let ground = format!("point P = {formula} axis along_x = {formula} along (1, 0) axis to_it = (1 km, 1 km) to {formula}");
+    let ground =
+        format!("point P = {formula} axis along_x = {formula} along (1, 0) axis to_it = (1 km, 1 km) to {formula}");
     let places = ["drawn", "ground.P", &format!("({formula})"), &format!("0 * drawn + {formula}")];
     let mut measures = vec!["drawn.x".to_owned(), "drawn.y".to_owned()];
     measures.extend(places.iter().flat_map(|place| [format!("x({place})"), format!("y({place})")]));
@@ -80,7 +81,13 @@ fn length_and_direction_are_those_of_the_way() {
     let found = values(
         TWO_POINTS,
         "",
-        &["length(A, B)", "length(A, A)", "length((0, 0), (3 mm, 4 mm))", "A.x + length(A, B) - 2 * r", "length(mid(A, B), B)"],
+        &[
+            "length(A, B)",
+            "length(A, A)",
+            "length((0, 0), (3 mm, 4 mm))",
+            "A.x + length(A, B) - 2 * r",
+            "length(mid(A, B), B)",
+        ],
     );
     is_near(&found, &[0.1, 0.0, 0.005, 0.07, 0.05], "lengths");
     let found = values(
@@ -88,26 +95,29 @@ fn length_and_direction_are_those_of_the_way() {
         "",
         &["direction(A, B)", "direction(B, A)", "direction((0, 0), (1 mm, 1 mm))", "direction(A, A + (0, -1 mm))"],
     );
-    is_near(&found, &[0.8_f64.atan2(-0.6), (-0.8_f64).atan2(0.6), PI / 4.0, -PI / 2.0], "directions");
+    is_near(&found, &[math::atan2(0.8, -0.6), math::atan2(-0.8, 0.6), PI / 4.0, -PI / 2.0], "directions");
 }
 
 #[test]
 fn a_direction_is_above_minus_pi() {
     let left = "param A = (10 mm, 0) param B = (-10 mm, -0) param C = (5 mm, -0)";
-    let formulas = ["direction(A, -A)", "direction(A, B)", "direction(C, B)", "direction(A, -1 * A)", "direction(A, 0 * A)"];
+    let formulas =
+        ["direction(A, -A)", "direction(A, B)", "direction(C, B)", "direction(A, -1 * A)", "direction(A, 0 * A)"];
     assert_eq!(values(left, "", &formulas), [PI; 5]);
     assert_eq!(values(left, "", &["direction(A, B - (0, 1e-30 m))"]), [-PI], "what lies below is below");
 }
 
 #[test]
 fn plain_points_are_in_metres() {
-    let found = values("param A = (0.5, 2) param k = 2 * A.x + 1", "point P = A / 2", &["k", "x(ground.P)", "A.x + 1 mm"]);
+    let found =
+        values("param A = (0.5, 2) param k = 2 * A.x + 1", "point P = A / 2", &["k", "x(ground.P)", "A.x + 1 mm"]);
     is_near(&found, &[2.0, 0.25, 0.501], "plain");
 }
 
 #[test]
 fn points_stand_in_functions_and_tables() {
-    let declared = "param A = (20 mm, 10 mm) fn f(u) = u * A.x + length(A, (0, 10 mm)) table g = spline [(0, 0), (1, 1)]";
+    let declared =
+        "param A = (20 mm, 10 mm) fn f(u) = u * A.x + length(A, (0, 10 mm)) table g = spline [(0, 0), (1, 1)]";
     let found = values(declared, "point A = (g(0.5) * 1 m, f(2))", &["f(3)", "x(ground.A)", "y(ground.A)"]);
     is_near(&found, &[0.08, 0.5, 0.06], "functions");
 }
@@ -116,7 +126,11 @@ fn points_stand_in_functions_and_tables() {
 fn a_name_means_the_own_point_before_the_mechanisms() {
     let of = |features: &str, point: &str| -> [f64; 2] {
         let (x, y) = (format!("x(ground.{point})"), format!("y(ground.{point})"));
-        let found = values("param A = (20 mm, 10 mm) param r = 3 mm fn f(u) = u + A.x table g = spline [(0, 0), (1, 1)]", features, &[&x, &y]);
+        let found = values(
+            "param A = (20 mm, 10 mm) param r = 3 mm fn f(u) = u + A.x table g = spline [(0, 0), (1, 1)]",
+            features,
+            &[&x, &y],
+        );
         [found[0] * 1e3, found[1] * 1e3]
     };
     // its own, and in its own formula the mechanism's
@@ -127,18 +141,30 @@ fn a_name_means_the_own_point_before_the_mechanisms() {
     // numbers, functions and tables keep their meaning
     is_near(&of("point r = (r, 0) point P = 2 * A / (r / 1 mm) point Q = (r, 2 * r)", "Q"), &[3.0, 6.0], "a number");
     is_near(&of("point r = (r, 0) point P = 2 * (A - r)", "P"), &[34.0, 20.0], "where only a point can stand");
-    is_near(&of("point f = (1 mm, 0) point g = (2 mm, 0) point P = (f(1 mm), g(0.5) * 1 mm)", "P"), &[21.0, 0.5], "a call");
+    is_near(
+        &of("point f = (1 mm, 0) point g = (2 mm, 0) point P = (f(1 mm), g(0.5) * 1 mm)", "P"),
+        &[21.0, 0.5],
+        "a call",
+    );
     // a function knows nothing of the body in which it is called
     is_near(&of("point A = (7 mm, 0) point P = (f(1 mm), A.x)", "P"), &[21.0, 7.0], "a function");
     // units and constants too
-    is_near(&of("point mm = (5 mm, 0) point m = mid(mm, mm) point P = m - (2 * mm, 0.001 * m)", "P"), &[3.0, -1.0], "a unit");
+    is_near(
+        &of("point mm = (5 mm, 0) point m = mid(mm, mm) point P = m - (2 * mm, 0.001 * m)", "P"),
+        &[3.0, -1.0],
+        "a unit",
+    );
 }
 
 #[test]
 fn words_of_points_are_names_elsewhere() {
     // as texts were written before there were these words
     let declared = "param length = 50 mm param direction = 30 deg param mid = length / 2 param toward = 2";
-    let found = values(declared, "point polar = (length, mid) point toward = (toward * mid, 0)", &["x(ground.polar)", "x(ground.toward)"]);
+    let found = values(
+        declared,
+        "point polar = (length, mid) point toward = (toward * mid, 0)",
+        &["x(ground.polar)", "x(ground.toward)"],
+    );
     is_near(&found, &[0.05, 0.05], "params and points");
     // a function of the file hides one of the language
     let hidden = "fn length(u) = 2 * u fn mid(u) = 3 * u table polar = spline [(0, 0), (1, 2)] fn direction(u) = -u";
@@ -189,7 +215,8 @@ fn a_body_is_drawn_at_a_point_with_an_angle_or_toward_another() {
     ];
     for (line, (name, pose)) in found.iter().zip(wanted) {
         let numbers = line.strip_prefix(&format!("body {name} at (")).expect("in the order of the text");
-        let numbers: Vec<f64> = numbers.trim_end_matches(')').split(", ").map(|n| n.parse().expect("a number")).collect();
+        let numbers: Vec<f64> =
+            numbers.trim_end_matches(')').split(", ").map(|n| n.parse().expect("a number")).collect();
         is_near(&numbers, &pose, name);
     }
     assert_eq!(found.len(), wanted.len());

@@ -114,7 +114,8 @@ pub(super) struct Input {
     #[arg(long, value_name = "NAME")]
     pub mechanism: Option<String>,
 
-    /// Set a parameter, with its unit: `--set crank_length=60mm`. Repeatable; the last of one name counts
+    /// Set a parameter, with its unit: `--set crank_length=60mm`; a point as `--set 'A=(12mm,0)'` or `--set A.x=12mm`. Repeatable; the last
+    /// of one name counts
     #[arg(long, value_name = "NAME=EXPR", allow_hyphen_values = true)]
     pub set: Vec<String>,
 
