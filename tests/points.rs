@@ -291,8 +291,8 @@ fn same_rows(one: &Outcome, other: &Outcome, tolerance: f64) {
 #[test]
 fn curves_circles_and_joints_take_points() {
     let drawn = "mechanism m { param O = (0, 0) param C = (10 mm, 5 mm) param F = (0, 60 mm)
-        ground { point O axis way = O along (0, 1) axis up = O to F }
-        body cam { point O = O curve rim(u) = C + polar(30 mm, u) circle disc = mid(O, C) radius length(O, C) }
+        ground { point O point u = (7 mm, 3 mm) axis way = O along (0, 1) axis up = O to F }
+        body cam { point O = O point u = C curve rim(u) = u + polar(30 mm, u) + u * (0, 0) circle disc = mid(O, C) radius length(O, C) }
         body follower at (F, 0) { point tip = (0, 0) axis way = tip along (0, 1) }
         joint main: revolute(O, cam.O) joint guide: translational(ground.up, follower.way)
         joint touch: point_follower(follower.tip, cam.rim)

@@ -38,7 +38,21 @@ impl<'a> Checker<'a> {
         defined: Option<&'a str>,
         read: impl FnOnce(&mut Self) -> Option<T>,
     ) -> Option<T> {
-        let scope = Scope { site, defined, own: None, of_mechanism: None };
+        self.in_scope(Scope { site, defined, ..Scope::default() }, read)
+    }
+
+    /// The same of the formula of a curve, over its argument.
+    pub(super) fn at_curve<T>(
+        &mut self,
+        frame: Frame,
+        argument: &'a str,
+        read: impl FnOnce(&mut Self) -> Option<T>,
+    ) -> Option<T> {
+        self.in_scope(Scope { site: Site::Inside(frame), argument: Some(argument), ..Scope::default() }, read)
+    }
+
+    fn in_scope<T>(&mut self, scope: Scope<'a>, read: impl FnOnce(&mut Self) -> Option<T>) -> Option<T> {
+        let site = scope.site;
         let outer = std::mem::replace(&mut self.scope, scope);
         let value = read(self);
         let Scope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
@@ -74,7 +88,7 @@ impl<'a> Checker<'a> {
         let Site::Inside(frame) = self.scope.site else { return None };
         if self.scope.defined == Some(name.text.as_str())
             || wanted == Wanted::Number
-            || wanted == Wanted::Either && self.is_number_name(name)
+            || wanted == Wanted::Either && (self.scope.argument == Some(&name.text) || self.is_number_name(name))
         {
             return None;
         }

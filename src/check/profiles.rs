@@ -37,14 +37,14 @@ impl<'a> Checker<'a> {
         &mut self,
         frame: Frame,
         name: &Name,
-        argument: &Name,
+        argument: &'a Name,
         at: &Expr,
         estimate: Option<&Expr>,
     ) -> Option<CurveId> {
         let id = self.name_symbol(Named::Argument, 0);
         let value = Value { id, dim: Dim::Of(Dimension::PURE) };
         let known = self.model.conditions.len();
-        let pair = self.at_site(Site::Inside(frame), None, |checker| {
+        let pair = self.at_curve(frame, &argument.text, |checker| {
             checker.place_of(at, "curve", "a curve", Some((&argument.text, value)))
         });
         // what must be positive along the curve must be so at a contact only

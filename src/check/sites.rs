@@ -33,6 +33,8 @@ pub(super) struct Scope<'a> {
     pub site: Site,
     /// The point whose own formula it is.
     pub defined: Option<&'a str>,
+    /// The argument of the curve whose formula it is.
+    pub argument: Option<&'a str>,
     /// Where it names a point of the body, and one of the mechanism.
     pub own: Option<Span>,
     pub of_mechanism: Option<Span>,

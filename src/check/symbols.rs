@@ -373,6 +373,7 @@ impl Walk<'_> {
         let is_point_param = declared == Some(NameKind::Param) && self.point_params.contains(name.text.as_str());
         let is_number = match declared {
             Some(kind) => kind == NameKind::Param && !is_point_param,
+            None if scope.argument.is_some_and(|(argument, _)| argument == name.text) => true,
             None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
         };
         let is_own = match wanted {

@@ -363,14 +363,15 @@ pub static KEYWORDS: &[Keyword] = &[
         "The body's frame begins at P, and its angle is `direction(P, Q)`. The two points do not coincide.",
         Example::Whole(
             "\
-param A = (20 mm, 10 mm)
-param B = (60 mm, 40 mm)
+param A     = (20 mm, 10 mm)
+param B     = (60 mm, 40 mm)
+param reach = length(A, B)
 ground {
     point A
 }
 body crank at A toward B {
     point A   = (0, 0)
-    point pin = (length(A, B), 0)
+    point pin = (reach, 0)
 }
 joint main: revolute(ground.A, crank.A)
 driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",

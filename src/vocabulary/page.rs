@@ -104,6 +104,9 @@ fn details(word: &Word) -> Vec<String> {
     if !word.more.is_empty() {
         details.push(word.more.to_owned());
     }
+    if Function::named(word.name).is_some_and(|function| function.gives_way) {
+        details.push("A function or table of the file that is called so hides it.".to_owned());
+    }
     if Function::named(word.name).is_some_and(|function| function.group == super::Group::Motion) {
         details.push(OF_MOTIONS.to_owned());
     }
@@ -138,7 +141,7 @@ fn overview(name: &str) -> Option<String> {
     Some(match name {
         "functions" => {
             let functions: Vec<&Word> = FUNCTIONS.iter().filter(|f| !f.is_motion()).map(|f| &f.word).collect();
-            let intro = "Called with numbers in any formula; `der` in measures only. Motion functions have a page of their own, \
+            let intro = "Called with numbers in any formula; `polar`, `mid`, `length` and `direction` are of points; `der` in measures only. Motion functions have a page of their own, \
                          `mechc explain motions`; `fn` declares more.";
             list("Functions", intro, &functions)
         }
