@@ -286,7 +286,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_if
         | Rule::kw_not => "a formula",
         Rule::infix | Rule::kw_and | Rule::kw_or => "an operator",
-        Rule::paren => "`(`",
+        Rule::paren | Rule::left => "`(`",
         Rule::equals => "`=`",
         Rule::colon => "`:`",
         Rule::comma => "`,`",
