@@ -65,7 +65,8 @@ pub struct Setting {
 pub fn check_file(file: &ast::File) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     let mut space: Space<()> = Space::new();
-    for mechanism in &file.mechanisms {
+    let named = file.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty());
+    for mechanism in named {
         if let Err(first) = space.declare(&mechanism.name, ()) {
             diagnostics.push(errors::second_mechanism(&mechanism.name, first));
         }

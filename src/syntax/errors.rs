@@ -8,6 +8,7 @@ use super::tokens::tokens;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
+use std::ops::Range;
 
 /// Nesting beyond the cap.
 pub fn too_deep(span: Span) -> Diagnostic {
@@ -54,6 +55,15 @@ pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
     ))
 }
 
+/// A feature that ends too early.
+pub(super) fn half_a_feature(keyword: &str, name: &str, end: Span, wanted: &str) -> Diagnostic {
+    misplaced(
+        end,
+        &format!("{keyword} `{name}` is not complete: expected {wanted}"),
+        &format!("{wanted} goes behind this"),
+    )
+}
+
 /// A declaration of the mechanism within the braces of a body.
 pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault.fixes.clear();
@@ -89,11 +99,14 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         return double;
     }
     let found = found_at(text, offset);
-    if let Some(bracket) = other_bracket(error, text, found.end, file) {
+    if let Some(bracket) = other_bracket(error, text, &found, file) {
         return bracket;
     }
-    let span = Span { file, start: found.start as u32, end: found.end as u32 };
     let word = &text[found.clone()];
+    let string = word.starts_with('"').then(|| tokens(&text[found.start..])).and_then(|all| all.first().copied());
+    // a string is marked along its length
+    let length = string.map_or(word.len(), |string| string.text.lines().next().unwrap_or_default().len());
+    let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let rules = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
         ErrorVariant::CustomError { .. } => &[],
@@ -124,6 +137,7 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     match Intent::new(text, file, found.start, word, rules).mend() {
         Some(Intended::Words(words)) => return diagnostic.help(words),
         Some(Intended::Change(fix)) => return diagnostic.fix(fix),
+        Some(Intended::Instead(other)) => return *other,
         None => {}
     }
     match fault.mend(&expected) {
@@ -133,16 +147,22 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     }
 }
 
-/// Arguments in braces or square brackets: `revolute{A, B}`.
-fn other_bracket(error: &Error<Rule>, text: &str, behind: usize, file: FileId) -> Option<Diagnostic> {
-    let rest = text[behind..].trim_start();
-    let bracket = rest.get(..1).filter(|bracket| ["{", "["].contains(bracket))?;
-    if !expects(error, Rule::call) && !expects(error, Rule::expr) {
+/// Arguments or a pair in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.
+fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: FileId) -> Option<Diagnostic> {
+    let is_bracket = |bracket: &&str| ["{", "["].contains(bracket);
+    let (rest, is_pair) = match text.get(found.clone()).filter(is_bracket) {
+        Some(_) => (&text[found.start..], true),
+        None => (text[found.end..].trim_start(), false),
+    };
+    let bracket = rest.get(..1).filter(is_bracket)?;
+    let is_expected =
+        if is_pair { expects(error, Rule::paren) } else { expects(error, Rule::call) || expects(error, Rule::expr) };
+    if !is_expected {
         return None;
     }
     let at = text.len() - rest.len();
     let span = |at: usize| Span { file, start: at as u32, end: at as u32 + 1 };
-    let words = "arguments stand in round brackets";
+    let words = if is_pair { "coordinates stand in round brackets" } else { "arguments stand in round brackets" };
     let fault = misplaced(span(at), &format!("expected `(`, found `{bracket}`"), "`(` goes here");
     Some(match partner(text, at) {
         Some(end) => {
@@ -193,7 +213,7 @@ fn expects(error: &Error<Rule>, rule: Rule) -> bool {
 }
 
 /// The word or character at an offset: what the parser could not go on with.
-fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
+fn found_at(text: &str, offset: usize) -> Range<usize> {
     // the parser may stand before white space or a comment
     let mut start = offset.min(text.len());
     loop {
@@ -229,6 +249,11 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     }
     if words.is_empty() {
         return "the next declaration".to_owned();
+    }
+    // no other formula stands behind a joint's `:`
+    let is_joint = rules.contains(&Rule::call) && !rules.contains(&Rule::literal) && !rules.contains(&Rule::expr);
+    if is_joint && words == ["a formula"] {
+        return "a kind of joint with its arguments".to_owned();
     }
     // a formula may begin with both
     if words.contains(&"a formula") {

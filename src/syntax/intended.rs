@@ -2,10 +2,11 @@
 
 mod ground;
 mod heads;
+mod parts;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, tokens};
-use crate::diag::{Applies, Edit, Fix};
+use crate::diag::{Applies, Diagnostic, Edit, Fix};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit};
 use heads::is_dash;
@@ -29,6 +30,8 @@ pub(super) struct Intent<'a> {
 pub(super) enum Intended {
     Words(String),
     Change(Fix),
+    /// Another message, at another place.
+    Instead(Box<Diagnostic>),
 }
 
 impl<'a> Intent<'a> {
@@ -48,11 +51,17 @@ impl<'a> Intent<'a> {
     /// What was meant.
     pub fn mend(&self) -> Option<Intended> {
         let (keyword, last) = (self.before.first()?.text, self.before.last()?);
+        if let Some(half) = self.of_half_a_feature(keyword, last) {
+            return Some(half);
+        }
         if self.text[last.end()..self.at].contains('\n') {
             return None;
         }
         self.of_a_head(keyword, last)
+            .or_else(|| self.of_bare_arguments(keyword, last))
             .or_else(|| self.of_the_ground())
+            .or_else(|| self.of_an_axis_with_a_comma(keyword))
+            .or_else(|| self.of_rows_without_parentheses(keyword))
             .or_else(|| self.of_a_unit_in_brackets(last))
             .or_else(|| self.of_a_pair(keyword, last))
             .or_else(|| self.of_a_feature(last))

@@ -2,7 +2,8 @@
 
 use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
-use crate::vocabulary::{Keyword, Role};
+use crate::diag::nearest;
+use crate::vocabulary::{Keyword, Role, is_ground};
 use rustc_hash::FxHashSet;
 
 /// The words of a text with what they may be the beginning of.
@@ -189,6 +190,12 @@ impl<'a> Outline<'a> {
         is_block
             || (is_word(k + 1) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
             || self.word(k + 1) == "from"
+    }
+
+    /// Whether a block begins at a token with a word that stands for `ground`: `frame {`.
+    pub fn is_ground_by_another_name(&self, k: usize) -> bool {
+        let word = self.word(k);
+        self.role(k).is_none() && self.word(k + 1) == "{" && (is_ground(word) || nearest(word, ["ground"]).is_some())
     }
 
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.

@@ -30,6 +30,12 @@ pub enum Place {
     Unit,
 }
 
+/// Whether others call the ground by a word.
+#[must_use]
+pub fn is_ground(word: &str) -> bool {
+    Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
+}
+
 impl Synonym {
     /// What a word means in a place, whatever its capitals; `prismatic_joint` is `prismatic`.
     #[must_use]
@@ -443,7 +449,11 @@ pub static SYNONYMS: &[Synonym] = &[
     declaration(&["model", "assembly", "system", "linkage", "machine"], &["mechanism"], "was `mechanism` meant?"),
     declaration(&["parameter", "const", "constant", "let", "var", "variable", "set"], &["param"], "was `param` meant?"),
     declaration(&["function", "def", "func", "fun"], &["fn"], "was `fn` meant?"),
-    declaration(&["base", "frame_ground", "world", "chassis"], &["ground"], "was `ground` meant?"),
+    declaration(
+        &["base", "frame", "frame_ground", "gnd", "grnd", "fixed", "world", "chassis", "foundation", "inertial"],
+        &["ground"],
+        "was `ground` meant?",
+    ),
     declaration(&["link", "bar", "rigid_body", "component", "element", "solid"], &["body"], "was `body` meant?"),
     declaration(&["marker", "node", "vertex"], &["point"], "was `point` meant?"),
     declaration(&["line", "vector", "direction", "ray"], &["axis"], "was `axis` meant?"),

@@ -12,6 +12,7 @@ impl Intent<'_> {
         self.of_a_hyphen(last)
             .or_else(|| self.of_a_name_behind(keyword, last))
             .or_else(|| self.of_no_name(keyword, last))
+            .or_else(|| self.of_quotes())
             .or_else(|| self.of_several_words(keyword))
             .or_else(|| self.of_no_argument(keyword, last))
     }
@@ -80,6 +81,20 @@ impl Intent<'_> {
             _ => (*form).to_owned(),
         };
         Some(Intended::Words(format!("a {keyword} needs a name: `{written}`")))
+    }
+
+    /// `mechanism "crank rocker" {`
+    fn of_quotes(&self) -> Option<Intended> {
+        let string = self.rest.first().filter(|token| token.text.len() > 2 && token.text.ends_with('"'))?;
+        let words: Vec<&str> =
+            string.text.trim_matches('"').split([' ', '-', '_']).filter(|word| !word.is_empty()).collect();
+        let name = words.join("_");
+        let is_one = is_name(&name) && name.chars().all(|c| c.is_alphanumeric() || c == '_');
+        if self.before.len() != 1 || !self.expects(Rule::name) || !is_one {
+            return None;
+        }
+        let edit = self.edit(string.start..string.end(), &name);
+        Some(Intent::change(format!("a name stands without quotes: `{name}`"), vec![edit]))
     }
 
     /// `mechanism crank rocker {`, `joint j 1: …`, `ground g {`
