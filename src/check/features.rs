@@ -331,8 +331,10 @@ impl Checker<'_> {
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
         let Ok(entity) = self.resolve(name) else { return };
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
+        let beside = self.owners_beside(name.span);
         let owners: Vec<String> = std::iter::once(Frame::Ground)
             .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
+            .filter(|&frame| !beside.contains(&self.model.frame_name(frame)))
             .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
             .collect();

@@ -280,7 +280,8 @@ impl Checker<'_> {
                 None
             }
             Some(entity) => {
-                self.report(errors::wrong_kind(name.span, "a number", entity.noun()));
+                let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
+                self.report(diagnostic.fix_if(self.number_of_joint(name)));
                 None
             }
             None => {
@@ -316,7 +317,8 @@ impl Checker<'_> {
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown_number(what, name, &known);
-        self.report(diagnostic);
+        let argument = context.argument.filter(|_| diagnostic.help.is_empty());
+        self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }
 
     fn pure(&mut self, value: f64) -> Value {

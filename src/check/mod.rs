@@ -13,6 +13,7 @@ mod formula;
 mod instead;
 mod joints;
 mod lengths;
+mod meant;
 mod mends;
 mod mentions;
 mod names;
@@ -85,6 +86,7 @@ pub fn check(
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.sort_by_place();
+    let diagnostics = meant::told_once(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(tree);
     (sound.then_some(model), diagnostics)
 }

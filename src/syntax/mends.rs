@@ -135,6 +135,9 @@ impl Fault<'_> {
         }
         let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
+            if let ([only], true) = (synonym.means, synonym.is_same) {
+                return Some(Mend::Fix(Fix::meant(self.span(self.here()), only)));
+            }
             return Some(Mend::Words(synonym.say(&[])));
         }
         let starts_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
