@@ -97,6 +97,7 @@ impl Checker<'_> {
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
                 self.remember_length(side, value.id, context.judged);
+                self.remember_lengths_in_a_sum(side, context.judged);
             }
         }
         if !self.a_body_moves([a.id, b.id]) {

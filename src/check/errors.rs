@@ -2,6 +2,7 @@
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
+use super::rates::{polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
@@ -41,9 +42,11 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
         .at(name.span, "not known here");
-    match nearest {
-        Some(fix) => diagnostic.fix(fix),
-        None => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
+    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    match (nearest, synonym) {
+        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (Some(fix), None) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
     }
 }
 
@@ -304,6 +307,10 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         let words = "a rate times a time is a pure number, as an angle is: `… * t`";
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
+    let mended =
+        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or(fix);
+    let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
@@ -312,6 +319,7 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         .also(first.span, first.dimension.in_words())
         .fix_if(fix)
         .help_if(help)
+        .help_if(polar)
 }
 
 /// What a quantity is usually written in.

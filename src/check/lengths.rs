@@ -49,6 +49,21 @@ impl Checker<'_> {
         }
     }
 
+    /// Remembers the numbers and parameters of a sum that is a plain length and moves: `230 + 60 * t`.
+    pub(super) fn remember_lengths_in_a_sum(&mut self, e: &Expr, judged: bool) {
+        let ExprKind::Sum(first, rest) = &e.bare().kind else { return };
+        if judged {
+            return;
+        }
+        for term in std::iter::once(&**first).chain(rest.iter().map(|(_, term)| term)) {
+            let param = self.param_alone(term);
+            let number = || param.and_then(|k| self.params[k]).and_then(|value| self.constant_value(value.id));
+            let value = term.bare_number().or_else(number).filter(|value| *value != 0.0);
+            // a unit behind it alone would leave the other terms without one
+            self.lengths.plain.extend(value.map(|value| Plain { value, span: term.span, param, is_number: false }));
+        }
+    }
+
     fn param_alone(&self, e: &Expr) -> Option<usize> {
         match &e.bare().kind {
             ExprKind::Negate(inner) => self.param_alone(inner),

@@ -19,6 +19,7 @@ mod mentions;
 mod names;
 mod profiles;
 mod quantities;
+mod rates;
 mod symbols;
 mod table_file;
 mod tables;
@@ -127,6 +128,8 @@ pub struct FormulaOfTime {
     pub dimension: Option<Dimension>,
     /// What must be positive at a time, for the formula to have a meaning there.
     pub conditions: Vec<Condition>,
+    /// What is to be said of it all the same.
+    pub remarks: Diagnostics,
 }
 
 /// A formula alone, over time and the constants and functions of the language.
@@ -148,6 +151,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
             value: value.id,
             dimension: judged.then(|| value.dim.settled()),
             conditions: model.conditions,
+            remarks: diagnostics,
         }),
         _ => Err(diagnostics),
     }
