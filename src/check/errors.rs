@@ -2,7 +2,7 @@
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
-use super::rates::{polar, rate_mended};
+use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
@@ -286,13 +286,6 @@ pub fn derivative_too_high(span: Span) -> Diagnostic {
 
 /// Places of one kind that are shown beside the first one, at most.
 const MOST_PLACES: usize = 4;
-
-/// A part of a formula, for a message about it.
-#[derive(Clone, Copy)]
-pub struct Part {
-    pub span: Span,
-    pub dimension: Dimension,
-}
 
 /// The text of a part is told where it is a bare number.
 pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {

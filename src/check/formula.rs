@@ -4,8 +4,9 @@
 //! taken in the SI unit of what is expected (`language.md`, "Units").
 
 use super::Checker;
-use super::errors::{self, Part};
+use super::errors;
 use super::names::Entity;
+use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;

@@ -9,6 +9,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use crate::vocabulary::{Place, Synonym, Unit, is_ground};
 use rustc_hash::FxHashMap;
+use std::collections::hash_map::Entry;
 
 impl Checker<'_> {
     /// The quantity of a joint that a driver prescribes.
@@ -113,17 +114,21 @@ const MOST_PLACES: usize = 4;
 
 /// Each name that is not declared told once, with the places where it stands besides.
 pub(super) fn told_once(all: Diagnostics) -> Diagnostics {
-    let (mut merged, mut known): (Vec<Diagnostic>, FxHashMap<String, usize>) = (Vec::new(), FxHashMap::default());
+    let (mut merged, mut known) = (Vec::new(), FxHashMap::default());
     for diagnostic in all {
-        let is_first = |message: &String| diagnostic.code != Code::E0201 || !known.contains_key(message);
-        if is_first(&diagnostic.message) {
-            if diagnostic.code == Code::E0201 {
-                known.insert(diagnostic.message.clone(), merged.len());
+        // what is said otherwise may depend on the arguments
+        let told = (diagnostic.message.clone(), diagnostic.help.clone());
+        let first: Option<&mut Diagnostic> = match known.entry(told) {
+            Entry::Occupied(at) => merged.get_mut(*at.get()),
+            Entry::Vacant(place) => {
+                place.insert(merged.len());
+                None
             }
+        };
+        let Some(first) = first.filter(|_| diagnostic.code == Code::E0201) else {
             merged.push(diagnostic);
             continue;
-        }
-        let Some(first) = known.get(&diagnostic.message).and_then(|&k| merged.get_mut(k)) else { continue };
+        };
         let place = diagnostic.labels.iter().find(|label| label.primary).map(|label| label.span);
         if let Some(span) = place.filter(|_| first.labels.len() <= MOST_PLACES) {
             *first = first.clone().also(span, "and here");

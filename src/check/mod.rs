@@ -402,7 +402,7 @@ impl<'a> Checker<'a> {
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
                         let place = format!("the parameter `{}`", name.text);
-                        let part = errors::Part { span: setting.value.span, dimension: found };
+                        let part = rates::Part { span: setting.value.span, dimension: found };
                         self.report(errors::wrong_dimension(
                             &place,
                             wanted,

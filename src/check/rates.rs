@@ -1,10 +1,16 @@
 //! Rates that lost a part of their unit, as far as the text of a formula tells: `60 mm * t` beside a length.
 
-use super::errors::Part;
 use crate::diag::{Applies, Edit, Fix};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::vocabulary::Unit;
+
+/// A part of a formula, for a message about it.
+#[derive(Clone, Copy)]
+pub struct Part {
+    pub span: Span,
+    pub dimension: Dimension,
+}
 
 /// A number times a power of time that is to be like something else, with the unit that makes it so.
 pub(super) fn rate_mended(like: Dimension, found: Part, text: &str) -> Option<Fix> {

@@ -55,13 +55,18 @@ pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
     ))
 }
 
-/// A feature that ends too early.
-pub(super) fn half_a_feature(keyword: &str, name: &str, end: Span, wanted: &str) -> Diagnostic {
-    misplaced(
-        end,
-        &format!("{keyword} `{name}` is not complete: expected {wanted}"),
-        &format!("{wanted} goes behind this"),
-    )
+/// A declaration that ends too early.
+fn incomplete(what: &str, end: Span, wanted: &str) -> Diagnostic {
+    misplaced(end, &format!("{what} is not complete: expected {wanted}"), &format!("{wanted} goes behind this"))
+}
+
+/// With what was meant.
+fn with_intended(diagnostic: Diagnostic, intended: Intended) -> Diagnostic {
+    match intended {
+        Intended::Words(words) => diagnostic.help(words),
+        Intended::Change(fix) => diagnostic.fix(fix),
+        Intended::Incomplete { what, end, wanted, mend } => with_intended(incomplete(&what, end, wanted), *mend),
+    }
 }
 
 /// A declaration of the mechanism within the braces of a body.
@@ -103,9 +108,10 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         return bracket;
     }
     let word = &text[found.clone()];
-    let string = word.starts_with('"').then(|| tokens(&text[found.start..])).and_then(|all| all.first().copied());
     // a string is marked along its length
-    let length = string.map_or(word.len(), |string| string.text.lines().next().unwrap_or_default().len());
+    let string =
+        word.starts_with('"').then(|| text[found.end..].lines().next().unwrap_or_default().find('"')).flatten();
+    let length = string.map_or(word.len(), |inside| word.len() + inside + 1);
     let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let rules = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
@@ -134,11 +140,8 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    match Intent::new(text, file, found.start, word, rules).mend() {
-        Some(Intended::Words(words)) => return diagnostic.help(words),
-        Some(Intended::Change(fix)) => return diagnostic.fix(fix),
-        Some(Intended::Instead(other)) => return *other,
-        None => {}
+    if let Some(intended) = Intent::new(text, file, found.start, word, rules).mend() {
+        return with_intended(diagnostic, intended);
     }
     match fault.mend(&expected) {
         Some(Mend::Words(words)) => diagnostic.help(words),

@@ -6,7 +6,7 @@ mod parts;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, tokens};
-use crate::diag::{Applies, Diagnostic, Edit, Fix};
+use crate::diag::{Applies, Edit, Fix};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit};
 use heads::is_dash;
@@ -30,8 +30,14 @@ pub(super) struct Intent<'a> {
 pub(super) enum Intended {
     Words(String),
     Change(Fix),
-    /// Another message, at another place.
-    Instead(Box<Diagnostic>),
+    /// Something ends before what is wanted behind it: told there, and not where the next thing begins.
+    Incomplete {
+        what: String,
+        /// The last word or character that it has.
+        end: Span,
+        wanted: &'static str,
+        mend: Box<Intended>,
+    },
 }
 
 impl<'a> Intent<'a> {

@@ -140,10 +140,13 @@ impl<'a> Outline<'a> {
 
     /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
     fn is_inside(&self, k: usize) -> bool {
-        if self.is_first_on_its_line(k) {
-            return false;
-        }
         let (next, second) = (self.word(k + 1), self.word(k + 2));
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        // an argument on a line of its own
+        let is_argument = self.word(k) == "ground" && ["(", ","].contains(&before) && next != "{" && second != "{";
+        if self.is_first_on_its_line(k) {
+            return is_argument;
+        }
         let goes_on = match self.word(k) {
             "ground" => next == "{",
             "analysis" => next == "from",
@@ -154,7 +157,6 @@ impl<'a> Outline<'a> {
             _ => second == "=" && next != ")",
         };
         // after a bracket or an operator a formula goes on
-        let before = if k > 0 { self.word(k - 1) } else { "" };
         let is_operand = ["(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
         self.is_name_of(k) || is_operand && !goes_on
     }
@@ -187,8 +189,10 @@ impl<'a> Outline<'a> {
         }
         let is_equation = self.word(k + 2) == "=";
         let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
+        // the next declaration lacks its name
+        let is_before_a_keyword = self.is_declaration(k + 1) && self.is_first_on_its_line(k + 1);
         is_block
-            || (is_word(k + 1) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || (is_word(k + 1) && !is_before_a_keyword && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
             || self.word(k + 1) == "from"
     }
 

@@ -119,7 +119,7 @@ impl Intent<'_> {
         }
         let last = parts.last()?.end();
         // by its first word it is called elsewhere
-        if tokens(self.text).iter().filter(|token| token.text == name.text).count() > 1 {
+        if self.is_used_by(name) {
             let message = format!("a name is one word: `{}`", name.text);
             return Some(Intent::change(message, vec![self.edit(name.end()..last, "")]));
         }
@@ -127,6 +127,15 @@ impl Intent<'_> {
         let written = words.collect::<Vec<_>>().join("_");
         let edit = self.edit(name.start..last, &written);
         Some(Intent::change(format!("a name is one word: write `{written}`"), vec![edit]))
+    }
+
+    /// Whether a name that is declared here stands elsewhere in the text, and is not declared there.
+    fn is_used_by(&self, name: &Token<'_>) -> bool {
+        let all = tokens(self.text);
+        let is_other = |k: &usize| all[*k].text == name.text && all[*k].start != name.start;
+        let others: Vec<usize> = (0..all.len()).filter(is_other).collect();
+        let is_declared = |k: &usize| *k > 0 && is_declaration(all[k - 1].text);
+        !others.is_empty() && !others.iter().any(is_declared)
     }
 
     /// `fn f = 3 * u`, `curve profile u = (…)`, `param f(u) = …`

@@ -1,7 +1,6 @@
 //! Parts of a declaration: arguments without parentheses, features that are not complete, rows that are no pairs.
 
 use super::{Intended, Intent, is_name};
-use crate::syntax::errors;
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Token, begins_declaration};
 use crate::vocabulary::{JointWord, Keyword, QuantityWord};
@@ -13,7 +12,8 @@ impl Intent<'_> {
         let (called, arguments) =
             if is_kind { (self.rest.first()?, self.rest.get(1..)?) } else { (last, self.rest.as_slice()) };
         let is_operand = arguments.first().is_some_and(|token| is_name(token.text));
-        if !is_kind && !(self.is_quantity_without_parentheses(last) && is_operand) {
+        let is_quantity = is_operand && self.is_quantity_without_parentheses(last);
+        if !is_kind && !is_quantity {
             return None;
         }
         let is_part = |token: &&Token<'_>| [".", ","].contains(&token.text) || token.text.chars().all(is_of_a_word);
@@ -63,31 +63,32 @@ impl Intent<'_> {
         if !is_over {
             return None;
         }
-        let name = self.before.get(1)?.text;
-        let span = self.edit(last.start..last.end(), "").span;
-        let form = Keyword::named(keyword)?.word.written();
-        let fault = errors::half_a_feature(keyword, name, span, wanted);
-        let place: Vec<&str> = self.before.get(3..)?.iter().map(|token| token.text).collect();
-        let parts: Vec<&str> =
-            place.split(|token| *token == ",").map(|part| part.first().copied().unwrap_or_default()).collect();
-        let is_tuple = place.first() == Some(&"(") && place.last() == Some(&")") && !place[1..].contains(&"(");
-        let start = self.before.get(3)?.start;
-        Some(Intended::Instead(Box::new(match (keyword, parts.len()) {
-            ("circle", 3) if is_tuple => {
-                let comma = self.before.iter().rposition(|token| token.text == ",")?;
-                let [center, radius] = [self.before[comma - 1].end(), self.before[comma + 1].start];
-                let radius = &self.text[radius..last.start].trim_end();
-                let written = format!("{}) radius {radius}", &self.text[start..center]);
-                let Intended::Change(fix) = Intent::change(
-                    format!("the radius stands behind the center: `{written}`"),
-                    vec![self.edit(start..last.end(), &written)],
-                ) else {
-                    return None;
-                };
-                fault.fix(fix)
-            }
-            _ => fault.help(format!("it is written {form}")),
-        })))
+        let form = || {
+            Intended::Words(format!(
+                "it is written {}",
+                Keyword::named(keyword).map_or(String::new(), |k| k.word.written())
+            ))
+        };
+        let mend = if keyword == "circle" { self.radius_among_coordinates(last) } else { None };
+        Some(Intended::Incomplete {
+            what: format!("{keyword} `{}`", self.before.get(1)?.text),
+            end: self.edit(last.start..last.end(), "").span,
+            wanted,
+            mend: Box::new(mend.unwrap_or_else(form)),
+        })
+    }
+
+    /// `circle c = (0, 0, 6 mm)`
+    fn radius_among_coordinates(&self, last: &Token<'_>) -> Option<Intended> {
+        let place = self.before.get(3..)?;
+        let commas: Vec<usize> = (0..place.len()).filter(|&k| place[k].text == ",").collect();
+        let is_flat = place.iter().filter(|token| token.text == "(").count() == 1;
+        let (&[_, comma], true) = (commas.as_slice(), is_flat && last.text == ")") else { return None };
+        let start = place[0].start;
+        let radius = self.text[place.get(comma + 1)?.start..last.start].trim_end();
+        let written = format!("{}) radius {radius}", &self.text[start..place[comma - 1].end()]);
+        let edit = self.edit(start..last.end(), &written);
+        Some(Intent::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
     }
 
     /// `spline [0 0, 1 1]`

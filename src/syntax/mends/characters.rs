@@ -101,9 +101,6 @@ impl Fault<'_> {
         let is_complete = self.expects(Rule::infix) || self.expects(Rule::close);
         match (is_at_line_start, is_apart, is_complete) {
             (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applies::Always),
-            (_, true, false) if self.behind()[marks - 1..].starts_with(char::is_whitespace) => {
-                self.replaced(range, "//", words, Applies::Probably)
-            }
             (_, false, true) => self.replaced(range, " //", words, Applies::Probably),
             _ => Mend::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
         }
