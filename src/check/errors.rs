@@ -24,6 +24,9 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
 /// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
 pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let diagnostic = unknown(what, name, known);
+    if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
+        return diagnostic.instead(Fix::meant(name.span, only));
+    }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => diagnostic.help(synonym.say(&[])),
         None => diagnostic,

@@ -282,7 +282,7 @@ impl Checker<'_> {
             }
             Some(entity) => {
                 let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
-                self.report(diagnostic.fix_if(self.number_of_joint(name)));
+                self.report(self.with_number_of(name, diagnostic));
                 None
             }
             None => {

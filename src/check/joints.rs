@@ -19,6 +19,9 @@ impl Checker<'_> {
     }
 
     fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        if self.refuses_arguments(kind, arguments) {
+            return None;
+        }
         let joint = match kind.text.as_str() {
             "revolute" | "weld" | "revolute_revolute" => self.joint_of_points(kind, arguments, span),
             "translational" | "revolute_translational" => self.joint_of_axes(kind, arguments, span),

@@ -1,10 +1,11 @@
 //! What a name was probably meant to be, as far as the mechanism around it tells.
 
+use super::features::Feature;
 use super::formula::{Context, Dim};
 use super::names::Entity;
 use super::{Checker, errors};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
-use crate::model::{Dimension, JointKind};
+use crate::model::{Dimension, Frame, JointKind};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use crate::vocabulary::{Place, Synonym, Unit, is_ground};
@@ -23,9 +24,13 @@ impl Checker<'_> {
         Some(format!("{quantity}({})", name.text))
     }
 
-    /// A joint in the place of a number.
-    pub(super) fn number_of_joint(&self, name: &Name) -> Option<Fix> {
-        Some(self.in_its_equation(name.span, &self.quantity_of(name)?))
+    /// A joint or a body in the place of a number.
+    pub(super) fn with_number_of(&self, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
+        if let Some(Entity::Body(_)) = self.entity(name) {
+            return diagnostic.help(format!("the angle of a body is `angle({})`", name.text));
+        }
+        let quantity = self.quantity_of(name);
+        diagnostic.fix_if(quantity.map(|quantity| self.in_its_equation(name.span, &quantity)))
     }
 
     /// `speed(j)`, j a joint: in a driver the law of its angle, in a measure the derivative of that.
@@ -93,6 +98,21 @@ impl Checker<'_> {
         let is_ground = diagnostic.help.is_empty() && is_ground(&name.text);
         let ground = is_ground.then(|| Fix::meant(name.span, "ground"));
         self.report(diagnostic.fix_if(ground));
+    }
+
+    /// What a body has of a kind, as it is written outside.
+    pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
+        let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
+        let space = self.bodies.get(k).and_then(|id| self.features.get(&Frame::Body(*id)));
+        let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
+        names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
+    }
+
+    /// A feature of another kind in the place of a circle or curve: those that the body has.
+    pub(super) fn profile_for(&self, e: &Expr, wanted: impl Fn(Feature) -> bool) -> Option<Fix> {
+        let ExprKind::Member { owner, feature } = &e.kind else { return None };
+        let name = self.features.get(&self.frame_of(owner)?)?.names(wanted).next()?;
+        Some(Fix::replace(feature.span, name, format!("was `{}.{name}` meant?", owner.text), Applies::Probably))
     }
 
     /// The bodies whose features stand beside a name among the arguments of a joint: it can be of none of them.

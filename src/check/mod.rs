@@ -4,6 +4,7 @@
 //! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
+mod arguments;
 mod builtins;
 mod calls;
 mod elements;

@@ -140,13 +140,22 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    if let Some(intended) = Intent::new(text, file, found.start, word, rules).mend() {
+    let intent = Intent::new(text, file, found.start, word, rules);
+    if let Some(intended) = intent.mend() {
         return with_intended(diagnostic, intended);
+    }
+    // of an option's value the declaration is not there
+    if source.is_option && word == "," && source.name.starts_with("--") {
+        let option = source.name.split(' ').next().unwrap_or_default();
+        return diagnostic.help(format!("give `{option}` once for each"));
     }
     match fault.mend(&expected) {
         Some(Mend::Words(words)) => diagnostic.help(words),
         Some(Mend::Fix(fix)) => diagnostic.fix(fix),
-        None => diagnostic,
+        None => match intent.written() {
+            Some(form) => with_intended(diagnostic, form),
+            None => diagnostic,
+        },
     }
 }
 

@@ -2,7 +2,9 @@
 
 mod ground;
 mod heads;
+mod keywords;
 mod parts;
+mod separators;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, tokens};
@@ -56,6 +58,9 @@ impl<'a> Intent<'a> {
 
     /// What was meant.
     pub fn mend(&self) -> Option<Intended> {
+        if let Some(intended) = self.of_no_keyword() {
+            return Some(intended);
+        }
         let (keyword, last) = (self.before.first()?.text, self.before.last()?);
         if let Some(half) = self.of_half_a_feature(keyword, last) {
             return Some(half);
@@ -68,6 +73,13 @@ impl<'a> Intent<'a> {
             .or_else(|| self.of_the_ground())
             .or_else(|| self.of_an_axis_with_a_comma(keyword))
             .or_else(|| self.of_rows_without_parentheses(keyword))
+            .or_else(|| self.of_no_joint(keyword))
+            .or_else(|| self.of_a_pose(keyword, last))
+            .or_else(|| self.of_a_diameter())
+            .or_else(|| self.of_a_list(keyword))
+            .or_else(|| self.of_a_coordinate(last))
+            .or_else(|| self.of_single_quotes())
+            .or_else(|| self.of_a_unit_behind_a_pair(last))
             .or_else(|| self.of_a_unit_in_brackets(last))
             .or_else(|| self.of_a_pair(keyword, last))
             .or_else(|| self.of_a_feature(last))
@@ -75,8 +87,19 @@ impl<'a> Intent<'a> {
             .or_else(|| self.of_an_equation(keyword))
     }
 
+    /// How the declaration is written, where nothing else is known.
+    pub fn written(&self) -> Option<Intended> {
+        self.form().map(Intended::Words)
+    }
+
     fn expects(&self, rule: Rule) -> bool {
         self.expected.contains(&rule)
+    }
+
+    /// Whether all brackets of the declaration are closed before the fault.
+    fn is_outside_of_brackets(&self) -> bool {
+        let count = |bracket: [&str; 2]| self.before.iter().filter(|token| bracket.contains(&token.text)).count();
+        count(["(", "["]) == count([")", "]"])
     }
 
     fn is_word(&self) -> bool {

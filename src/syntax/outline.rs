@@ -3,7 +3,7 @@
 use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
 use crate::diag::nearest;
-use crate::vocabulary::{Keyword, Role, is_ground};
+use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_ground};
 use rustc_hash::FxHashSet;
 
 /// The words of a text with what they may be the beginning of.
@@ -189,10 +189,10 @@ impl<'a> Outline<'a> {
         }
         let is_equation = self.word(k + 2) == "=";
         let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
-        // the next declaration lacks its name
-        let is_before_a_keyword = self.is_declaration(k + 1) && self.is_first_on_its_line(k + 1);
+        let is_on_one_line = !self.is_first_on_its_line(k + 1);
         is_block
-            || (is_word(k + 1) && !is_before_a_keyword && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || self.begins_without_keyword(k)
+            || (is_word(k + 1) && is_on_one_line && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
             || self.word(k + 1) == "from"
     }
 
@@ -200,6 +200,14 @@ impl<'a> Outline<'a> {
     pub fn is_ground_by_another_name(&self, k: usize) -> bool {
         let word = self.word(k);
         self.role(k).is_none() && self.word(k + 1) == "{" && (is_ground(word) || nearest(word, ["ground"]).is_some())
+    }
+
+    /// Whether a line begins as a declaration does behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
+    fn begins_without_keyword(&self, k: usize) -> bool {
+        let [next, second] = [self.word(k + 1), self.word(k + 2)];
+        let is_joint = JointWord::named(self.word(k)).is_some();
+        let is_named_joint = second == "(" && (is_joint || Synonym::of(Place::Joint, self.word(k)).is_some());
+        self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
     }
 
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.

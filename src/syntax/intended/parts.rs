@@ -1,6 +1,7 @@
 //! Parts of a declaration: arguments without parentheses, features that are not complete, rows that are no pairs.
 
 use super::{Intended, Intent, is_name};
+use crate::diag::{Applies, Fix};
 use crate::syntax::grammar::Rule;
 use crate::syntax::tokens::{Token, begins_declaration};
 use crate::vocabulary::{JointWord, Keyword, QuantityWord};
@@ -89,6 +90,36 @@ impl Intent<'_> {
         let written = format!("{}) radius {radius}", &self.text[start..place[comma - 1].end()]);
         let edit = self.edit(start..last.end(), &written);
         Some(Intent::change(format!("the radius stands behind the center: `{written}`"), vec![edit]))
+    }
+
+    /// `body b (0, 0, 0) {`, `body b { at (0, 0, 0) …`
+    pub(super) fn of_a_pose(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
+        let [_, name, ..] = self.before.as_slice() else { return None };
+        if keyword != "body" {
+            return None;
+        }
+        if self.found == "(" && self.expects(Rule::at) {
+            let edits = vec![self.edit(self.at..self.at, if last.end() < self.at { "at " } else { " at " })];
+            let message = "write `at` before `(`".to_owned();
+            return Some(Intended::Change(Fix { message, edits, applies: Applies::Always }));
+        }
+        if self.found != "at" || last.text != "{" || self.before.len() != 3 {
+            return None;
+        }
+        let close = self.rest.iter().find(|token| token.text == ")")?;
+        let pose = &self.text[self.at..close.end()];
+        let edit = self.edit(last.start..close.end(), &format!("{pose} {{"));
+        Some(Intent::change(format!("the pose stands before the `{{`: `body {} {pose} {{`", name.text), vec![edit]))
+    }
+
+    /// `circle c = P diameter 12 mm`
+    pub(super) fn of_a_diameter(&self) -> Option<Intended> {
+        let is_one = ["diameter", "dia", "d", "Ø"].contains(&self.found) && self.expects(Rule::radius);
+        let [_, first, ..] = self.rest.as_slice() else { return None };
+        let value = is_one.then(|| &self.text[first.start..self.end()])?;
+        let edits =
+            vec![self.edit(self.at..self.at + self.found.len(), "radius"), self.edit(self.end()..self.end(), " / 2")];
+        Some(Intent::change(format!("a circle has a radius: `radius {value} / 2`"), edits))
     }
 
     /// `spline [0 0, 1 1]`
