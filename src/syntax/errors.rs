@@ -123,6 +123,9 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         None => end.to_owned(),
         Some('"') if is_closed => "a string".to_owned(),
         Some('"') => "an unclosed string".to_owned(),
+        Some(_) if word == "ground" && text[found.end..].trim_start().starts_with([',', ')']) => {
+            "`ground` alone".to_owned()
+        }
         Some(_) => format!("`{word}`"),
     };
     let fault = Fault { text, file, at: found.start, found: word, expected: rules };
@@ -132,7 +135,13 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     } else {
         "not expected here".to_owned()
     };
-    let diagnostic = Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label);
+    let diagnostic = match comment_at(text, found.start) {
+        Some(at) => {
+            let span = Span { file, start: at as u32, end: at as u32 + 2 };
+            misplaced(span, "`/*` begins no comment", "not expected here")
+        }
+        None => Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label),
+    };
     if !with_mend {
         return diagnostic;
     }
@@ -157,6 +166,12 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
             None => diagnostic,
         },
     }
+}
+
+/// Where `/*` begins, if one of its characters is what the parser could not go on with.
+fn comment_at(text: &str, at: usize) -> Option<usize> {
+    let is_one = |at: &usize| text.get(*at..).is_some_and(|rest| rest.starts_with("/*"));
+    [at, at.wrapping_sub(1)].into_iter().find(is_one)
 }
 
 /// Arguments or a pair in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.

@@ -78,6 +78,7 @@ impl<'a> Intent<'a> {
             .or_else(|| self.of_a_diameter())
             .or_else(|| self.of_a_list(keyword))
             .or_else(|| self.of_a_coordinate(last))
+            .or_else(|| self.of_an_arrow(last))
             .or_else(|| self.of_single_quotes())
             .or_else(|| self.of_a_unit_behind_a_pair(last))
             .or_else(|| self.of_a_unit_in_brackets(last))

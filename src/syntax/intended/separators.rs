@@ -78,6 +78,15 @@ impl Intent<'_> {
         Some(Intent::change(format!("names stand without quotes: `{inside}`"), vec![self.edit(whole, inside)]))
     }
 
+    /// `arm->tip`
+    pub(super) fn of_an_arrow(&self, last: &Token<'_>) -> Option<Intended> {
+        let [.., owner, _] = self.before.as_slice() else { return None };
+        let feature = self.rest.get(1).filter(|token| is_name(token.text))?;
+        let is_arrow = self.found == ">" && last.text == "-" && last.end() == self.at && is_name(owner.text);
+        let message = format!("what belongs to a body is written `{}.{}`", owner.text, feature.text);
+        is_arrow.then(|| Intent::change(message, vec![self.edit(owner.end()..feature.start, ".")]))
+    }
+
     /// `arm.tip.x`
     pub(super) fn of_a_coordinate(&self, last: &Token<'_>) -> Option<Intended> {
         let [.., owner, dot, _] = self.before.as_slice() else { return None };
