@@ -2,6 +2,7 @@
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
+use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
@@ -23,6 +24,9 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
 /// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
 pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let diagnostic = unknown(what, name, known);
+    if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
+        return diagnostic.instead(Fix::meant(name.span, only));
+    }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => diagnostic.help(synonym.say(&[])),
         None => diagnostic,
@@ -41,9 +45,11 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
         .at(name.span, "not known here");
-    match nearest {
-        Some(fix) => diagnostic.fix(fix),
-        None => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
+    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    match (nearest, synonym) {
+        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (Some(fix), None) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
     }
 }
 
@@ -284,13 +290,6 @@ pub fn derivative_too_high(span: Span) -> Diagnostic {
 /// Places of one kind that are shown beside the first one, at most.
 const MOST_PLACES: usize = 4;
 
-/// A part of a formula, for a message about it.
-#[derive(Clone, Copy)]
-pub struct Part {
-    pub span: Span,
-    pub dimension: Dimension,
-}
-
 /// The text of a part is told where it is a bare number.
 pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
     let [one, other] = [(first, texts[0]), (second, texts[1])];
@@ -304,6 +303,10 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         let words = "a rate times a time is a pure number, as an angle is: `… * t`";
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
+    let mended =
+        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or(fix);
+    let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
@@ -312,6 +315,7 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         .also(first.span, first.dimension.in_words())
         .fix_if(fix)
         .help_if(help)
+        .help_if(polar)
 }
 
 /// What a quantity is usually written in.

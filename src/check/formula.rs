@@ -4,9 +4,10 @@
 //! taken in the SI unit of what is expected (`language.md`, "Units").
 
 use super::Checker;
-use super::errors::{self, Part};
+use super::errors;
 use super::meaning::{Alone, alone};
 use super::names::Entity;
+use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
@@ -279,7 +280,8 @@ impl Checker<'_> {
                 None
             }
             Some(entity) => {
-                self.report(errors::wrong_kind(name.span, "a number", entity.noun()));
+                let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
+                self.report(self.with_number_of(name, diagnostic));
                 None
             }
             None => {
@@ -315,7 +317,8 @@ impl Checker<'_> {
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown_number(what, name, &known);
-        self.report(diagnostic);
+        let argument = context.argument.filter(|_| diagnostic.help.is_empty());
+        self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }
 
     fn pure(&mut self, value: f64) -> Value {

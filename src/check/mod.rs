@@ -4,6 +4,7 @@
 //! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
+mod arguments;
 mod builtins;
 mod calls;
 mod elements;
@@ -14,11 +15,13 @@ mod instead;
 mod joints;
 mod lengths;
 mod meaning;
+mod meant;
 mod mends;
 mod mentions;
 mod names;
 mod profiles;
 mod quantities;
+mod rates;
 mod symbols;
 mod table_file;
 mod tables;
@@ -66,7 +69,8 @@ pub struct Setting {
 pub fn check_file(file: &ast::File) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     let mut space: Space<()> = Space::new();
-    for mechanism in &file.mechanisms {
+    let named = file.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty());
+    for mechanism in named {
         if let Err(first) = space.declare(&mechanism.name, ()) {
             diagnostics.push(errors::second_mechanism(&mechanism.name, first));
         }
@@ -85,6 +89,7 @@ pub fn check(
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.sort_by_place();
+    let diagnostics = meant::told_once(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(tree);
     (sound.then_some(model), diagnostics)
 }
@@ -125,6 +130,8 @@ pub struct FormulaOfTime {
     pub dimension: Option<Dimension>,
     /// What must be positive at a time, for the formula to have a meaning there.
     pub conditions: Vec<Condition>,
+    /// What is to be said of it all the same.
+    pub remarks: Diagnostics,
 }
 
 /// A formula alone, over time and the constants and functions of the language.
@@ -146,6 +153,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
             value: value.id,
             dimension: judged.then(|| value.dim.settled()),
             conditions: model.conditions,
+            remarks: diagnostics,
         }),
         _ => Err(diagnostics),
     }
@@ -400,7 +408,7 @@ impl<'a> Checker<'a> {
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
                         let place = format!("the parameter `{}`", name.text);
-                        let part = errors::Part { span: setting.value.span, dimension: found };
+                        let part = rates::Part { span: setting.value.span, dimension: found };
                         self.report(errors::wrong_dimension(
                             &place,
                             wanted,

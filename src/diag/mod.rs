@@ -147,6 +147,14 @@ impl Diagnostic {
         }
     }
 
+    /// The fix alone, whatever else was proposed.
+    #[must_use]
+    pub fn instead(mut self, fix: Fix) -> Diagnostic {
+        self.help.clear();
+        self.fixes.clear();
+        self.fix(fix)
+    }
+
     /// A number of the message, for other programs.
     #[must_use]
     pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {

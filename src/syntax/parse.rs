@@ -147,7 +147,9 @@ impl Reading<'_> {
                         return None;
                     }
                 }
-                self.names_of(first, self.at).pop()?
+                // one without a name has its declarations all the same
+                let nameless = Name { text: String::new(), span: self.span(start..start) };
+                self.names_of(first, self.at).pop().unwrap_or(nameless)
             }
         };
         let mut items = Vec::new();
@@ -166,6 +168,7 @@ impl Reading<'_> {
                 }
                 "ground" if self.outline.begins_declaration(self.at) => self.block(items, Rule::ground_head),
                 "body" => self.block(items, Rule::body_head),
+                _ if self.outline.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
                 "" | "mechanism" if self.ends_the_mechanism() => {
                     if must_close {
                         self.tell_the_end(Rule::item_or_close);
