@@ -226,13 +226,41 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
         Some((function, at)) => {
             Diagnostic::new(Code::E0306, format!("`{function}` depends on time, which may not stand in {place}"))
                 .at(span, "brings time in")
-                .also(at, "`t` is used here")
+                .also(at, "time comes in here")
         }
     };
     match place {
         "a constraint" => diagnostic.help("an equation that holds time is a `driver`"),
         _ => diagnostic.help("what moves with time is prescribed by a `driver`, of a joint, a body or a point"),
     }
+}
+
+/// Time may stand where an input may not only in the formula of an input.
+pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0306, format!("the input `{}` may not stand in {place}", name.text))
+        .at(name.span, "changes with time");
+    match (in_an_input, place) {
+        (true, _) => diagnostic.help("an input is a signal of its own; what several hold in common is an `fn` of `t`"),
+        (false, "a constraint") => diagnostic.help("an equation that holds an input is a `driver`"),
+        (false, _) => diagnostic.help("an input may stand in drivers and measures; a constant is a `param`"),
+    }
+}
+
+/// An input that the mechanism does not have, with the one meant.
+pub fn no_such_input(mechanism: &str, name: &str, inputs: &[&str], meant: Option<&str>) -> Diagnostic {
+    let listed = match inputs {
+        [] => "it has no inputs".to_owned(),
+        _ => format!("its inputs are {}", inputs.join(", ")),
+    };
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{name}`"))
+        .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
+}
+
+pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0706, format!("the input `{name}` is told twice"))
+        .at(places[0], "by samples")
+        .also(places[1], "by a formula")
+        .help("an input is what one of `--input` and `--samples` says")
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {

@@ -35,6 +35,8 @@ pub enum NameKind {
     Argument,
     /// `table`
     Table,
+    /// `input`
+    Input,
     /// `ground`
     Ground,
     /// `body`
@@ -200,6 +202,7 @@ impl Walk {
             ItemKind::Param { name, .. } => (name, NameKind::Param),
             ItemKind::Function { name, .. } => (name, NameKind::Function),
             ItemKind::Table { name, .. } => (name, NameKind::Table),
+            ItemKind::Input { name, .. } => (name, NameKind::Input),
             ItemKind::Body { name, .. } => (name, NameKind::Body),
             ItemKind::Joint { name, .. } => (name, NameKind::Joint),
             ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
@@ -250,7 +253,9 @@ impl Walk {
     fn uses_in(&mut self, item: &Item, id: Option<NameId>) {
         let plain = Scope::default();
         match &item.kind {
-            ItemKind::Param { value, .. } | ItemKind::Measure { value, .. } => self.formula(value, plain),
+            ItemKind::Param { value, .. } | ItemKind::Input { value, .. } | ItemKind::Measure { value, .. } => {
+                self.formula(value, plain);
+            }
             ItemKind::Function { argument, value, .. } => {
                 let declared = self.declare(argument, NameKind::Argument, item.span, id);
                 self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });

@@ -70,6 +70,13 @@ pub enum ItemKind {
         /// Its points.
         rows: TableRows,
     },
+    /// `input NAME = EXPR`
+    Input {
+        /// Its name.
+        name: Name,
+        /// What it is unless something else is said.
+        value: Expr,
+    },
     /// `ground { … }`
     Ground {
         /// Its features.

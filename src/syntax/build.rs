@@ -166,6 +166,7 @@ impl Reader<'_> {
                 argument: self.next_name(&mut inner)?,
                 value: self.next_expr(&mut inner)?,
             },
+            Rule::input => ItemKind::Input { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
             Rule::table => self.table(&mut inner)?,
             Rule::joint => self.joint(&mut inner)?,
             Rule::driver | Rule::constraint => ItemKind::Equation {
@@ -334,6 +335,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::unit_power
             | Rule::param
             | Rule::function
+            | Rule::input
             | Rule::table
             | Rule::table_file
             | Rule::point

@@ -61,6 +61,7 @@ enum Group {
     Params,
     Functions,
     Tables,
+    Inputs,
     Bodies,
     Joints,
     Constraints,
@@ -76,6 +77,7 @@ impl Group {
             ItemKind::Param { .. } => Group::Params,
             ItemKind::Function { .. } => Group::Functions,
             ItemKind::Table { .. } => Group::Tables,
+            ItemKind::Input { .. } => Group::Inputs,
             ItemKind::Ground { .. } | ItemKind::Body { .. } => Group::Bodies,
             ItemKind::Joint { .. } => Group::Joints,
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
@@ -124,6 +126,7 @@ fn item_cells(kind: &ItemKind, block: &str) -> Vec<String> {
             cells(["fn", &format!("{}({})", name.text, argument.text), &defined(value)])
         }
         ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
+        ItemKind::Input { name, value } => cells(["input", &name.text, &defined(value)]),
         ItemKind::Ground { .. } => vec![format!("ground {block}")],
         ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", name.text)],
         ItemKind::Body { name, pose: Some(pose), .. } => vec![format!("body {} at {} {block}", name.text, pair(pose))],

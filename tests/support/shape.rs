@@ -68,6 +68,7 @@ fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
 
 fn item_shape(kind: &ItemKind) -> String {
     match kind {
+        ItemKind::Input { name, value } => format!("input {} {}", name.text, shape(value)),
         ItemKind::Param { name, value } => format!("param {} {}", name.text, shape(value)),
         ItemKind::Function { name, argument, value } => format!("fn {} {} {}", name.text, argument.text, shape(value)),
         ItemKind::Table { name, periodic, rows } => match rows {
