@@ -636,6 +636,66 @@ pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Dia
         .change(can_be_written.then(|| with("m")))
 }
 
+// ---- repetition
+
+/// `for k = 2`, of the copy in which something is wrong.
+fn of_copy(diagnostic: Diagnostic, numbers: &[(&str, i64)]) -> Diagnostic {
+    if numbers.is_empty() {
+        return diagnostic;
+    }
+    let numbers: Vec<String> = numbers.iter().map(|(index, k)| format!("`{index}` = {k}")).collect();
+    diagnostic.note(format!("for {}", numbers.join(", ")))
+}
+
+pub fn not_whole(place: &str, span: Span, value: f64, numbers: &[(&str, i64)]) -> Diagnostic {
+    let value = readable(value);
+    let diagnostic = Diagnostic::new(Code::E0208, format!("{place} must be a whole number, it is {value}"));
+    of_copy(diagnostic.at(span, value), numbers)
+}
+
+pub fn no_such_copy(copy: &str, span: Span, ends: [Option<String>; 2], numbers: &[(&str, i64)]) -> Diagnostic {
+    let known = match ends {
+        [Some(first), Some(last)] => format!("they go from `{first}` to `{last}`"),
+        _ => "its range is empty".to_owned(),
+    };
+    of_copy(Diagnostic::new(Code::E0208, format!("there is no `{copy}`")).at(span, known), numbers)
+}
+
+pub fn which_copy(name: &Name, first: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0208, format!("`{}` is repeated: this does not say which one", name.text));
+    let help = first.map(|first| format!("write its number behind it: `{first}`"));
+    diagnostic.at(name.span, "one of several").help_if(help)
+}
+
+pub fn not_repeated(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("`{}` is not repeated, there is only one", name.text))
+        .at(name.span, "takes no number in brackets")
+        .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
+}
+
+pub fn nothing_is_repeated(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0208, "nothing is repeated in this mechanism")
+        .at(span, "this takes one of several")
+        .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
+}
+
+pub fn path_too_long(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0208, "a path is a body, and a feature of it")
+        .at(span, "goes on")
+        .help("the number stands behind what is repeated: `link[2].pin`")
+}
+
+pub fn index_is_taken(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0207, format!("the index `{}` hides what has that name already", name.text))
+        .at(name.span, "not free")
+        .help("choose a name that nothing else has: `i`, `j`, `k`")
+}
+
+pub fn too_many_declarations(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("written out, the mechanism has more than {most} declarations"))
+        .at(span, "too large a range")
+}
+
 // ---- the whole
 
 pub fn empty(name: &Name) -> Diagnostic {

@@ -199,6 +199,10 @@ impl Checker<'_> {
                 self.report(errors::wrong_kind(e.span, "a number", "a point"));
                 None
             }
+            ExprKind::Path(_) => {
+                self.report(errors::nothing_is_repeated(e.span));
+                None
+            }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
                 self.report(errors::condition_as_number(e.span));
                 None

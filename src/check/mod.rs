@@ -20,6 +20,7 @@ mod mentions;
 mod names;
 mod profiles;
 mod quantities;
+mod repetition;
 mod samples;
 mod symbols;
 mod table_file;
@@ -87,9 +88,18 @@ pub fn check(
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
+    let (written_out, told) = match repetition::written_out(tree, surroundings, sources) {
+        Some((written_out, told)) => (Some(written_out), told),
+        None => (None, Diagnostics::default()),
+    };
+    let tree = written_out.as_ref().unwrap_or(tree);
     let mut checker = Checker::new(tree, surroundings, sources);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
+    diagnostics.extend(told);
+    if written_out.is_some() {
+        diagnostics.tell_once();
+    }
     diagnostics.sort_by_place();
     let sound = !diagnostics.has_errors() && !has_broken(tree);
     (sound.then_some(model), diagnostics)

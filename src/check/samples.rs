@@ -35,8 +35,39 @@ struct Cell<'a> {
 struct Head<'a> {
     name: &'a str,
     span: Span,
-    /// What one unit of it is in SI, and its dimension.
-    unit: Option<(f64, Dimension)>,
+    unit: Option<ColumnUnit>,
+}
+
+/// Units with their powers, whose product a column is in.
+struct ColumnUnit(Vec<(&'static Unit, i32)>);
+
+impl ColumnUnit {
+    /// Units joined by `*` and `/`, each with its power.
+    fn named(text: &str) -> Option<ColumnUnit> {
+        let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
+        loop {
+            let end = rest.find(['*', '/']).unwrap_or(rest.len());
+            let (name, power) = match rest[..end].split_once('^') {
+                None => (rest[..end].trim(), 1),
+                Some((name, power)) => (name.trim(), power.trim().parse().ok().filter(|power: &i32| power.abs() < 10)?),
+            };
+            units.push((Unit::named(name)?, sign * power));
+            if end == rest.len() {
+                return Some(ColumnUnit(units));
+            }
+            sign = if rest[end..].starts_with('/') { -1 } else { 1 };
+            rest = &rest[end + 1..];
+        }
+    }
+
+    fn to_si(&self, value: f64) -> f64 {
+        self.0.iter().fold(value, |value, (unit, power)| unit.to_si(value, *power))
+    }
+
+    fn dimension(&self) -> Dimension {
+        let powers = self.0.iter().map(|(unit, power)| unit.dimension.to_the(f64::from(*power)));
+        powers.fold(Dimension::PURE, Dimension::times)
+    }
 }
 
 /// Reads samples; blank lines are passed over.
@@ -56,7 +87,7 @@ pub(super) fn read(source: &Source, file: FileId) -> Result<Samples, Vec<Diagnos
     for cells in lines {
         let row = row_of(&cells, &heads)?;
         for (column, (value, head)) in columns.iter_mut().zip(row.into_iter().zip(&heads)) {
-            column.push(head.unit.map_or(value, |(factor, _)| value * factor));
+            column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
         }
         rows.push(cells[at].span);
     }
@@ -66,7 +97,7 @@ pub(super) fn read(source: &Source, file: FileId) -> Result<Samples, Vec<Diagnos
     let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
         name: super::normalized(head.name),
         span: head.span,
-        dimension: head.unit.map(|(_, dimension)| dimension),
+        dimension: head.unit.as_ref().map(ColumnUnit::dimension),
         values,
     };
     Ok(Samples { times, columns: others.zip(columns).map(column).collect() })
@@ -106,34 +137,12 @@ fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
         return Ok(Head { name: cell.text, span: cell.span, unit: None });
     };
-    if let Some(unit) = unit_of(unit) {
+    if let Some(unit) = ColumnUnit::named(unit) {
         return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
     }
     let message = format!("`{unit}` is not a unit");
     let help = "units stand in brackets behind the name, joined by `*` and `/`: `turn [deg]`, `feed [mm/s]`";
     Err(Box::new(fault(Code::E0202, &message, cell.span, "the unit of this column").help(help)))
-}
-
-/// A unit, or several joined by `*` and `/`, each with its power: what one of it is in SI, and its dimension.
-fn unit_of(text: &str) -> Option<(f64, Dimension)> {
-    let (mut value, mut dimension) = (1.0, Dimension::PURE);
-    let mut rest = text;
-    let mut sign = 1;
-    loop {
-        let end = rest.find(['*', '/']).unwrap_or(rest.len());
-        let (name, power) = match rest[..end].split_once('^') {
-            None => (rest[..end].trim(), 1),
-            Some((name, power)) => (name.trim(), power.trim().parse().ok().filter(|power: &i32| power.abs() < 10)?),
-        };
-        let unit = Unit::named(name)?;
-        value = unit.to_si(value, sign * power);
-        dimension = dimension.times(unit.dimension.to_the(f64::from(sign * power)));
-        if end == rest.len() {
-            return Some((value, dimension));
-        }
-        sign = if rest[end..].starts_with('/') { -1 } else { 1 };
-        rest = &rest[end + 1..];
-    }
 }
 
 /// The number of the column of times.
@@ -150,8 +159,8 @@ fn time_column(heads: &[Head<'_>], header: &[Cell<'_>]) -> Result<usize, Vec<Dia
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs";
         return Err(vec![fault(Code::E0416, "the samples have no column `t`", whole, "the first line").help(help)]);
     };
-    match heads[at].unit {
-        Some((_, dimension)) if !dimension.is(Dimension::TIME) => {
+    match heads[at].unit.as_ref().map(ColumnUnit::dimension) {
+        Some(dimension) if !dimension.is(Dimension::TIME) => {
             let message = format!("the times of samples are a time, found {}", dimension.in_words());
             Err(vec![fault(Code::E0402, &message, heads[at].span, "the times")])
         }

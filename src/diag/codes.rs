@@ -64,6 +64,7 @@ catalogue! {
         E0205 Error "a declaration that may stand only once"
         E0206 Error "definitions that go in a circle"
         E0207 Error "an argument that hides a name"
+        E0208 Error "a repetition, or one of its copies, that cannot be"
     }
     "kinds and arguments" {
         E0301 Error "a wrong number of arguments"
