@@ -48,6 +48,12 @@ pub(super) struct Value {
     pub dim: Dim,
 }
 
+impl Value {
+    fn has_a_dimension(self) -> bool {
+        matches!(self.dim, Dim::Of(dimension) if !dimension.is(Dimension::PURE))
+    }
+}
+
 /// What may stand in a formula, and how it is read.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
@@ -58,6 +64,8 @@ pub(super) struct Context<'c> {
     pub judged: bool,
     /// Whether `t` may stand.
     pub time: bool,
+    /// Whether inputs may stand.
+    pub inputs: bool,
     /// Whether kinematic quantities may stand.
     pub quantities: bool,
     /// Whether other measures and `der` may stand.
@@ -77,6 +85,7 @@ impl<'c> Context<'c> {
             place,
             judged: false,
             time: false,
+            inputs: false,
             quantities: false,
             measures: false,
             names: true,
@@ -87,8 +96,8 @@ impl<'c> Context<'c> {
 
     /// The same for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
-        let &Context { judged, time, quantities, measures, names, expands, .. } = self;
-        Context { place, judged, time, quantities, measures, names, expands, argument }
+        let &Context { judged, time, inputs, quantities, measures, names, expands, .. } = self;
+        Context { place, judged, time, inputs, quantities, measures, names, expands, argument }
     }
 }
 
@@ -126,11 +135,10 @@ impl Checker<'_> {
             return !unit.dimension.is(Dimension::PURE);
         }
         match self.entity(name) {
-            Some(Entity::Param(k)) => {
-                matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
-            }
+            Some(Entity::Param(k)) => self.params[k].is_some_and(Value::has_a_dimension),
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
+            Some(Entity::Input(k)) => self.inputs[k].value.is_some_and(Value::has_a_dimension),
             Some(Entity::Measure(k)) => self.measures[k].dimensional,
             _ => false,
         }
@@ -190,6 +198,10 @@ impl Checker<'_> {
             }
             ExprKind::Tuple(_) => {
                 self.report(errors::wrong_kind(e.span, "a number", "a point"));
+                None
+            }
+            ExprKind::Path(segments) => {
+                self.report(errors::path_of_nothing(e.span, segments));
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
@@ -266,6 +278,11 @@ impl Checker<'_> {
         }
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Param(k)) => self.params[k],
+            Some(Entity::Input(k)) if context.inputs => self.inputs[k].value,
+            Some(Entity::Input(_)) => {
+                self.input_in(name, context);
+                None
+            }
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) => {
                 self.report(
@@ -308,6 +325,7 @@ impl Checker<'_> {
         }
         let mut known = self.suggestions(|entity| match entity {
             Entity::Param(_) => true,
+            Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
             _ => false,
         });

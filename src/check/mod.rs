@@ -11,6 +11,7 @@ mod elements;
 mod errors;
 mod features;
 mod formula;
+mod inputs;
 mod instead;
 mod joints;
 mod lengths;
@@ -22,10 +23,13 @@ mod names;
 mod profiles;
 mod quantities;
 mod rates;
+mod repetition;
+mod samples;
 mod symbols;
 mod table_file;
 mod tables;
 
+pub use inputs::Given;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -34,6 +38,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
+use crate::syntax::normalized;
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
@@ -53,6 +58,8 @@ pub struct Surroundings {
     pub settings: Vec<Setting>,
     /// The files that its tables name.
     pub files: TableFiles,
+    /// What inputs are told to be.
+    pub given: Given,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -85,9 +92,18 @@ pub fn check(
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
+    let (written_out, told) = match repetition::written_out(tree, surroundings, sources) {
+        Some((written_out, told)) => (Some(written_out), told),
+        None => (None, Diagnostics::default()),
+    };
+    let tree = written_out.as_ref().unwrap_or(tree);
     let mut checker = Checker::new(tree, surroundings, sources);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
+    diagnostics.extend(told);
+    if written_out.is_some() {
+        diagnostics.tell_once();
+    }
     diagnostics.sort_by_place();
     let diagnostics = meant::told_once(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(tree);
@@ -177,6 +193,14 @@ struct Function<'a> {
     sound: bool,
 }
 
+/// What is known of an input.
+struct InputState<'a> {
+    name: &'a Name,
+    formula: &'a Expr,
+    /// `None` before its turn, and where it is broken.
+    value: Option<Value>,
+}
+
 /// What is known of a measure before its turn.
 struct MeasureState<'a> {
     name: &'a Name,
@@ -189,6 +213,7 @@ struct Checker<'a> {
     tree: &'a ast::Mechanism,
     settings: &'a [Setting],
     files: &'a TableFiles,
+    given: &'a Given,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -199,6 +224,7 @@ struct Checker<'a> {
     param_formulas: Vec<(&'a Name, &'a Expr)>,
     functions: Vec<Function<'a>>,
     tables: Vec<TableState<'a>>,
+    inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
@@ -236,6 +262,7 @@ impl<'a> Checker<'a> {
             tree,
             settings: &surroundings.settings,
             files: &surroundings.files,
+            given: &surroundings.given,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
@@ -244,6 +271,7 @@ impl<'a> Checker<'a> {
             param_formulas: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
+            inputs: Vec::new(),
             measures: Vec::new(),
             bodies: Vec::new(),
             joints: Vec::new(),
@@ -317,6 +345,12 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
                 }
+                ItemKind::Input { name, value } => {
+                    entities.push(Entity::Input(self.inputs.len()));
+                    let told = self.given.formulas.iter().filter(|(told, _)| *told == name.text).map(|(_, told)| told);
+                    definitions.push((name, std::iter::once(value).chain(told).collect()));
+                    self.inputs.push(InputState { name, formula: value, value: None });
+                }
                 ItemKind::Measure { name, value } => {
                     entities.push(Entity::Measure(self.measures.len()));
                     definitions.push((name, vec![value]));
@@ -339,6 +373,7 @@ impl<'a> Checker<'a> {
             docs.push(&item.docs);
         }
         let uses = self.uses(&definitions, &entities);
+        let samples = self.samples();
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
@@ -351,6 +386,7 @@ impl<'a> Checker<'a> {
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
+                Entity::Input(k) => self.input(k, samples.as_ref()),
                 Entity::Measure(k) => {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
@@ -459,6 +495,7 @@ impl<'a> Checker<'a> {
         let named = self.name_symbol(Named::Argument, 0);
         let context = Context {
             time: true,
+            inputs: true,
             expands: false,
             argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
             ..Context::constant("a function")
@@ -474,11 +511,12 @@ impl<'a> Checker<'a> {
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
         mentioned(formula, |name| {
-            let through_a_call = match self.entity(name) {
+            let through_a_name = match self.entity(name) {
                 Some(Entity::Function(k)) => self.functions[k].time.is_some(),
+                Some(Entity::Input(_)) => true,
                 _ => false,
             };
-            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call) {
+            if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_name) {
                 time = Some(name.span);
             }
         });

@@ -208,6 +208,12 @@ impl Diagnostics {
         self.list.iter()
     }
 
+    /// Leaves of each code at each place the first: what is wrong in every copy of a declaration.
+    pub fn tell_once(&mut self) {
+        let mut told: FxHashSet<(Code, Span)> = FxHashSet::default();
+        self.list.retain(|d| d.labels.first().is_none_or(|label| told.insert((d.code, label.span))));
+    }
+
     /// By their place in the text, so that a reader meets them from top to bottom.
     pub fn sort_by_place(&mut self) {
         self.list.sort_by_key(|d| d.labels.first().map(|l| l.span));

@@ -18,14 +18,24 @@ pub(super) struct Outline<'a> {
     hyphenated: FxHashSet<&'a str>,
 }
 
+/// What the first of some tokens is, if it is a keyword there.
+fn role_in(tokens: &[Token<'_>]) -> Option<Role> {
+    let role = Keyword::named(tokens.first()?.text)?.role;
+    let is_word = |token: &Token<'_>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    match (role, tokens) {
+        (Role::Opening, [_, name, equals, ..]) if is_word(name) && equals.text == "=" => Some(Role::Declaration),
+        (Role::Opening, _) => None,
+        _ => Some(role),
+    }
+}
+
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
 impl<'a> Outline<'a> {
     pub fn new(text: &'a str) -> Outline<'a> {
         let tokens = tokens(text);
-        let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
-        let roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
+        let roles: Vec<Option<Role>> = (0..tokens.len()).map(|k| role_in(&tokens[k..])).collect();
         let (mut names, mut is_name, mut takes_name) = (Vec::with_capacity(tokens.len()), false, false);
         for (token, role) in tokens.iter().zip(&roles) {
             is_name = takes_name && !is_name;
