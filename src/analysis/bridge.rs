@@ -10,6 +10,7 @@ use super::finer::Finer;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
 use super::singular;
+use super::trust::SLOW;
 use crate::diag::Diagnostic;
 
 /// A state nearer than this to a singular position is not clear of it.
@@ -20,6 +21,9 @@ const CLEAR: f64 = 8e-3;
 const SOLVABLE: f64 = 1e-3;
 /// Solving beside a singular position leaves more than eight digits of accelerations down to here.
 const EXACT: f64 = 4e-3;
+/// A curve's velocities and accelerations leave no more open of their equations, scaled, beside 1 or a part of the motion's
+/// fastest.
+const OPEN: [f64; 2] = [5e-9, 5e-7];
 /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
 const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
 /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
@@ -312,12 +316,11 @@ impl Motion {
         };
         let bridge = self.bridge.as_ref().filter(is_on)?;
         let state = bridge.state_at(t);
-        self.kinematics.restore(&state);
-        if self.kinematics.violated().is_none() {
-            self.kinematics.write_given_row(&state, &mut self.row);
-            return Some(Ok(()));
-        }
-        if self.solved_row(&state, EXACT) || self.finer_row(t) || self.solved_row(&state, SOLVABLE) {
+        if self.given_row(&state)
+            || self.solved_row(&state, EXACT)
+            || self.finer_row(t)
+            || self.solved_row(&state, SOLVABLE)
+        {
             return Some(Ok(()));
         }
         // it may be certain as it is found without the bridge
@@ -354,11 +357,22 @@ impl Motion {
         let Some(state) = state else {
             return false;
         };
-        self.kinematics.restore(&state);
-        let is_exact = self.kinematics.violated().is_none();
-        if is_exact {
-            self.kinematics.write_given_row(&state, &mut self.row);
+        self.given_row(&state)
+    }
+
+    /// Writes the row of a state on a curve, if the equations hold there, and those of velocity and acceleration with them.
+    fn given_row(&mut self, state: &State) -> bool {
+        self.kinematics.restore(state);
+        if self.kinematics.violated().is_some() {
+            return false;
         }
-        is_exact
+        self.kinematics.write_given_row(state, &mut self.row);
+        let linear = self.kinematics.linear();
+        let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
+        let fastest = f64::max(SLOW * bend.max(speed * speed), 1.0);
+        (0..state.q.len()).all(|row| {
+            let (velocity, acceleration) = self.kinematics.left_open(row, state);
+            velocity <= OPEN[0] * f64::max(SLOW * speed, 1.0) && acceleration <= OPEN[1] * fastest
+        })
     }
 }
