@@ -137,12 +137,10 @@ fn rows_shortly_before_a_change_point_are_right_whatever_else_is_printed() {
             let start = if is_slider { random.between(1.1, 1.4) } else { random.between(0.8, 2.8) };
             let linkage = Linkage::new(is_slider, length, Law::Uniform { start, rate });
             let t = (linkage.level - random.between(0.9, 1.1) * distance - start) / rate;
-            for times in sets(t, &mut random) {
-                for passing in [false, true] {
-                    let (rows, code) = linkage.hold(&times, passing);
-                    // a bifurcation is passed well: none is refused
-                    assert_eq!((rows as u64, code), (times.len(), ""), "{distance:e} before, {}", linkage.text);
-                }
+            for (number, times) in sets(t, &mut random).iter().enumerate() {
+                // where the motion goes on smoothly none is refused
+                let (rows, code) = linkage.hold(times, (number % 2 == 0) == is_slider);
+                assert_eq!((rows as u64, code), (times.len(), ""), "{distance:e} before, {}", linkage.text);
             }
         }
     }
@@ -156,7 +154,7 @@ fn rows_of_a_crank_that_turns_back_beside_a_change_point_are_right_or_refused() 
             let start = if is_slider { 1.4 } else { 1.0 };
             let level = if is_slider { FRAC_PI_2 } else { PI };
             let linkage = Linkage::new(is_slider, 1.0, Law::Back { start, way: level - start + over });
-            for t in [0.48, 0.495, 0.498, 0.4995, 0.5, 0.506, 0.55] {
+            for t in [0.49, 0.4975, 0.4995, 0.5, 0.506] {
                 for (number, times) in sets(t, &mut random).iter().enumerate() {
                     linkage.hold(times, number % 2 == 0);
                     linkage.hold(&Times::listed(0.0, vec![t]), number % 2 == 1);
@@ -165,6 +163,54 @@ fn rows_of_a_crank_that_turns_back_beside_a_change_point_are_right_or_refused() 
             for passing in [false, true] {
                 linkage.hold(&Times::grid(0.0, 1.0, 0.0017).expect("a grid"), passing);
             }
+        }
+    }
+}
+
+#[test]
+fn a_crank_that_turns_back_beyond_a_change_point_is_told_to_come_to_it_twice() {
+    for over in [3e-4, 1e-4, 1e-5, 1e-6, 1e-7] {
+        for is_slider in [false, true] {
+            let start = if is_slider { 1.4 } else { 1.0 };
+            let level = if is_slider { FRAC_PI_2 } else { PI };
+            let way = level - start + over;
+            let linkage = Linkage::new(is_slider, 1.0, Law::Back { start, way });
+            // sin² is less than 1 by the part of the way that is beyond
+            let before = math::asin((over / way).sqrt()) / PI;
+            let is_near = |told: f64, at: f64| assert!((told - at).abs() < 1e-8, "{told} for {at}, {}", linkage.text);
+            let stop = linkage.run(&Times::listed(0.0, vec![0.5]), false).stop().cloned().expect("it stops");
+            assert_eq!(stop.code.as_str(), "E0603");
+            is_near(stop.data["t"].as_f64().expect("a time"), 0.5 - before);
+            let all = linkage.run(&Times::listed(0.0, vec![0.56]), true);
+            assert_eq!(all.passed().len(), 2, "{over:e} beyond: {}", all.text());
+            is_near(all.passed()[0], 0.5 - before);
+            is_near(all.passed()[1], 0.5 + before);
+            // what comes behind the last row is not told
+            let first = linkage.run(&Times::listed(0.0, vec![0.5 - 0.5 * before]), true);
+            assert_eq!(first.passed().len(), 1, "{over:e} beyond: {}", first.text());
+        }
+    }
+    // one that just comes to it is told once
+    for is_slider in [false, true] {
+        let (start, way) = if is_slider { (1.4, FRAC_PI_2 - 1.4) } else { (1.0, PI - 1.0) };
+        let outcome = Linkage::new(is_slider, 1.0, Law::Back { start, way }).run(&Times::listed(0.0, vec![0.56]), true);
+        assert_eq!(outcome.passed().len(), 1, "{}", outcome.text());
+    }
+}
+
+#[test]
+fn a_change_point_that_is_beside_the_start_is_passed_at_its_time() {
+    for distance in [0.02, 0.01, 3e-3, 1e-3, 1e-4] {
+        for is_slider in [false, true] {
+            let level = if is_slider { FRAC_PI_2 } else { PI };
+            let start = level - distance;
+            let linkage = Linkage::new(is_slider, 1.0, Law::Uniform { start, rate: distance });
+            let times = Times::grid(0.0, 2.0, 0.05).expect("a grid");
+            let passed = linkage.run(&times, true).passed();
+            assert!(passed.len() == 1 && (passed[0] - 1.0).abs() < 1e-7, "{passed:?}: {}", linkage.text);
+            assert_eq!(linkage.hold(&times, true), (41, ""), "{}", linkage.text);
+            let (rows, code) = linkage.hold(&times, false);
+            assert!(rows >= 20 && code == "E0603", "{rows} rows, {code}: {}", linkage.text);
         }
     }
 }

@@ -2,6 +2,7 @@
 //! over that position, or against itself.
 
 use super::GOLDEN;
+use super::kinematics::State;
 use super::march::{FEWEST_STEPS_NEAR, Motion};
 use super::rows::STEPS_AHEAD;
 use super::trust::{Trust, are_small};
@@ -13,6 +14,8 @@ const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
 /// A row is solved for again from so many places, which are so far from each other, scaled.
 const PLACES: usize = 16;
 const CELL: f64 = 1.0 / 134_217_728.0;
+/// A correction of a place on the way over a singular position is at most this part of the distance from that, scaled.
+const NEAREST_BRANCH: f64 = 0.05;
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
@@ -40,7 +43,7 @@ impl Motion {
         let better = on_bridge.is_some().then(|| self.row.clone());
         self.go_back(&here);
         (self.probe, self.fold, (self.remarks, self.warned)) = (probe, None, said);
-        if better.is_none() && !self.stands_up() {
+        if better.is_none() && !self.stands_up(&here.state) {
             return Err(self.explain_refused(t, why));
         }
         self.row = row;
@@ -80,14 +83,19 @@ impl Motion {
         self.row.iter().zip(other).enumerate().all(is_near)
     }
 
-    /// Whether velocities and accelerations of the state stay what they are where its position is solved for again, from places
+    /// Whether a row that has been found is certain, be it that it was in doubt.
+    pub(super) fn is_certain(&mut self, state: &State) -> bool {
+        self.trust.is_certain() || (self.trust == Trust::Doubtful && self.stands_up(state))
+    }
+
+    /// Whether velocities and accelerations of a state stay what they are where its position is solved for again, from places
     /// beside it: then rounding does not add up as it might. These places lie about a point of a grid, whichever way led to the
     /// state.
-    pub(super) fn stands_up(&mut self) -> bool {
-        let n = self.state.q.len();
+    pub(super) fn stands_up(&mut self, state: &State) -> bool {
+        let n = state.q.len();
         let mut ranges = [vec![NOTHING; n], vec![NOTHING; n]];
         let is_solved = (0..PLACES).all(|place| {
-            self.solve_beside(place) && {
+            self.solve_beside(state, place) && {
                 for (range, values) in ranges.iter_mut().zip([&self.trial.qd, &self.trial.qdd]) {
                     for ([low, high], value) in range.iter_mut().zip(values) {
                         (*low, *high) = (low.min(*value), high.max(*value));
@@ -96,19 +104,51 @@ impl Motion {
                 true
             }
         });
-        self.kinematics.restore(&self.state);
+        self.kinematics.restore(state);
         let wide = ranges.map(|range| range.iter().map(|[low, high]| high - low).collect::<Vec<f64>>());
-        is_solved && are_small(&self.kinematics, &self.state, [&wide[0], &wide[1]], [RIGHT[1], RIGHT[2]])
+        is_solved && are_small(&self.kinematics, state, [&wide[0], &wide[1]], [RIGHT[1], RIGHT[2]])
     }
 
-    /// Solves for the state once more, from one of the places beside it.
-    fn solve_beside(&mut self, place: usize) -> bool {
-        let n = self.state.q.len();
-        self.trial.t = self.state.t;
+    /// The row of a time on a bridge, or else the same solved for, be it as near to the singular position as it likes, if it can
+    /// be trusted.
+    pub(super) fn or_trusted(&mut self, t: f64, row: Result<(), Box<Diagnostic>>) -> Result<(), Box<Diagnostic>> {
+        row.or_else(|why| if self.trusted_row(t) || self.narrow_row(t) { Ok(()) } else { Err(why) })
+    }
+
+    fn trusted_row(&mut self, t: f64) -> bool {
+        let Some(state) = self.bridge.as_ref().map(|bridge| bridge.state_at(t)) else {
+            return false;
+        };
+        self.trial.copy_from(&state);
+        let Ok(correction) = self.correct() else {
+            return false;
+        };
+        // another branch may not be far
+        let is_near = correction <= NEAREST_BRANCH * self.kinematics.nearness(1.0);
+        if !is_near || self.kinematics.derivatives(&mut self.trial).is_err() {
+            return false;
+        }
+        let solved = self.trial.clone();
+        let is_trusted = match Trust::of(&mut self.kinematics, &solved) {
+            Trust::Certain => true,
+            Trust::Doubtful => self.stands_up(&solved),
+            Trust::Uncertain => false,
+        };
+        if is_trusted {
+            self.kinematics.restore(&solved);
+            self.kinematics.write_given_row(&solved, &mut self.row);
+        }
+        is_trusted
+    }
+
+    /// Solves for a state once more, from one of the places beside it.
+    fn solve_beside(&mut self, state: &State, place: usize) -> bool {
+        let n = state.q.len();
+        self.trial.t = state.t;
         for k in 0..n {
             let cell = CELL * self.kinematics.linear().column_scale(k);
             let aside = (GOLDEN * (place * n + k + 1) as f64).fract() - 0.5;
-            self.trial.q[k] = ((self.state.q[k] / cell).round() + aside) * cell;
+            self.trial.q[k] = ((state.q[k] / cell).round() + aside) * cell;
         }
         self.correct().is_ok() && self.kinematics.derivatives(&mut self.trial).is_ok()
     }

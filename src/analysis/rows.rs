@@ -143,7 +143,7 @@ enum Place {
 /// What a motion goes back to where it was only looked ahead.
 #[derive(Clone)]
 pub(super) struct Bookmark {
-    state: State,
+    pub state: State,
     clear: State,
     determinants: Vec<Determinant>,
     sides: Vec<bool>,
@@ -301,7 +301,7 @@ impl Motion {
                 if row.is_err() && self.plain_row(t) {
                     return Ok(Place::Own);
                 }
-                return row.map(|()| Place::Own);
+                return self.or_trusted(t, row).map(|()| Place::Own);
             }
             if t <= self.state.t {
                 self.row_at_rest()?;
@@ -340,7 +340,7 @@ impl Motion {
             }
         }
         if let Some(row) = self.row_on_bridge(t) {
-            return row.map(|()| false);
+            return self.or_trusted(t, row).map(|()| false);
         }
         if self.trust == Trust::Doubtful && !self.pass {
             return self.row_in_doubt(t).map(|()| false);
@@ -663,7 +663,7 @@ impl Motion {
     /// and then the row may lie on the way over it. Says whether it does not.
     fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         let (trust, row, here) = (self.trust, self.row.clone(), self.bookmark());
-        let is_certain = trust.is_certain() || (trust == Trust::Doubtful && self.stands_up());
+        let is_certain = self.is_certain(&here.state);
         // a run that passes nothing prints it too, if nothing has been passed before
         let is_plain = is_certain && self.bridge.as_ref().is_none_or(|bridge| bridge.at > t);
         let (mut ahead, farthest) = (t + self.span / FEWEST_STEPS_NEAR, self.time_ahead(t));
@@ -680,7 +680,7 @@ impl Motion {
                 Some(Err(_)) if is_plain => return Ok(self.keep_plain(here, row)),
                 Some(on_bridge) => {
                     self.plain = is_plain.then_some(here);
-                    return on_bridge.map(|()| false);
+                    return self.or_trusted(t, on_bridge).map(|()| false);
                 }
                 None => {}
             }
@@ -739,7 +739,7 @@ impl Motion {
         let (beyond, bridge, pass) = (self.bookmark(), self.bridge.take(), self.pass);
         self.pass = false;
         self.go_back(&plain);
-        let is_found = self.steps_to(t) && self.trust.is_certain();
+        let is_found = self.steps_to(t) && self.is_certain(&self.state.clone());
         let here = self.bookmark();
         (self.pass, self.bridge) = (pass, bridge);
         self.go_back(&beyond);
@@ -797,7 +797,7 @@ impl Motion {
         self.kinematics.restore(&self.state);
         let mut trust = self.trust_at_rest();
         if trust == Ok(Trust::Doubtful) {
-            trust = if self.stands_up() { self.trust_at_rest() } else { Err(Fault::Uncertain) };
+            trust = if self.stands_up(&self.state.clone()) { self.trust_at_rest() } else { Err(Fault::Uncertain) };
         }
         if let Err(fault) = trust {
             return Err(Box::new(self.explain_start(fault)));
