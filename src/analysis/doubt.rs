@@ -35,7 +35,7 @@ impl Motion {
         let kept = std::mem::replace(&mut self.bridge, self.spare_bridge.take());
         let mut on_bridge = self.row_on_bridge(t);
         let mut why = None;
-        if on_bridge.is_none() {
+        if on_bridge.is_none() && t >= self.clear_ahead {
             why = self.step_ahead(t);
             on_bridge = self.row_on_bridge(t);
         }
@@ -64,7 +64,11 @@ impl Motion {
             }
             // a step that failed leaves the factors of where it failed
             self.kinematics.restore(&self.state);
-            if self.state.t >= ahead || (self.state.t > t && self.is_clear()) {
+            if self.state.t > t && self.is_clear() {
+                self.clear_ahead = self.state.t;
+                break;
+            }
+            if self.state.t >= ahead {
                 break;
             }
         }

@@ -101,6 +101,8 @@ pub struct Motion {
     pub(super) bridge: Option<Bridge>,
     /// The same, where it was only looked for to hold a row against it.
     pub(super) spare_bridge: Option<Bridge>,
+    /// Up to this time (s) there is none: the motion is clear again then.
+    pub(super) clear_ahead: f64,
     /// When the mechanism comes to the end of its reach, where that is nearly far enough for what is asked for (s).
     pub(super) fold: Option<f64>,
     /// The last row on that way which was found without it.
@@ -164,6 +166,7 @@ impl Motion {
             clear: state.clone(),
             bridge: None,
             spare_bridge: None,
+            clear_ahead: f64::NEG_INFINITY,
             fold: None,
             plain: None,
             delta: vec![0.0; n],
