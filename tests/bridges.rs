@@ -11,6 +11,7 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
 use std::fs;
 use std::path::Path;
+use support::change_points::{equal_rods, parallelogram};
 use support::random::Random;
 use support::{compile_number, files, follow};
 
@@ -51,49 +52,6 @@ fn try_run(text: &str, path: &Path, times: Option<Times>, passing: bool) -> Opti
 
 fn run(text: &str, times: Option<Times>, passing: bool) -> Run {
     try_run(text, Path::new("text"), times, passing).expect("it compiles and assembles")
-}
-
-/// A crank and a rod of equal length, turned by a driver, with what is measured.
-fn equal_rods(length: f64, angle: &str, start: f64, analysis: &str) -> String {
-    let (sin, cos) = math::sin_cos(start);
-    let (x, y) = (length * cos, length * sin);
-    format!(
-        "mechanism equal {{
-            ground {{ point O = (0, 0) axis way = O along (1, 0) }}
-            body crank at (0, 0, {start}) {{ point O = (0, 0) point P = ({length}, 0) }}
-            body rod at ({x}, {y}, {}) {{ point P = (0, 0) point W = ({length}, 0) point side = (0.3, 0.2) }}
-            body slider at ({}, 0, 0) {{ point W = (0, 0) axis way = W along (1, 0) }}
-            joint A: revolute(ground.O, crank.O)
-            joint B: revolute(crank.P, rod.P)
-            joint C: revolute(rod.W, slider.W)
-            joint D: translational(ground.way, slider.way)
-            driver turn: rotation(A) = {angle}
-            {analysis}
-        }}",
-        -start,
-        2.0 * x
-    )
-}
-
-/// A parallelogram, turned by a driver.
-fn parallelogram(length: f64, base: f64, angle: &str, start: f64, analysis: &str) -> String {
-    let (sin, cos) = math::sin_cos(start);
-    format!(
-        "mechanism parallelogram {{
-            ground {{ point A = (0, 0) point B = ({base}, 0) }}
-            body crank at (0, 0, {start}) {{ point A = (0, 0) point C = ({length}, 0) }}
-            body coupler at ({}, {}, 0) {{ point C = (0, 0) point D = ({base}, 0) point side = (0.3, 0.2) }}
-            body rocker at ({base}, 0, {start}) {{ point B = (0, 0) point D = ({length}, 0) }}
-            joint A: revolute(ground.A, crank.A)
-            joint C: revolute(crank.C, coupler.C)
-            joint D: revolute(coupler.D, rocker.D)
-            joint B: revolute(ground.B, rocker.B)
-            driver turn: rotation(A) = {angle}
-            {analysis}
-        }}",
-        length * cos,
-        length * sin
-    )
 }
 
 /// A slider that pushes its crank of 1 m, with a rod of some length, to `over` beyond the dead point and back.

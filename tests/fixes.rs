@@ -156,13 +156,18 @@ fn mended(text: &str) -> String {
 /// Declarations as they are typed, and as they are meant.
 const MEANT: &[(&str, &str)] = &[
     ("param a = 3;", "param a = 3"),
-    ("param a = 3;param b = 4;;", "param a = 3 param b = 4"),
+    ("param a = 3;param b = 4;;", "param a = 3\nparam b = 4"),
+    ("    param a = 3; param b = 4;", "    param a = 3\n    param b = 4"),
+    ("body b { point P = (0, 0); point Q = (1, 0); }", "body b { point P = (0, 0) point Q = (1, 0) }"),
     ("param a = 2 ** 3", "param a = 2 ^ 3"),
     ("param a = 2**3 + 4**2", "param a = 2^3 + 4^2"),
     ("param a = 3 # mm", "param a = 3 // mm"),
     ("param a = 3 ## mm", "param a = 3 // mm"),
     ("param a = 3 /* mm */", "param a = 3 // mm"),
-    ("/* one\n * two\n */\nparam a = 3", "// one\n // two\nparam a = 3"),
+    ("/* one\n * two\n */\nparam a = 3", "// one\n// two\nparam a = 3"),
+    ("/** one */\nparam a = 3", "/// one\nparam a = 3"),
+    ("/**\n * one\n * two\n */\nparam a = 3", "/// one\n/// two\nparam a = 3"),
+    ("# one\nparam a = 3", "// one\nparam a = 3"),
     ("param a = 5 − 3 − 1 // −", "param a = 5 - 3 - 1 // −"),
     ("param a = 2 × 3 ÷ 4 · 5", "param a = 2 * 3 / 4 * 5"),
     ("param a = 30° / 2", "param a = 30 deg / 2"),
@@ -176,7 +181,15 @@ const MEANT: &[(&str, &str)] = &[
     ("param a 3", "param a = 3"),
     ("param a = if 1 = 2 then 3 else 4", "param a = if 1 == 2 then 3 else 4"),
     ("driver d: rotation(j) == 2 * t", "driver d: rotation(j) = 2 * t"),
-    ("joint j = revolute(a.P, b.P)", "joint j : revolute(a.P, b.P)"),
+    ("param a: 3", "param a = 3"),
+    ("param a:3", "param a = 3"),
+    ("param a := 3", "param a = 3"),
+    ("joint j := revolute(a.P, b.P)", "joint j: revolute(a.P, b.P)"),
+    ("driver d := rotation(j) = 2 * t", "driver d: rotation(j) = 2 * t"),
+    ("driver d rotation(j) = 2 * t", "driver d: rotation(j) = 2 * t"),
+    ("measure a x(b.P)", "measure a = x(b.P)"),
+    ("joint revolute j(a.P, b.P)", "joint j: revolute(a.P, b.P)"),
+    ("joint j = revolute(a.P, b.P)", "joint j: revolute(a.P, b.P)"),
     ("joint j revolute{a.P, b.P}", "joint j: revolute(a.P, b.P)"),
     ("joint j: revolute[a.P, b.P]", "joint j: revolute(a.P, b.P)"),
     ("joint j: revolute(a.P; b.P)", "joint j: revolute(a.P, b.P)"),
@@ -199,6 +212,35 @@ const OPEN: &[&str] = &[
     "param a = 3 /* mm */ + 2",
     "param a = 3 /* mm",
     "pram a = 3",
+    // what is closed further on is closed
+    "measure a = x(ground)",
+    "measure a = angle(ground)",
+    "measure a = distance(ground, (a, 0))",
+    "joint j: revolute(ground, ground)",
+    "joint j: revolute(\n    ground,\n    b.P\n)",
+    "measure a = max(param, 3)",
+    // what is called is no name
+    "measure der(x(b.P)) / 1 mm",
+    "measure abs(x(b.P))",
+    "measure (x(b.P))",
+    "joint revolute(a.P, b.P)",
+    "joint hinge j(a.P, b.P)",
+    "param crank length",
+    "param f(3)",
+    // one of the two is a decimal point
+    "measure a = max(1,5; 2)",
+    "measure a = max(1; max(1,5))",
+    "measure a = poly(t; 0,5; 1, 2)",
+    "body b { point P = (0,5; 1,5) }",
+    "table q = spline [(0;0,5), (1;1,5)]",
+    "table q = spline [(0;0,5); (1;1,5)]",
+    "joint j: weld(a.P; b.P",
+    // a name goes on
+    "param a#b = 4",
+    "param #1 = 4",
+    "param a # b = 4",
+    "param a–b = 3",
+    "param a−b = 3",
 ];
 
 #[test]
@@ -244,6 +286,12 @@ const SLIPS: &[(&str, &str)] = &[
     ("= ", "= +"),
     ("}\n", "\n"),
     ("revolute(", "revolute{"),
+    ("0.", "0,"),
+    (": revolute", " = revolute"),
+    (" = ", " := "),
+    (" = ", ": "),
+    (": ", " := "),
+    ("\n    ", "; "),
 ];
 
 /// Longer texts hold nothing that the shorter ones do not (bytes).
@@ -284,4 +332,90 @@ fn a_slip_is_undone_or_left_to_its_writer() {
     let never: Vec<&(&str, &str)> =
         SLIPS.iter().zip(&undone).filter(|(_, count)| **count == 0).map(|(slip, _)| slip).collect();
     assert!(never.len() <= 2, "never undone: {never:?}, of {undone:?}");
+}
+
+/// What a finger puts into a text.
+const CHARACTERS: &[&str] = &[
+    ";", "#", ",", "(", ")", "[", "]", "{", "}", "=", ":", ":=", "==", "**", "/*", "*/", "°", "²", "–", "+", ".", "\"",
+    "ground", "\n",
+];
+
+/// A text with one place of it changed: a word left out, said twice or put in another's place, or a character put in.
+fn damaged(text: &str, next: &mut impl FnMut(usize) -> usize) -> String {
+    let is_start = |at: &usize| text.is_char_boundary(*at);
+    let is_word = |c: char| c.is_alphanumeric() || c == '_';
+    let words: Vec<&str> = text.split(|c: char| !is_word(c)).filter(|word| !word.is_empty()).collect();
+    let at = (0..=next(text.len())).rev().find(is_start).unwrap_or(0);
+    let begin =
+        text[..at].rfind(|c: char| !is_word(c)).map_or(0, |k| k + text[k..].chars().next().map_or(1, char::len_utf8));
+    let end = text[at..].find(|c: char| !is_word(c)).map_or(text.len(), |k| at + k);
+    let word = &text[begin..end];
+    match next(8) {
+        0 => format!("{}{}", &text[..begin], &text[end..]),
+        1 => format!("{}{word} {word}{}", &text[..begin], &text[end..]),
+        2 => format!("{}{}{}", &text[..begin], words[next(words.len())], &text[end..]),
+        // a character gone
+        3 => format!("{}{}", &text[..at], text[at..].chars().skip(1).collect::<String>()),
+        4 => format!("{}{}{}", &text[..at], CHARACTERS[next(CHARACTERS.len())], &text[at..]),
+        _ => {
+            let (right, wrong) = SLIPS[next(SLIPS.len())];
+            text[..at].to_owned() + &text[at..].replacen(right, wrong, 1)
+        }
+    }
+}
+
+/// What a certain fix made worse.
+fn worse_by_a_fix(text: &str) -> Option<String> {
+    let parsed = Parsed::of("text.mech", text);
+    let place =
+        |parsed: &Parsed, fault: &Diagnostic| parsed.sources().get(parsed.file()).position(fault.labels[0].span.start);
+    for fault in parsed.faults().iter() {
+        for fix in fault.fixes.iter().filter(|fix| fix.applies == Applies::Always) {
+            let (mended, made) = fixed(parsed.sources(), parsed.file(), [fix]);
+            let after = Parsed::of("text.mech", &mended);
+            let (before, now) = (parsed.faults().len(), after.faults().len());
+            let is_same =
+                |one: &&Diagnostic| one.message == fault.message && place(&after, one) == place(&parsed, fault);
+            if now > before || made.len() != 1 {
+                return Some(format!("`{}` of `{}` makes {before} faults {now}", fix.message, fault.message));
+            }
+            // what is behind it may be the same again
+            if after.faults().iter().any(|one| is_same(&one)) && now == before && mended.len() >= text.len() {
+                return Some(format!("`{}` leaves `{}`", fix.message, fault.message));
+            }
+        }
+    }
+    None
+}
+
+/// So many damaged texts are tried, and so many of them have a fix that always applies at least.
+const DAMAGES: [usize; 2] = [3_000, 600];
+
+#[test]
+fn a_certain_fix_never_makes_a_damaged_text_worse() {
+    let mut state = 1_u64;
+    let mut next = |below: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % below.max(1)
+    };
+    let texts: Vec<String> = files("examples", "mech")
+        .into_iter()
+        .chain(files("tests/cases", "mech"))
+        .map(|path| fs::read_to_string(path).expect("a text"))
+        .filter(|text| text.len() <= LONGEST)
+        .collect();
+    let (mut mended, mut faults) = (0, Vec::new());
+    for _ in 0..DAMAGES[0] {
+        let mut text = texts[next(texts.len())].clone();
+        for _ in 0..=next(2) {
+            text = damaged(&text, &mut next);
+        }
+        let parsed = Parsed::of("text.mech", &text);
+        let has_certain =
+            parsed.faults().iter().any(|fault| fault.fixes.iter().any(|fix| fix.applies == Applies::Always));
+        mended += usize::from(has_certain);
+        faults.extend(worse_by_a_fix(&text).map(|fault| format!("{fault}\n{text}")));
+    }
+    assert!(faults.is_empty(), "{} of {mended}:\n{}", faults.len(), faults[..faults.len().min(5)].join("\n\n"));
+    assert!(mended >= DAMAGES[1], "only {mended} texts had a certain fix");
 }

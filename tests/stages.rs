@@ -26,7 +26,7 @@ fn every_stage_is_as_in_its_snapshot(path: &Path) {
         writeln!(first_rows, "{}", cells.join(",")).expect("a string takes everything");
     }
     insta::with_settings!({ snapshot_path => folder, prepend_module_to_snapshot => false, omit_expression => true }, {
-        insta::assert_snapshot!("ast", parsed.formatted());
+        insta::assert_snapshot!("ast", parsed.formatted().expect("a text without faults"));
         insta::assert_snapshot!("model", checked.model_text().expect("sound"));
         insta::assert_snapshot!("ir", checked.equations_text().expect("sound"));
         insta::assert_snapshot!("run", first_rows);

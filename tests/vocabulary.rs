@@ -318,6 +318,7 @@ fn only_what_exists_is_proposed() {
                         Place::Call => vocabulary::is_called(name),
                         Place::Unit => word.category == Category::Unit,
                         Place::Declaration => Keyword::named(name).is_some_and(Keyword::begins_declaration),
+                        Place::Number => word.category == Category::Constant,
                     }
             });
             // `min` is a function, and no unit

@@ -174,6 +174,11 @@ impl<'b> Draft<'b> {
             20 => format!("sign({time} - {a}) * ({time} - {a})^2"),
             _ => format!("(1 / (1 + {b} + cos({time})) + asin(sin({time})))"),
         };
+        if self.chance(16) {
+            let name = self.name("signal");
+            self.declarations.push(format!("input {name} = {part}"));
+            return format!("{start} + {scale} * {name}");
+        }
         format!("{start} + {scale} * {part}")
     }
 

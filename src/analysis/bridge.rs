@@ -5,11 +5,13 @@
 //! which also tells when the singular position is reached.
 
 use super::GOLDEN;
+use super::determinant::Determinant;
 use super::errors;
 use super::finer::Finer;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
 use super::singular;
+use super::trust::SLOW;
 use crate::diag::Diagnostic;
 
 /// A state nearer than this to a singular position is not clear of it.
@@ -20,6 +22,12 @@ const CLEAR: f64 = 8e-3;
 const SOLVABLE: f64 = 1e-3;
 /// Solving beside a singular position leaves more than eight digits of accelerations down to here.
 const EXACT: f64 = 4e-3;
+/// A curve's velocities and accelerations leave no more open of their equations, scaled, beside 1 or a part of the motion's
+/// fastest.
+const OPEN: [f64; 2] = [1e-8, 1e-6];
+/// Steps back from a start beside a singular position at most, and how far each goes, scaled.
+const STEPS_BACK: usize = 64;
+const STEP_BACK: f64 = 2e-3;
 /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
 const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
 /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
@@ -30,6 +38,12 @@ const LARGEST_BETWEEN: f64 = 1e-4;
 /// The time of a singular position is certain to this part of the bridge.
 const CERTAIN: f64 = 1e-6;
 const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Places at which a bridge is looked at for a singular position that is come to twice.
+const PLACES_BETWEEN: usize = 24;
+/// A determinant below this part of what it is at the ends has another sign, and does not just touch zero.
+const BEYOND_ZERO: f64 = -1e-6;
+/// Below this a curve that is more exact decides.
+const NEARLY_ZERO: f64 = 1e-2;
 /// Times at which the minimum of an even contact is looked for.
 const LOOKS: usize = 80;
 /// Newton steps to the minimum's place, and the distance of the places that its slope is taken from, as a part of the bridge.
@@ -46,15 +60,29 @@ pub(super) struct Bridge {
     pub to: State,
     /// When the singular position is reached (s).
     pub at: f64,
+    /// When another one is, or the same again by a motion that turns back just beyond it (s).
+    again: Option<f64>,
     /// A curve for rows that the quintic is not exact enough for, and whether it has been looked for.
     finer: Option<Finer>,
     is_searched: bool,
+    /// The same for what nothing else serves, over a shorter way.
+    narrow: Option<Finer>,
+    is_narrow_searched: bool,
 }
 
 impl Bridge {
     /// A row of its own: bridges are rare.
     fn new(from: &State, to: &State) -> Bridge {
-        Bridge { from: from.clone(), to: to.clone(), at: from.t, finer: None, is_searched: false }
+        Bridge {
+            from: from.clone(),
+            to: to.clone(),
+            at: from.t,
+            again: None,
+            finer: None,
+            is_searched: false,
+            narrow: None,
+            is_narrow_searched: false,
+        }
     }
 
     /// The state at a time between, by the quintic with value, slope and curvature of both ends.
@@ -90,6 +118,17 @@ impl Bridge {
     }
 }
 
+/// Where something begins that is not at `low` and is at `high`.
+fn boundary(mut low: f64, mut high: f64, mut is_beyond: impl FnMut(f64) -> bool) -> f64 {
+    loop {
+        let middle = 0.5 * (low + high);
+        if middle <= low || middle >= high {
+            return middle;
+        }
+        if is_beyond(middle) { high = middle } else { low = middle }
+    }
+}
+
 /// What the third derivative gains over that of a quintic, `c`, where it is known at both ends too: the quintic leaves only a
 /// few digits of it. What is added is x³ (1 − x)³ (α + β x), which changes neither value, slope nor curvature there.
 fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
@@ -99,6 +138,14 @@ fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
     let constant = 6.0 - x * (72.0 - x * (180.0 - x * 120.0));
     let linear = x * (24.0 - x * (180.0 - x * (360.0 - x * 210.0)));
     at_start * constant + (at_end - at_start) * linear
+}
+
+impl Bridge {
+    /// The same by a finer curve, if one has been found.
+    fn best_state_at(&self, t: f64) -> State {
+        let finer = self.finer.as_ref().or(self.narrow.as_ref());
+        finer.map_or_else(|| self.state_at(t), |finer| finer.state_at(t))
+    }
 }
 
 impl Motion {
@@ -112,6 +159,10 @@ impl Motion {
     /// Whether the position that was factored is clear of every singular one.
     pub(super) fn is_clear(&mut self) -> bool {
         self.kinematics.linear().smallest_pivot() > 10.0 * CLEAR || self.kinematics.nearness(CLEAR) >= CLEAR
+    }
+
+    fn explain_bridge(&mut self, bridge: &Bridge, at: f64) -> Diagnostic {
+        singular::explain_contact(&mut self.kinematics, &bridge.state_at(at), self.pass)
     }
 
     /// What there is to do where no further step can be made: goes on beyond a bifurcation if that is wanted.
@@ -131,16 +182,18 @@ impl Motion {
                 self.fold,
             )));
         };
-        let middle = bridge.state_at(bridge.at);
-        let diagnostic = singular::explain_contact(&mut self.kinematics, &middle, self.pass);
         if !self.pass {
+            let diagnostic = self.explain_bridge(&bridge, bridge.at);
             // rows before the singular position may lie on it
             self.bridge = Some(bridge);
             return Err(Box::new(diagnostic));
         }
-        // what comes behind the last row is not passed
-        if bridge.at <= self.last + CERTAIN * (bridge.to.t - bridge.from.t) {
-            self.remarks.push(diagnostic);
+        for at in [Some(bridge.at), bridge.again].into_iter().flatten() {
+            // what comes behind the last row is not passed
+            if at <= self.last + CERTAIN * (bridge.to.t - bridge.from.t) {
+                let diagnostic = self.explain_bridge(&bridge, at);
+                self.remarks.push(diagnostic);
+            }
         }
         self.state.copy_from(&bridge.to);
         self.clear.copy_from(&bridge.to);
@@ -152,8 +205,57 @@ impl Motion {
         Ok(())
     }
 
-    /// A state beyond the singular position that the steps have come up to, if the motion goes on there.
+    /// A way over the singular position that the steps have come up to, if the motion goes on there. One that begins beside it
+    /// is looked at from before its start.
     fn bridge_ahead(&mut self) -> Option<Bridge> {
+        let bridge = self.bridge_from_clear();
+        if bridge.is_none() && self.fold.is_none() && self.go_before_start() {
+            return self.bridge_from_clear();
+        }
+        bridge
+    }
+
+    /// Looks for a clear state before the first time, if the motion is not clear of singular positions there; says whether there
+    /// is one.
+    fn go_before_start(&mut self) -> bool {
+        self.kinematics.restore(&self.clear);
+        let mut state = self.clear.clone();
+        // of the start only the position has been kept
+        let is_start = state.qd.iter().all(|speed| *speed == 0.0);
+        if !is_start || self.kinematics.derivatives(&mut state).is_err() {
+            return false;
+        }
+        if self.is_clear() {
+            self.clear = state;
+            return true;
+        }
+        for _ in 0..STEPS_BACK {
+            // the other branch is no farther than twice that
+            let way = self.kinematics.nearness(STEP_BACK).min(STEP_BACK);
+            let linear = self.kinematics.linear();
+            let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
+            let h = f64::min(way / speed, (way / bend).sqrt());
+            self.trial.t = state.t - h;
+            for k in 0..state.q.len() {
+                self.trial.q[k] = state.q[k] - h * (state.qd[k] - 0.5 * h * state.qdd[k]);
+            }
+            let is_found = self.correct().is_ok()
+                && self.same_branch().is_ok()
+                && self.kinematics.derivatives(&mut self.trial).is_ok();
+            if !is_found {
+                return false;
+            }
+            state.copy_from(&self.trial);
+            if self.is_clear() {
+                self.clear = state;
+                return true;
+            }
+        }
+        false
+    }
+
+    /// A state beyond the singular position, to which the prediction from the last clear one leads.
+    fn bridge_from_clear(&mut self) -> Option<Bridge> {
         self.kinematics.restore(&self.state);
         // without a line of centres there is nothing beyond
         if self.state.t <= self.clear.t || singular::centers_that_meet(&self.kinematics).is_some() {
@@ -211,6 +313,7 @@ impl Motion {
             self.fold = Some(fold);
             return None;
         }
+        self.settle_times(&mut bridge);
         Some(bridge)
     }
 
@@ -232,14 +335,10 @@ impl Motion {
         };
         let crossing = (0..self.determinants.len()).find(|&k| is_beyond(self, k));
         if let Some(block) = crossing {
-            loop {
-                let middle = 0.5 * (low + high);
-                if middle <= low || middle >= high {
-                    return middle;
-                }
-                self.set(&bridge.state_at(middle));
-                if is_beyond(self, block) { high = middle } else { low = middle }
-            }
+            return boundary(low, high, |t| {
+                self.set(&bridge.state_at(t));
+                is_beyond(self, block)
+            });
         }
         let sigma = |motion: &mut Self, t: f64| {
             motion.set(&bridge.state_at(t));
@@ -259,6 +358,61 @@ impl Motion {
             }
         }
         self.least_time(bridge, 0.5 * (low + high))
+    }
+
+    /// Puts the time of a bridge right by a finer curve, and looks whether a determinant that has one sign at both ends has the
+    /// other one between: then the singular position is come to twice.
+    fn settle_times(&mut self, bridge: &mut Bridge) {
+        let units = [&bridge.from, &bridge.to].map(|end| {
+            self.set(end);
+            self.determinants_here()
+        });
+        // what a determinant is at a time, against that at the start of the bridge
+        let part = |motion: &mut Self, bridge: &Bridge, block: usize, t: f64| {
+            let unit = units[0][block];
+            motion.set(&bridge.best_state_at(t));
+            motion.kinematics.linear().determinant(block).beside(unit) / unit.beside(unit)
+        };
+        let (from, to) = (bridge.from.t, bridge.to.t);
+        let changes = |k: &usize| units[0][*k].is_positive() != units[1][*k].is_positive();
+        if let Some(block) = (0..units[0].len()).find(changes) {
+            self.look_for_exact(bridge);
+            let at = boundary(from, to, |t| part(self, bridge, block, t) < 0.0);
+            if (at - bridge.at).abs() > CERTAIN * (to - from) {
+                bridge.at = at;
+            }
+            return;
+        }
+        let places = (1..PLACES_BETWEEN).map(|k| from + (to - from) * k as f64 / PLACES_BETWEEN as f64);
+        let places: Vec<f64> = std::iter::once(bridge.at).chain(places).collect();
+        for block in 0..units[0].len() {
+            let deepest = |motion: &mut Self, bridge: &Bridge| {
+                let parts = places.iter().map(|&t| (part(motion, bridge, block, t), t));
+                parts.min_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((1.0, bridge.at))
+            };
+            if deepest(self, bridge).0 > NEARLY_ZERO {
+                continue;
+            }
+            self.look_for_exact(bridge);
+            let (least, between) = deepest(self, bridge);
+            if least < BEYOND_ZERO {
+                bridge.at = boundary(from, between, |t| part(self, bridge, block, t) < 0.0);
+                bridge.again = Some(boundary(between, to, |t| part(self, bridge, block, t) >= 0.0));
+                return;
+            }
+        }
+    }
+
+    /// Looks for a curve over a bridge that is more exact than the quintic.
+    fn look_for_exact(&mut self, bridge: &mut Bridge) {
+        self.look_for_finer(bridge);
+        self.look_for_narrow(bridge);
+    }
+
+    fn determinants_here(&mut self) -> Vec<Determinant> {
+        let mut determinants = self.determinants.clone();
+        self.kinematics.linear().determinants(&mut determinants);
+        determinants
     }
 
     /// When the determinant that is least at about `t` has its minimum: its sign tells the sides of zero apart, so that it is
@@ -312,12 +466,11 @@ impl Motion {
         };
         let bridge = self.bridge.as_ref().filter(is_on)?;
         let state = bridge.state_at(t);
-        self.kinematics.restore(&state);
-        if self.kinematics.violated().is_none() {
-            self.kinematics.write_given_row(&state, &mut self.row);
-            return Some(Ok(()));
-        }
-        if self.solved_row(&state, EXACT) || self.finer_row(t) || self.solved_row(&state, SOLVABLE) {
+        if self.given_row(&state)
+            || self.solved_row(&state, EXACT)
+            || self.finer_row(t)
+            || self.solved_row(&state, SOLVABLE)
+        {
             return Some(Ok(()));
         }
         // it may be certain as it is found without the bridge
@@ -345,20 +498,74 @@ impl Motion {
         let Some(mut bridge) = self.bridge.take() else {
             return false;
         };
-        if !bridge.is_searched {
-            bridge.is_searched = true;
-            bridge.finer = self.finer_curve(&bridge);
-        }
+        self.look_for_finer(&mut bridge);
         let state = bridge.finer.as_ref().map(|finer| finer.state_at(t));
         self.bridge = Some(bridge);
         let Some(state) = state else {
             return false;
         };
-        self.kinematics.restore(&state);
-        let is_exact = self.kinematics.violated().is_none();
-        if is_exact {
-            self.kinematics.write_given_row(&state, &mut self.row);
+        self.given_row(&state)
+    }
+
+    fn look_for_finer(&mut self, bridge: &mut Bridge) {
+        if !bridge.is_searched {
+            (bridge.is_searched, bridge.finer) = (true, self.finer_curve(bridge));
         }
-        is_exact
+    }
+
+    /// Looks for a curve over a shorter way, if there is none over the whole bridge that is exact: a motion that turns back beside
+    /// the singular position is there for long.
+    fn look_for_narrow(&mut self, bridge: &mut Bridge) {
+        if bridge.finer.is_none() && !bridge.is_narrow_searched {
+            bridge.is_narrow_searched = true;
+            bridge.narrow = [EXACT, SOLVABLE].into_iter().find_map(|nearest| self.narrow_curve(bridge, nearest));
+        }
+    }
+
+    /// A curve between the states that are so near to the singular position.
+    fn narrow_curve(&mut self, bridge: &Bridge, nearest: f64) -> Option<Finer> {
+        let mut is_near = |t: f64| {
+            self.set(&bridge.state_at(t));
+            self.kinematics.nearness(nearest) < nearest
+        };
+        let last = bridge.again.unwrap_or(bridge.at);
+        let from = boundary(bridge.from.t, bridge.at, &mut is_near);
+        let to = boundary(last, bridge.to.t, |t| !is_near(t));
+        let [from, to] = [from, to].map(|t| self.solved_state(&bridge.state_at(t)));
+        self.finer_curve(&Bridge::new(&from?, &to?))
+    }
+
+    fn solved_state(&mut self, state: &State) -> Option<State> {
+        self.trial.copy_from(state);
+        self.correct().ok()?;
+        self.kinematics.derivatives(&mut self.trial).ok()?;
+        Some(self.trial.clone())
+    }
+
+    /// Writes the row of a time on a bridge by a curve over a shorter way, if that is exact there.
+    pub(super) fn narrow_row(&mut self, t: f64) -> bool {
+        let Some(mut bridge) = self.bridge.take() else {
+            return false;
+        };
+        self.look_for_narrow(&mut bridge);
+        let state = bridge.narrow.as_ref().map(|narrow| narrow.state_at(t));
+        self.bridge = Some(bridge);
+        state.is_some_and(|state| self.given_row(&state))
+    }
+
+    /// Writes the row of a state on a curve, if the equations hold there, and those of velocity and acceleration with them.
+    fn given_row(&mut self, state: &State) -> bool {
+        self.kinematics.restore(state);
+        if self.kinematics.violated().is_some() {
+            return false;
+        }
+        self.kinematics.write_given_row(state, &mut self.row);
+        let linear = self.kinematics.linear();
+        let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
+        let fastest = f64::max(SLOW * bend.max(speed * speed), 1.0);
+        (0..state.q.len()).all(|row| {
+            let (velocity, acceleration) = self.kinematics.left_open(row, state);
+            velocity <= OPEN[0] * f64::max(SLOW * speed, 1.0) && acceleration <= OPEN[1] * fastest
+        })
     }
 }

@@ -77,6 +77,24 @@ pub(super) struct Kinematics {
     /// Rows whose slopes are looked at beside a position, these among them.
     looked_at_beside: Vec<usize>,
     beside: Vec<f64>,
+    doubt: Doubt,
+}
+
+/// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
+#[derive(Default)]
+struct Doubt {
+    position: Vec<f64>,
+    velocity: Vec<f64>,
+    acceleration: Vec<f64>,
+    /// By row.
+    right: Vec<f64>,
+}
+
+impl Doubt {
+    fn new(n: usize) -> Doubt {
+        let zero = vec![0.0; n];
+        Doubt { position: zero.clone(), velocity: zero.clone(), acceleration: zero.clone(), right: zero }
+    }
 }
 
 /// What rounding makes of a term.
@@ -92,8 +110,9 @@ impl Kinematics {
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
         let bent = (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect();
         let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
-        let beside = vec![0.0; system.coordinates.len()];
-        Kinematics { determined, program, registers, linear, tolerance, cancel, bent, looked_at_beside, beside }
+        let n = system.coordinates.len();
+        let (beside, doubt) = (vec![0.0; n], Doubt::new(n));
+        Kinematics { determined, program, registers, linear, tolerance, cancel, bent, looked_at_beside, beside, doubt }
     }
 
     /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
@@ -348,11 +367,10 @@ impl Kinematics {
     /// What is left of each row's velocity and acceleration equation with the derivatives of another state, scaled; the
     /// derivatives where the position was set must just have been computed.
     pub fn left_open(&self, row: usize, state: &State) -> (f64, f64) {
-        let (pattern, outputs) = (&self.system().phi_q, &self.program.outputs);
-        let left = |x: &[f64]| -> f64 {
-            pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
+        let outputs = &self.program.outputs;
+        let open = |x: &[f64], right: Register| {
+            (self.left(row, x) - self.registers.get(right)).abs() / self.linear.row_norm(row)
         };
-        let open = |x: &[f64], right: Register| (left(x) - self.registers.get(right)).abs() / self.linear.row_norm(row);
         (open(&state.qd, outputs.nu[row]), open(&state.qdd, outputs.gamma[row]))
     }
 
@@ -525,8 +543,12 @@ impl Kinematics {
 
     /// 8 eps times the largest term of a row, the steps of its coordinates included.
     fn rounding(&self, row: usize) -> f64 {
+        ROUNDING * self.largest_part(row)
+    }
+
+    fn largest_part(&self, row: usize) -> f64 {
         let terms = self.program.outputs.terms[row].iter().map(|&register| self.registers.get(register).abs());
-        ROUNDING * terms.chain(self.steps(row)).fold(0.0, f64::max)
+        terms.chain(self.steps(row)).fold(0.0, f64::max)
     }
 
     /// What each coordinate contributes to a row by its slope.
@@ -574,6 +596,63 @@ impl Kinematics {
         let velocity = ratio(self.linear.largest(&state.qd), largest_right(&outputs.nu));
         let acceleration = ratio(self.linear.largest(&state.qdd), largest_right(&outputs.gamma));
         velocity.max(acceleration).max(1.0)
+    }
+
+    /// Computes how far off velocity and acceleration of a state may be, if it is nearer to a singular position than a limit; says
+    /// whether it is. Equations hold but for their rounding, which the position makes up for by moving the more the nearer it
+    /// is, and derivatives move with it. The state must just have been computed.
+    pub fn take_doubt(&mut self, state: &State, limit: f64) -> bool {
+        let mut doubt = std::mem::take(&mut self.doubt);
+        let is_near = self.linear.write_weights(limit, &mut doubt.right);
+        if is_near {
+            self.carry_rounding(state, &mut doubt);
+            self.set_state(state);
+        }
+        self.doubt = doubt;
+        is_near
+    }
+
+    /// By coordinate, how far off velocity and acceleration may be, which must have been computed [m/s, rad/s; m/s², rad/s²].
+    pub fn doubt(&self) -> [&[f64]; 2] {
+        [&self.doubt.velocity, &self.doubt.acceleration]
+    }
+
+    /// From the weights of the rows in their dependency to what their rounding, all adding up, makes of a state.
+    fn carry_rounding(&mut self, state: &State, doubt: &mut Doubt) {
+        for (row, weight) in doubt.right.iter_mut().enumerate() {
+            *weight = f64::EPSILON * self.largest_part(row).copysign(*weight) * f64::from(u8::from(*weight != 0.0));
+        }
+        self.solve(&doubt.right, &mut doubt.position);
+        for ((beside, q), off) in self.beside.iter_mut().zip(&state.q).zip(&doubt.position) {
+            *beside = q + off;
+        }
+        let program = Arc::clone(&self.program);
+        let ([coordinates, qd, ..], outputs) = (program.inputs.coordinates, &program.outputs);
+        self.registers.set_all(coordinates, &self.beside);
+        program.run(Stage::Position, &mut self.registers);
+        program.run(Stage::Velocity, &mut self.registers);
+        self.write_open(&outputs.nu, &state.qd, &mut doubt.right);
+        self.solve(&doubt.right, &mut doubt.velocity);
+        for ((beside, speed), off) in self.beside.iter_mut().zip(&state.qd).zip(&doubt.velocity) {
+            *beside = speed - off;
+        }
+        self.registers.set_all(qd, &self.beside);
+        program.run(Stage::Acceleration, &mut self.registers);
+        self.write_open(&outputs.gamma, &state.qdd, &mut doubt.right);
+        self.solve(&doubt.right, &mut doubt.acceleration);
+    }
+
+    /// By row, what is left of `Φ_q x = b`.
+    fn write_open(&self, right: &[Register], x: &[f64], open: &mut [f64]) {
+        for (row, open) in open.iter_mut().enumerate() {
+            *open = self.left(row, x) - self.registers.get(right[row]);
+        }
+    }
+
+    /// A row of `Φ_q x`.
+    fn left(&self, row: usize, x: &[f64]) -> f64 {
+        let pattern = &self.system().phi_q;
+        pattern.range(row).zip(pattern.row(row)).map(|(at, &(column, _))| self.phi_q(at) * x[column as usize]).sum()
     }
 
     fn all_finite(&self, state: &State) -> Result<(), Fault> {
@@ -633,6 +712,18 @@ impl Kinematics {
 
     /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
+        self.set_derivatives(state);
+        self.write_row(state, row);
+    }
+
+    /// Sets a state that was computed before.
+    fn set_state(&mut self, state: &State) {
+        self.registers.set_all(self.program.inputs.coordinates[0], &state.q);
+        self.program.run(Stage::Position, &mut self.registers);
+        self.set_derivatives(state);
+    }
+
+    fn set_derivatives(&mut self, state: &State) {
         let (program, registers) = (&*self.program, &mut self.registers);
         let [_, qd, qdd, qddd] = program.inputs.coordinates;
         // what measures share with the right sides is computed there, and has to be of these derivatives
@@ -642,7 +733,6 @@ impl Kinematics {
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Jerk, registers);
         registers.set_all(qddd, &state.qddd);
-        self.write_row(state, row);
     }
 
     /// The measure behind a column of a result row, which must be one of a measure.

@@ -567,6 +567,25 @@ impl BlockLu {
         nearest
     }
 
+    /// Writes by row how it weighs in the dependency of its block, of those blocks that are nearer to a singular position than a
+    /// limit; 0 in all others. Says whether there are such blocks.
+    pub fn write_weights(&mut self, limit: f64, weights: &mut [f64]) -> bool {
+        let (left, rest) = self.work.split_at_mut(self.rows.len());
+        let (right, work) = rest.split_at_mut(self.rows.len());
+        let factors = factors!(self);
+        let mut is_any_near = false;
+        for (k, part) in self.parts.iter().enumerate() {
+            let (left, right) = (&mut left[..part.size], &mut right[..part.size]);
+            let is_near = part.smallest_pivot < PIVOT_MARGIN * limit
+                && factors.nearness(k, part, (left, right), work) * part.length_of_chain() < limit;
+            is_any_near |= is_near;
+            for (&row, weight) in self.rows[part.at..part.at + part.size].iter().zip(left.iter()) {
+                weights[row as usize] = if is_near { *weight } else { 0.0 };
+            }
+        }
+        is_any_near
+    }
+
     /// The smallest singular value of all blocks, with its vectors over the whole of the scaled `Φ_q`: the rows on which
     /// that block's rows depend, and the coordinates that move with its own. Allocates.
     pub fn worst(&mut self) -> Singular {

@@ -15,6 +15,7 @@ use super::signals::Signals;
 use super::singular;
 use super::times::Times;
 use super::touch::Before;
+use super::trust::Trust;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
 use crate::solver::Solver;
@@ -41,8 +42,6 @@ pub(super) const FEWEST_STEPS_NEAR: f64 = 64.0;
 const SMALLEST_STEP: f64 = 1e-12;
 /// A position nearer to a singular one than this is not stepped to.
 const NEAREST: f64 = 1e-6;
-/// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
-const ACCURACY: f64 = 1e-9;
 /// Steps from one output time to the next at most: what takes more is not meant.
 pub(super) const MOST_STEPS: u64 = 1_000_000;
 
@@ -100,6 +99,10 @@ pub struct Motion {
     pub(super) clear: State,
     /// The way over the last singular position.
     pub(super) bridge: Option<Bridge>,
+    /// The same, where it was only looked for to hold a row against it.
+    pub(super) spare_bridge: Option<Bridge>,
+    /// Up to this time (s) there is none: the motion is clear again then.
+    pub(super) clear_ahead: f64,
     /// When the mechanism comes to the end of its reach, where that is nearly far enough for what is asked for (s).
     pub(super) fold: Option<f64>,
     /// The last row on that way which was found without it.
@@ -108,10 +111,10 @@ pub struct Motion {
     pub(super) h: f64,
     smallest: f64,
     /// Where the last step was looked into, from 0 to 1.
-    probe: f64,
+    pub(super) probe: f64,
     pub(super) begun: bool,
-    /// Whether the row holds digits, and not rounding.
-    pub(super) is_certain: bool,
+    /// What the row is worth.
+    pub(super) trust: Trust,
     /// Whether it is near a position that may be a bifurcation to pass.
     pub(super) is_near: bool,
     pub(super) row: Vec<f64>,
@@ -162,6 +165,8 @@ impl Motion {
             pass: false,
             clear: state.clone(),
             bridge: None,
+            spare_bridge: None,
+            clear_ahead: f64::NEG_INFINITY,
             fold: None,
             plain: None,
             delta: vec![0.0; n],
@@ -176,7 +181,7 @@ impl Motion {
             smallest,
             probe: 0.0,
             begun: false,
-            is_certain: true,
+            trust: Trust::Certain,
             is_near: false,
             row: vec![0.0; kinematics.row_length()],
             output,
@@ -263,7 +268,7 @@ impl Motion {
         self.keep_away()?;
         self.kinematics.derivatives(&mut self.trial)?;
         if wanted {
-            self.is_certain = Self::trustworthy(&mut self.kinematics, &self.trial).is_ok();
+            self.trust = Trust::of(&mut self.kinematics, &self.trial);
             self.is_near = self.pass && !self.is_clear();
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
@@ -346,14 +351,6 @@ impl Motion {
     /// No step ends too near to a singular position.
     pub(super) fn keep_away(&mut self) -> Result<(), Fault> {
         if self.kinematics.nearness(NEAREST) < NEAREST { Err(Fault::Singular) } else { Ok(()) }
-    }
-
-    /// What is printed must not be rounding: `q` is known to eps/σ, and a position that is wrong by so much has
-    /// derivatives that are wrong by as much again as the equations amplify, which near a dead point is 1/σ too.
-    pub(super) fn trustworthy(kinematics: &mut Kinematics, state: &State) -> Result<(), Fault> {
-        let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
-        let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
-        if uncertain > ACCURACY { Err(Fault::Uncertain) } else { Ok(()) }
     }
 
     /// The place of a step that is looked at next, as a part of the step.

@@ -15,6 +15,7 @@ mod bridge;
 mod dense;
 mod determinant;
 mod determine;
+mod doubt;
 mod edges;
 mod errors;
 mod evaluator;
@@ -36,6 +37,7 @@ mod singular;
 mod sparse;
 mod times;
 mod touch;
+mod trust;
 mod yardstick;
 
 pub use assembly::Moved;

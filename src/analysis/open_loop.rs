@@ -114,7 +114,14 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
-    let (kind, by) = if length / system.length > 0.1 * angle {
+    // from elsewhere it closes: the estimates are too far off, and no length is wrong
+    if !gaps.is_empty() && length <= CLOSED * system.length && angle <= CLOSED {
+        return None;
+    }
+    let (kind, by) = if gaps.is_empty() {
+        // no motion that could be seen closes it
+        (CoordinateKind::Length, f64::INFINITY)
+    } else if length / system.length > 0.1 * angle {
         (CoordinateKind::Length, length)
     } else {
         (CoordinateKind::Angle, angle)

@@ -11,6 +11,7 @@ use super::kinematics::{Fault, Kinematics, State};
 use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS, Motion, along};
 use super::singular;
 use super::times::Times;
+use super::trust::Trust;
 use crate::diag::Diagnostic;
 use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use std::sync::Arc;
@@ -29,7 +30,7 @@ const ENOUGH: u64 = 4;
 /// A row that is solved for once more may change by so much, beside its size or 1.
 const REFINED: f64 = 1e-8;
 /// Steps that are tried behind a row that cannot be printed, to tell why.
-const STEPS_AHEAD: usize = 1_000;
+pub(super) const STEPS_AHEAD: usize = 1_000;
 
 /// The output times, and the rows that are ready.
 pub(super) struct Output {
@@ -142,7 +143,7 @@ enum Place {
 /// What a motion goes back to where it was only looked ahead.
 #[derive(Clone)]
 pub(super) struct Bookmark {
-    state: State,
+    pub state: State,
     clear: State,
     determinants: Vec<Determinant>,
     sides: Vec<bool>,
@@ -300,7 +301,7 @@ impl Motion {
                 if row.is_err() && self.plain_row(t) {
                     return Ok(Place::Own);
                 }
-                return row.map(|()| Place::Own);
+                return self.or_trusted(t, row).map(|()| Place::Own);
             }
             if t <= self.state.t {
                 self.row_at_rest()?;
@@ -333,12 +334,18 @@ impl Motion {
     fn go_to(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
         while self.state.t < t {
             self.count_step(t)?;
-            self.step_towards(t)?;
+            if let Err(why) = self.step_towards(t) {
+                // so near to a bifurcation no step leads, but the way over it may
+                return self.row_on_bridge(t).unwrap_or(Err(why)).map(|()| false);
+            }
         }
         if let Some(row) = self.row_on_bridge(t) {
-            return row.map(|()| false);
+            return self.or_trusted(t, row).map(|()| false);
         }
-        if !self.is_certain || self.is_near {
+        if self.trust == Trust::Doubtful && !self.pass {
+            return self.row_in_doubt(t).map(|()| false);
+        }
+        if !self.trust.is_certain() || self.is_near {
             return self.look_ahead(t);
         }
         Ok(true)
@@ -603,7 +610,7 @@ impl Motion {
             && self.same_branch().is_ok()
             && self.kinematics.derivatives(&mut self.trial).is_ok()
             && self.is_clear()
-            && Self::trustworthy(&mut self.kinematics, &self.trial).is_ok();
+            && Trust::of(&mut self.kinematics, &self.trial).is_certain();
         if is_solved {
             self.kinematics.write_row(&self.trial, &mut self.row);
         }
@@ -612,7 +619,7 @@ impl Motion {
 
     /// Solves again for a row that was found otherwise, by the operations that all other rows come from: whichever way it was
     /// found, its bits are the same.
-    fn refine(&mut self, t: f64) {
+    pub(super) fn refine(&mut self, t: f64) {
         let Some(rows) = &mut self.output.rows else {
             return;
         };
@@ -655,10 +662,11 @@ impl Motion {
     /// A row whose derivatives would be more rounding than digits: mostly a lock-up comes right behind it, or a bifurcation,
     /// and then the row may lie on the way over it. Says whether it does not.
     fn look_ahead(&mut self, t: f64) -> Result<bool, Box<Diagnostic>> {
-        let ahead = t + self.span / FEWEST_STEPS_NEAR;
-        let (is_certain, row, here) = (self.is_certain, self.row.clone(), self.bookmark());
+        let (trust, row, here) = (self.trust, self.row.clone(), self.bookmark());
+        let is_certain = self.is_certain(&here.state);
         // a run that passes nothing prints it too, if nothing has been passed before
         let is_plain = is_certain && self.bridge.as_ref().is_none_or(|bridge| bridge.at > t);
+        let (mut ahead, farthest) = (t + self.span / FEWEST_STEPS_NEAR, self.time_ahead(t));
         for _ in 0..STEPS_AHEAD {
             if let Err(why) = self.step_towards(ahead) {
                 // what comes behind the row does not concern it
@@ -672,14 +680,20 @@ impl Motion {
                 Some(Err(_)) if is_plain => return Ok(self.keep_plain(here, row)),
                 Some(on_bridge) => {
                     self.plain = is_plain.then_some(here);
-                    return on_bridge.map(|()| false);
+                    return self.or_trusted(t, on_bridge).map(|()| false);
                 }
                 None => {}
             }
             // a step that failed leaves the factors of where it failed
             self.kinematics.restore(&self.state);
-            if self.state.t >= ahead || (is_certain && self.state.t > t && self.is_clear()) {
+            if trust != Trust::Uncertain && self.state.t > t && self.is_clear() {
                 break;
+            }
+            if self.state.t >= ahead {
+                if is_certain || ahead >= farthest {
+                    break;
+                }
+                ahead = farthest;
             }
         }
         // the next row lies before what was looked at
@@ -695,9 +709,15 @@ impl Motion {
     fn row_before(&mut self, t: f64, here: &Bookmark, why: Box<Diagnostic>) -> Result<(), Box<Diagnostic>> {
         let on_bridge = self.row_on_bridge(t);
         self.go_back(here);
-        // nobody asked for what comes behind the last row
-        let is_behind = why.data.get("t").and_then(serde_json::Value::as_f64).is_some_and(|at| at > self.last);
-        on_bridge.unwrap_or_else(|| Err(if is_behind { self.explain_uncertain(t) } else { why }))
+        on_bridge.unwrap_or_else(|| Err(self.explain_refused(t, Some(why))))
+    }
+
+    /// Why the row of a time `t` is not printed: what ends the motion, unless that comes behind the last row, for which nobody
+    /// asked, or its own nearness to a singular position.
+    pub(super) fn explain_refused(&mut self, t: f64, why: Option<Box<Diagnostic>>) -> Box<Diagnostic> {
+        let at = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64);
+        let is_behind = |why: &Diagnostic| at(why).is_some_and(|at| at > self.last);
+        why.filter(|why| !is_behind(why)).unwrap_or_else(|| self.explain_uncertain(t))
     }
 
     /// Keeps a row that was found without a bridge, so that the next one on that bridge may be found in the same way.
@@ -719,7 +739,7 @@ impl Motion {
         let (beyond, bridge, pass) = (self.bookmark(), self.bridge.take(), self.pass);
         self.pass = false;
         self.go_back(&plain);
-        let is_found = self.steps_to(t) && self.is_certain;
+        let is_found = self.steps_to(t) && self.is_certain(&self.state.clone());
         let here = self.bookmark();
         (self.pass, self.bridge) = (pass, bridge);
         self.go_back(&beyond);
@@ -741,13 +761,13 @@ impl Motion {
         true
     }
 
-    fn explain_uncertain(&mut self, t: f64) -> Box<Diagnostic> {
+    pub(super) fn explain_uncertain(&mut self, t: f64) -> Box<Diagnostic> {
         let singular = self.kinematics.worst();
         Box::new(singular::name_uncertain(self.kinematics.system(), &singular.left, t))
     }
 
     /// What the next step begins from.
-    fn bookmark(&self) -> Bookmark {
+    pub(super) fn bookmark(&self) -> Bookmark {
         Bookmark {
             state: self.state.clone(),
             clear: self.clear.clone(),
@@ -758,7 +778,7 @@ impl Motion {
         }
     }
 
-    fn go_back(&mut self, to: &Bookmark) {
+    pub(super) fn go_back(&mut self, to: &Bookmark) {
         self.state.copy_from(&to.state);
         self.clear.copy_from(&to.clear);
         self.sides.copy_from_slice(&to.sides);
@@ -775,14 +795,22 @@ impl Motion {
     /// The row of the state that has been reached already: the start.
     fn row_at_rest(&mut self) -> Result<(), Box<Diagnostic>> {
         self.kinematics.restore(&self.state);
-        match self
-            .kinematics
-            .derivatives(&mut self.state)
-            .and_then(|()| Self::trustworthy(&mut self.kinematics, &self.state))
-        {
-            Ok(()) => self.kinematics.write_row(&self.state, &mut self.row),
-            Err(fault) => return Err(Box::new(self.explain_start(fault))),
+        let mut trust = self.trust_at_rest();
+        if trust == Ok(Trust::Doubtful) {
+            trust = if self.stands_up(&self.state.clone()) { self.trust_at_rest() } else { Err(Fault::Uncertain) };
         }
+        if let Err(fault) = trust {
+            return Err(Box::new(self.explain_start(fault)));
+        }
+        self.kinematics.write_row(&self.state, &mut self.row);
         Ok(())
+    }
+
+    fn trust_at_rest(&mut self) -> Result<Trust, Fault> {
+        self.kinematics.derivatives(&mut self.state)?;
+        match Trust::of(&mut self.kinematics, &self.state) {
+            Trust::Uncertain => Err(Fault::Uncertain),
+            trust => Ok(trust),
+        }
     }
 }

@@ -5,6 +5,7 @@ use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
+use crate::program::Rim;
 
 /// Below this the position is called singular, or as near to one as the steps could come.
 const NEAR: f64 = 1e-2;
@@ -12,6 +13,8 @@ const NEAR: f64 = 1e-2;
 const FLAT: f64 = 1e-3;
 /// A fold is no further off than this part of the span.
 const NEAR_FOLD: f64 = 1e-5;
+/// A formula has come to the end of what its function takes, or to a pole, if no more than this part of its terms is left.
+const AT_HAND: f64 = 1e-6;
 /// A part of the largest motion that is worth telling.
 const SEEN: f64 = 1e-3;
 /// A driver takes part in a dependency if its share is above this part of the largest.
@@ -70,6 +73,8 @@ pub(super) fn explain_fold(
         }
     } else if let Some(fault) = without_value(kinematics, state, target) {
         errors::no_value(system, fault, target)
+    } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
+        at_rim
     } else {
         errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
     };
@@ -79,7 +84,7 @@ pub(super) fn explain_fold(
 /// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
 /// as near as steps could come; where it is not, its own time is told.
 fn time_of_fold(system: &ConstraintSystem, state: &State, right: &[f64]) -> f64 {
-    let span = system.analysis.map_or(1.0, |[from, to, _]| to - from);
+    let span = span(system);
     let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
     let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
@@ -120,6 +125,52 @@ pub(super) fn explain_haste(kinematics: &mut Kinematics, state: &State, steps: u
         Some(fault) => errors::no_value(system, fault, target),
         None => errors::too_fast(system, state.t, target, steps, fastest_driver(kinematics, state, target)),
     }
+}
+
+/// The rim that a state has come to, or so near to it that no step leads on.
+fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic> {
+    kinematics.restore(state);
+    let span = span(kinematics.system());
+    let rims = kinematics.rims().to_vec();
+    let mut left = |rim: &Rim| {
+        let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
+        f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
+    };
+    // where time alone leads to one its driver is the fastest
+    let of_motion = rims.iter().enumerate().filter(|(_, rim)| !rim.on_time);
+    let nearest = of_motion.map(|(index, rim)| (index, left(rim))).min_by(|a, b| a.1.total_cmp(&b.1));
+    let index = nearest.filter(|(_, left)| *left < AT_HAND).map(|(rim, _)| rim)?;
+    let corner = corner_ahead(kinematics, &rims[index], state);
+    let system = kinematics.system();
+    let declarations = &system.rims[index].declarations;
+    let has_tangent = declarations.iter().any(|&declaration| errors::has_tangent(system, declaration));
+    Some(match corner.filter(|_| has_tangent) {
+        Some(left) => errors::position_jump(system, declarations, true, (0, 0.0), state.t + left),
+        None => errors::formula_not_finite(system, declarations, state.t),
+    })
+}
+
+/// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
+fn corner_ahead(kinematics: &mut Kinematics, rim: &Rim, state: &State) -> Option<f64> {
+    let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
+    let left = -2.0 * gauge / slope;
+    let [before, _] = gauge_at(kinematics, rim, state, -left);
+    // twice as far from it a parabola that touches zero has four times its value; a line has three times that
+    (left > 0.0 && (before / gauge - 4.0).abs() < 0.25).then_some(left)
+}
+
+/// A gauge and its slope where the motion goes on evenly from a state for a time (s).
+fn gauge_at(kinematics: &mut Kinematics, rim: &Rim, state: &State, after: f64) -> [f64; 2] {
+    let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
+    kinematics.set_time(state.t + after);
+    // what is wrong with the position shows in the gauge
+    let _ = kinematics.set_position(&q);
+    kinematics.set_velocity(&state.qd);
+    kinematics.gauge(rim)
+}
+
+fn span(system: &ConstraintSystem) -> f64 {
+    system.analysis.map_or(1.0, |[from, to, _]| to - from)
 }
 
 /// Why a formula has no value at a time, the position being as it is.

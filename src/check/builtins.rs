@@ -26,7 +26,7 @@ impl Checker<'_> {
         if arguments.len() < function.least || arguments.len() > function.most {
             let (wanted, found) = (function.takes(), arguments.len());
             let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
-            self.report_count(name, diagnostic, found);
+            self.report_count(name, diagnostic, arguments, function.most);
             return None;
         }
         // a function's formula is looked over on its own

@@ -88,6 +88,10 @@ impl<'a> Checker<'a> {
                 None
             }
             None => {
+                if let Some(fix) = self.rate_of_joint(e, name, arguments, context) {
+                    self.report(errors::unknown_function(name, &[], &[]).instead(fix));
+                    return None;
+                }
                 let own = self.suggestions(|entity| matches!(entity, Entity::Function(_) | Entity::Table(_)));
                 let texts: Vec<&str> = arguments.iter().map(|e| self.sources.text(e.span)).collect();
                 let diagnostic = errors::unknown_function(name, &own, &texts);

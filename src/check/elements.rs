@@ -17,8 +17,14 @@ impl Checker<'_> {
         let mut asked = vec![Vec::new(); self.measures.len()];
         for &k in order {
             let judged = self.measures[k].dimensional;
-            let context =
-                Context { judged, time: true, quantities: true, measures: true, ..Context::constant("a measure") };
+            let context = Context {
+                judged,
+                time: true,
+                inputs: true,
+                quantities: true,
+                measures: true,
+                ..Context::constant("a measure")
+            };
             let conditions = self.model.conditions.len();
             values[k] = self.formula(self.measures[k].value, &context);
             let name = &self.measures[k].name.text;
@@ -142,6 +148,7 @@ impl Checker<'_> {
         Context {
             judged: sides.iter().any(|side| self.is_dimensional(side)),
             time: driver,
+            inputs: driver,
             quantities: true,
             ..Context::constant(if driver { "a driver" } else { "a constraint" })
         }

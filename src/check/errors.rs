@@ -2,10 +2,12 @@
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
+use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
-use crate::syntax::ast::Name;
+use crate::syntax::ast::{Name, Segment};
+use crate::syntax::format::expression;
 use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
 
 fn meant(wanted: &Name, names: &[&str]) -> Option<Fix> {
@@ -23,6 +25,9 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
 /// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
 pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let diagnostic = unknown(what, name, known);
+    if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
+        return diagnostic.instead(Fix::meant(name.span, only));
+    }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
         Some(synonym) => diagnostic.help(synonym.say(&[])),
         None => diagnostic,
@@ -41,9 +46,11 @@ pub fn names_in_formula(name: &Name) -> Diagnostic {
     let nearest = meant(name, &Constant::in_formulas().collect::<Vec<_>>()).filter(|_| name.text.chars().count() > 1);
     let diagnostic = Diagnostic::new(Code::E0706, format!("a formula of the command line cannot name `{}`", name.text))
         .at(name.span, "not known here");
-    match nearest {
-        Some(fix) => diagnostic.fix(fix),
-        None => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
+    let synonym = Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1);
+    match (nearest, synonym) {
+        (_, Some(synonym)) => diagnostic.help(synonym.say(&[])),
+        (Some(fix), None) => diagnostic.fix(fix),
+        (None, None) => diagnostic.help("it is a formula of the time `t`; `pi`, `tau` and the units may stand in it"),
     }
 }
 
@@ -351,13 +358,41 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
         Some((function, at)) => {
             Diagnostic::new(Code::E0306, format!("`{function}` depends on time, which may not stand in {place}"))
                 .at(span, "brings time in")
-                .also(at, "`t` is used here")
+                .also(at, "time comes in here")
         }
     };
     match place {
         "a constraint" => diagnostic.help("an equation that holds time is a `driver`"),
         _ => diagnostic.help("what moves with time is prescribed by a `driver`, of a joint, a body or a point"),
     }
+}
+
+/// Time may stand where an input may not only in the formula of an input.
+pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0306, format!("the input `{}` may not stand in {place}", name.text))
+        .at(name.span, "changes with time");
+    match (in_an_input, place) {
+        (true, _) => diagnostic.help("an input is a signal of its own; what several hold in common is an `fn` of `t`"),
+        (false, "a constraint") => diagnostic.help("an equation that holds an input is a `driver`"),
+        (false, _) => diagnostic.help("an input may stand in drivers and measures; a constant is a `param`"),
+    }
+}
+
+/// An input that the mechanism does not have, with the one meant.
+pub fn no_such_input(mechanism: &str, name: &str, inputs: &[&str], meant: Option<&str>) -> Diagnostic {
+    let listed = match inputs {
+        [] => "it has no inputs".to_owned(),
+        _ => format!("its inputs are {}", inputs.join(", ")),
+    };
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{name}`"))
+        .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
+}
+
+pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0706, format!("the input `{name}` is told twice"))
+        .at(places[0], "by samples")
+        .also(places[1], "by a formula")
+        .help("an input is what one of `--input` and `--samples` says")
 }
 
 pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
@@ -409,13 +444,6 @@ pub fn derivative_too_high(span: Span) -> Diagnostic {
 /// Places of one kind that are shown beside the first one, at most.
 const MOST_PLACES: usize = 4;
 
-/// A part of a formula, for a message about it.
-#[derive(Clone, Copy)]
-pub struct Part {
-    pub span: Span,
-    pub dimension: Dimension,
-}
-
 /// The text of a part is told where it is a bare number.
 pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time: bool) -> Diagnostic {
     let [one, other] = [(first, texts[0]), (second, texts[1])];
@@ -429,6 +457,10 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         let words = "a rate times a time is a pure number, as an angle is: `… * t`";
         other.dimension.is(Dimension::RATE).then(|| with_factors(other.span, other_text, ["", " * t"], words))
     });
+    let mended =
+        rate_mended(first.dimension, second, texts[1]).or_else(|| rate_mended(second.dimension, first, texts[0]));
+    let fix = mended.filter(|_| has_time).or(fix);
+    let polar = polar(first, second, texts).filter(|_| what.starts_with("the coordinates"));
     // where time may not stand it is no more than an explanation
     let is_factor = fix.as_ref().is_some_and(|fix| fix.message.ends_with("t`"));
     let (fix, help) = if is_factor && !has_time { (None, fix.map(|fix| fix.message)) } else { (fix, None) };
@@ -437,6 +469,7 @@ pub fn unlike(what: &str, first: Part, second: Part, texts: [&str; 2], has_time:
         .also(first.span, first.dimension.in_words())
         .fix_if(fix)
         .help_if(help)
+        .help_if(polar)
 }
 
 /// What a quantity is usually written in.
@@ -731,6 +764,75 @@ pub fn no_unit_of_length(lengths: &[Plain<'_>], largest: f64, unit: &str) -> Dia
         .help(format!("write {}; if metres are meant, `m`", written(unit)))
         .change(can_be_written.then(|| with(unit)))
         .change(can_be_written.then(|| with("m")))
+}
+
+// ---- repetition
+
+/// `for k = 2`, of the copy in which something is wrong.
+fn of_copy(diagnostic: Diagnostic, numbers: &[(&str, i64)]) -> Diagnostic {
+    if numbers.is_empty() {
+        return diagnostic;
+    }
+    let numbers: Vec<String> = numbers.iter().map(|(index, k)| format!("`{index}` = {k}")).collect();
+    diagnostic.note(format!("for {}", numbers.join(", ")))
+}
+
+pub fn not_whole(place: &str, span: Span, value: f64, numbers: &[(&str, i64)]) -> Diagnostic {
+    let value = readable(value);
+    let diagnostic = Diagnostic::new(Code::E0208, format!("{place} must be a whole number, it is {value}"));
+    of_copy(diagnostic.at(span, value), numbers)
+}
+
+pub fn no_such_copy(copy: &str, span: Span, ends: [Option<String>; 2], numbers: &[(&str, i64)]) -> Diagnostic {
+    let known = match ends {
+        [Some(first), Some(last)] => format!("they go from `{first}` to `{last}`"),
+        _ => "its range is empty".to_owned(),
+    };
+    of_copy(Diagnostic::new(Code::E0208, format!("there is no `{copy}`")).at(span, known), numbers)
+}
+
+pub fn which_copy(name: &Name, first: Option<&str>) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0208, format!("`{}` is repeated: this does not say which one", name.text));
+    let help = first.map(|first| format!("write its number behind it: `{first}`"));
+    diagnostic.at(name.span, "one of several").help_if(help)
+}
+
+pub fn not_repeated(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("`{}` is not repeated, there is only one", name.text))
+        .at(name.span, "takes no number in brackets")
+        .help("what is repeated is declared with a range: `body link[k in 0..3] …`")
+}
+
+/// `arm.tip.x`, or a number behind what is not repeated.
+pub fn path_of_nothing(span: Span, segments: &[Segment]) -> Diagnostic {
+    match segments {
+        [owner, point, coordinate] if ["x", "y"].contains(&coordinate.name.text.as_str()) => {
+            let indices: Vec<String> = owner.indices.iter().map(expression).collect();
+            let brackets = if indices.is_empty() { String::new() } else { format!("[{}]", indices.join(", ")) };
+            let text = format!("{}({}{brackets}.{})", coordinate.name.text, owner.name.text, point.name.text);
+            let message = format!("a coordinate of a point is written `{text}`");
+            Diagnostic::new(Code::E0302, "expected a number, found a path that goes on behind a point")
+                .at(span, "a body has points, and they have nothing of their own")
+                .fix(Fix::replace(span, text, message, Applies::Probably))
+        }
+        [_, _, _, ..] => Diagnostic::new(Code::E0208, "a path is a body, and a feature of it")
+            .at(span, "goes on")
+            .help("the number stands behind what is repeated: `link[2].pin`"),
+        _ => Diagnostic::new(Code::E0208, "nothing is repeated in this mechanism")
+            .at(span, "this takes one of several")
+            .help("what is repeated is declared with a range: `body link[k in 0..3] …`"),
+    }
+}
+
+pub fn index_is_taken(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0207, format!("the index `{}` hides what has that name already", name.text))
+        .at(name.span, "not free")
+        .help("choose a name that nothing else has: `i`, `j`, `k`")
+}
+
+pub fn too_many_declarations(span: Span, most: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0208, format!("written out, the mechanism has more than {most} declarations"))
+        .at(span, "too large a range")
 }
 
 // ---- the whole

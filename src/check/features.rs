@@ -24,6 +24,27 @@ pub(super) enum Feature {
 }
 
 impl Feature {
+    /// Whether it can stand where a thing of that name is wanted; a circle where a curve is.
+    pub fn is(self, what: &str) -> bool {
+        match self {
+            Feature::Point(_) => what == "point",
+            Feature::Axis(_) => what == "axis",
+            Feature::Circle(_) => ["circle", "curve"].contains(&what),
+            Feature::Curve(_) => what == "curve",
+            Feature::Broken => false,
+        }
+    }
+
+    /// As a noun, of the keyword that declares it.
+    pub fn with_article(keyword: &str) -> &'static str {
+        match keyword {
+            "point" => "a point",
+            "axis" => "an axis",
+            "circle" => "a circle",
+            _ => "a curve or a circle",
+        }
+    }
+
     pub fn noun(self) -> &'static str {
         match self {
             Feature::Point(_) => "a point",
@@ -352,14 +373,19 @@ impl<'a> Checker<'a> {
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
         let Ok(entity) = self.resolve(name) else { return };
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
+        let beside = self.owners_beside(name.span);
         let owners: Vec<String> = std::iter::once(Frame::Ground)
             .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
+            .filter(|&frame| !beside.contains(&self.model.frame_name(frame)))
             .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
             .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
             .collect();
         let help = match (owners.is_empty(), entity) {
             (false, _) => format!("was {} meant?", owners.join(" or ")),
-            (true, Some(Entity::Body(_))) => format!("name one of its features: `{}.…`", name.text),
+            (true, Some(Entity::Body(_))) => match &self.features_of(name, |feature| feature.is(what))[..] {
+                [] => format!("name one of its features: `{}.…`", name.text),
+                names => format!("name one of its features: {}", names.join(", ")),
+            },
             _ => format!("outside a body {wanted} is written `body.{}`", name.text),
         };
         let found = match self.describe_name(name) {
@@ -391,12 +417,8 @@ impl<'a> Checker<'a> {
 
     /// What `owner.feature` is, for a message.
     pub(super) fn describe_member(&self, owner: &Name, feature: &Name) -> String {
-        let frame = match self.entity(owner) {
-            _ if owner.text == "ground" => Frame::Ground,
-            Some(Entity::Body(k)) if k < self.bodies.len() => Frame::Body(self.bodies[k]),
-            _ => return "a feature of a body".to_owned(),
-        };
-        let found = self.features.get(&frame).and_then(|space| space.get(&feature.text));
+        let space = self.frame_of(owner).and_then(|frame| self.features.get(&frame));
+        let found = space.and_then(|space| space.get(&feature.text));
         found.map_or("a feature of a body", Feature::noun).to_owned()
     }
 }

@@ -4,10 +4,11 @@
 //! taken in the SI unit of what is expected (`language.md`, "Units").
 
 use super::Checker;
-use super::errors::{self, Part};
+use super::errors;
 use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use super::names::Entity;
+use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
@@ -48,6 +49,12 @@ pub(super) struct Value {
     pub dim: Dim,
 }
 
+impl Value {
+    fn has_a_dimension(self) -> bool {
+        matches!(self.dim, Dim::Of(dimension) if !dimension.is(Dimension::PURE))
+    }
+}
+
 /// What may stand in a formula, and how it is read.
 #[derive(Clone, Copy)]
 #[allow(clippy::struct_excessive_bools)] // permissions that depend on nothing but the place
@@ -58,6 +65,8 @@ pub(super) struct Context<'c> {
     pub judged: bool,
     /// Whether `t` may stand.
     pub time: bool,
+    /// Whether inputs may stand.
+    pub inputs: bool,
     /// Whether kinematic quantities may stand.
     pub quantities: bool,
     /// Whether other measures and `der` may stand.
@@ -77,6 +86,7 @@ impl<'c> Context<'c> {
             place,
             judged: false,
             time: false,
+            inputs: false,
             quantities: false,
             measures: false,
             names: true,
@@ -87,8 +97,8 @@ impl<'c> Context<'c> {
 
     /// The same for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
-        let &Context { judged, time, quantities, measures, names, expands, .. } = self;
-        Context { place, judged, time, quantities, measures, names, expands, argument }
+        let &Context { judged, time, inputs, quantities, measures, names, expands, .. } = self;
+        Context { place, judged, time, inputs, quantities, measures, names, expands, argument }
     }
 }
 
@@ -148,11 +158,12 @@ impl Checker<'_> {
         }
         match self.entity(name) {
             Some(Entity::Param(k)) => {
-                matches!(self.params[k], Some(Value { dim: Dim::Of(d), .. }) if !d.is(Dimension::PURE))
+                self.params[k].is_some_and(Value::has_a_dimension)
                     || self.drawn[k].is_some_and(|drawn| drawn.dimensional)
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
+            Some(Entity::Input(k)) => self.inputs[k].value.is_some_and(Value::has_a_dimension),
             Some(Entity::Measure(k)) => self.measures[k].dimensional,
             _ => false,
         }
@@ -215,6 +226,10 @@ impl Checker<'_> {
             }
             ExprKind::Tuple(_) => {
                 self.report(errors::wrong_kind(e.span, "a number", "a point"));
+                None
+            }
+            ExprKind::Path(segments) => {
+                self.report(errors::path_of_nothing(e.span, segments));
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
@@ -295,6 +310,11 @@ impl Checker<'_> {
                 None
             }
             Some(Entity::Param(k)) => self.params[k],
+            Some(Entity::Input(k)) if context.inputs => self.inputs[k].value,
+            Some(Entity::Input(_)) => {
+                self.input_in(name, context);
+                None
+            }
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
             Some(Entity::Measure(_)) => {
                 self.report(
@@ -309,7 +329,8 @@ impl Checker<'_> {
                 None
             }
             Some(entity) => {
-                self.report(errors::wrong_kind(name.span, "a number", entity.noun()));
+                let diagnostic = errors::wrong_kind(name.span, "a number", entity.noun());
+                self.report(self.with_number_of(name, diagnostic));
                 None
             }
             None => {
@@ -340,6 +361,7 @@ impl Checker<'_> {
         }
         let mut known = self.suggestions(|entity| match entity {
             Entity::Param(_) => true,
+            Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
             _ => false,
         });
@@ -349,7 +371,8 @@ impl Checker<'_> {
         }
         let what = if context.measures { "parameter or measure" } else { "parameter" };
         let diagnostic = errors::unknown_number(what, name, &known);
-        self.report(diagnostic);
+        let argument = context.argument.filter(|_| diagnostic.help.is_empty());
+        self.report(diagnostic.help_if(argument.map(|(argument, _)| format!("the argument here is `{argument}`"))));
     }
 
     fn pure(&mut self, value: f64) -> Value {

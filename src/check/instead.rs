@@ -102,17 +102,24 @@ impl Checker<'_> {
         }
     }
 
-    /// `(50,5 mm, 0)`, where so many parts are wanted.
+    /// `(50,5 mm, 0)`, `step5(t, 0,5, 0, 1,5, 2)`, where so many parts are wanted.
     pub(super) fn decimal_comma(&self, parts: &[Expr], wanted: usize) -> Option<Fix> {
-        let comma = parts.windows(2).find_map(|pair| {
-            let (whole, digits) = (self.sources.text(pair[0].span), self.sources.text(pair[1].span));
-            let is_digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
-            let gap = Span { start: pair[0].span.end, end: pair[1].span.start, ..pair[0].span };
+        let (mut edits, mut number, mut k) = (Vec::new(), None, 0);
+        while k + 1 < parts.len() {
+            let (whole, digits) = (self.sources.text(parts[k].span), self.sources.text(parts[k + 1].span));
+            let gap = Span { start: parts[k].span.end, end: parts[k + 1].span.start, ..parts[k].span };
             let is_number = whole.trim_start_matches('-').chars().all(|c| c.is_ascii_digit());
-            (is_number && is_digit(digits) && self.sources.text(gap) == ",").then(|| (gap, format!("{whole}.{digits}")))
-        });
-        let (gap, number) = comma.filter(|_| parts.len() == wanted + 1)?;
-        Some(Fix::replace(gap, ".", format!("decimals are written with a point: `{number}`"), Applies::Probably))
+            let is_split =
+                is_number && digits.starts_with(|c: char| c.is_ascii_digit()) && self.sources.text(gap) == ",";
+            if is_split {
+                number.get_or_insert_with(|| format!("{whole}.{digits}"));
+                edits.push(Edit { span: gap, text: ".".to_owned() });
+            }
+            k += if is_split { 2 } else { 1 };
+        }
+        let number = number.filter(|_| parts.len() == wanted + edits.len())?;
+        let message = format!("decimals are written with a point: `{number}`");
+        Some(Fix { message, edits, applies: Applies::Probably })
     }
 
     /// Says that an angle stands where a length is wanted: a plain formula would take it for metres.
@@ -162,11 +169,12 @@ impl Checker<'_> {
         }
     }
 
-    /// `atan(y, x)`
-    pub(super) fn report_count(&mut self, name: &Name, diagnostic: Diagnostic, found: usize) {
-        let is_atan2 = name.text == "atan" && found == 2;
+    /// `atan(y, x)`, `step5(t, 0,5, 0, 1,5, 2)`
+    pub(super) fn report_count(&mut self, name: &Name, diagnostic: Diagnostic, arguments: &[Expr], most: usize) {
+        let is_atan2 = name.text == "atan" && arguments.len() == 2;
         let message = "the angle of two coordinates is `atan2(y, x)`";
         let fix = is_atan2.then(|| Fix::replace(name.span, "atan2", message, Applies::Probably));
+        let fix = fix.or_else(|| self.decimal_comma(arguments, most));
         self.report(fixed_first(diagnostic, fix));
     }
 

@@ -19,6 +19,9 @@ impl Checker<'_> {
     }
 
     fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
+        if self.refuses_arguments(kind, arguments) {
+            return None;
+        }
         let joint = match kind.text.as_str() {
             "revolute" | "weld" | "revolute_revolute" => self.joint_of_points(kind, arguments, span),
             "translational" | "revolute_translational" => self.joint_of_axes(kind, arguments, span),
@@ -183,6 +186,10 @@ impl Checker<'_> {
                 let apart = c.zip(d).is_none_or(|(c, d)| (c[0] - d[0]).abs() + (c[1] - d[1]).abs() > 0.0);
                 if !apart {
                     self.report(errors::centers_coincide([arguments[0].span, arguments[1].span]));
+                    // one pose that is missing is the fault of all its gears
+                    let frames = circles.map(|circle| self.model[self.model[circle].center].frame);
+                    let without: Vec<Frame> = frames.into_iter().filter(|frame| self.has_no_pose(*frame)).collect();
+                    self.broken_poses.extend(without);
                 }
                 apart
             }
@@ -200,6 +207,10 @@ impl Checker<'_> {
             }
             _ => true,
         }
+    }
+
+    fn has_no_pose(&self, frame: Frame) -> bool {
+        matches!(frame, Frame::Body(body) if self.model[body].pose_span.is_none())
     }
 
     fn drawn_center(&mut self, circle: CircleId) -> Option<[f64; 2]> {

@@ -33,12 +33,9 @@ pub(super) fn renamed(name: &Name, uses: &[Span], free: &str, message: String) -
 }
 
 /// With the fix in front of the form.
-pub(super) fn fixed_first(mut diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
+pub(super) fn fixed_first(diagnostic: Diagnostic, fix: Option<Fix>) -> Diagnostic {
     match fix {
-        Some(fix) => {
-            diagnostic.help.clear();
-            diagnostic.fix(fix)
-        }
+        Some(fix) => diagnostic.instead(fix),
         None => diagnostic,
     }
 }

@@ -58,7 +58,10 @@ fn units_in(e: &Expr) -> Vec<Span> {
 /// The formulas of a declaration.
 pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
     match &item.kind {
-        ItemKind::Param { value, .. } | ItemKind::Function { value, .. } | ItemKind::Measure { value, .. } => {
+        ItemKind::Param { value, .. }
+        | ItemKind::Input { value, .. }
+        | ItemKind::Function { value, .. }
+        | ItemKind::Measure { value, .. } => {
             vec![value]
         }
         ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),

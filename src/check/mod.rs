@@ -4,17 +4,20 @@
 //! broken stays silent. A formula is expanded into the one graph where it stands, the user's functions included, and
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
+mod arguments;
 mod builtins;
 mod calls;
 mod elements;
 mod errors;
 mod features;
 mod formula;
+mod inputs;
 mod instead;
 mod joints;
 mod kinds;
 mod lengths;
 mod meaning;
+mod meant;
 mod mends;
 mod mentions;
 mod named_points;
@@ -23,11 +26,15 @@ mod points;
 mod poses;
 mod profiles;
 mod quantities;
+mod rates;
+mod repetition;
+mod samples;
 mod sites;
 mod symbols;
 mod table_file;
 mod tables;
 
+pub use inputs::Given;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -36,6 +43,7 @@ use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PointId};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
+use crate::syntax::normalized;
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
@@ -56,6 +64,8 @@ pub struct Surroundings {
     pub settings: Vec<Setting>,
     /// The files that its tables name.
     pub files: TableFiles,
+    /// What inputs are told to be.
+    pub given: Given,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -74,7 +84,8 @@ pub struct Setting {
 pub fn check_file(file: &ast::File) -> Diagnostics {
     let mut diagnostics = Diagnostics::default();
     let mut space: Space<()> = Space::new();
-    for mechanism in &file.mechanisms {
+    let named = file.mechanisms.iter().filter(|mechanism| !mechanism.name.text.is_empty());
+    for mechanism in named {
         if let Err(first) = space.declare(&mechanism.name, ()) {
             diagnostics.push(errors::second_mechanism(&mechanism.name, first));
         }
@@ -89,10 +100,20 @@ pub fn check(
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
+    let (written_out, told) = match repetition::written_out(tree, surroundings, sources) {
+        Some((written_out, told)) => (Some(written_out), told),
+        None => (None, Diagnostics::default()),
+    };
+    let tree = written_out.as_ref().unwrap_or(tree);
     let mut checker = Checker::new(tree, surroundings, sources);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
+    diagnostics.extend(told);
+    if written_out.is_some() {
+        diagnostics.tell_once();
+    }
     diagnostics.sort_by_place();
+    let diagnostics = meant::told_once(diagnostics);
     let sound = !diagnostics.has_errors() && !has_broken(tree);
     (sound.then_some(model), diagnostics)
 }
@@ -133,6 +154,8 @@ pub struct FormulaOfTime {
     pub dimension: Option<Dimension>,
     /// What must be positive at a time, for the formula to have a meaning there.
     pub conditions: Vec<Condition>,
+    /// What is to be said of it all the same.
+    pub remarks: Diagnostics,
 }
 
 /// A formula alone, over time and the constants and functions of the language.
@@ -154,6 +177,7 @@ pub fn formula_of_time(formula: &Expr, sources: &Sources) -> Result<FormulaOfTim
             value: value.id,
             dimension: judged.then(|| value.dim.settled()),
             conditions: model.conditions,
+            remarks: diagnostics,
         }),
         _ => Err(diagnostics),
     }
@@ -177,6 +201,14 @@ struct Function<'a> {
     sound: bool,
 }
 
+/// What is known of an input.
+struct InputState<'a> {
+    name: &'a Name,
+    formula: &'a Expr,
+    /// `None` before its turn, and where it is broken.
+    value: Option<Value>,
+}
+
 /// What is known of a measure before its turn.
 struct MeasureState<'a> {
     name: &'a Name,
@@ -189,6 +221,7 @@ struct Checker<'a> {
     tree: &'a ast::Mechanism,
     settings: &'a [Setting],
     files: &'a TableFiles,
+    given: &'a Given,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -209,6 +242,7 @@ struct Checker<'a> {
     param_formulas: Vec<(&'a Name, &'a Expr)>,
     functions: Vec<Function<'a>>,
     tables: Vec<TableState<'a>>,
+    inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
@@ -246,6 +280,7 @@ impl<'a> Checker<'a> {
             tree,
             settings: &surroundings.settings,
             files: &surroundings.files,
+            given: &surroundings.given,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
@@ -259,6 +294,7 @@ impl<'a> Checker<'a> {
             param_formulas: Vec::new(),
             functions: Vec::new(),
             tables: Vec::new(),
+            inputs: Vec::new(),
             measures: Vec::new(),
             bodies: Vec::new(),
             joints: Vec::new(),
@@ -333,6 +369,12 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
                 }
+                ItemKind::Input { name, value } => {
+                    entities.push(Entity::Input(self.inputs.len()));
+                    let told = self.given.formulas.iter().filter(|(told, _)| *told == name.text).map(|(_, told)| told);
+                    definitions.push((name, std::iter::once(value).chain(told).collect()));
+                    self.inputs.push(InputState { name, formula: value, value: None });
+                }
                 ItemKind::Measure { name, value } => {
                     entities.push(Entity::Measure(self.measures.len()));
                     definitions.push((name, vec![value]));
@@ -355,6 +397,7 @@ impl<'a> Checker<'a> {
             docs.push(&item.docs);
         }
         let uses = self.uses(&definitions, &entities);
+        let samples = self.samples();
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
@@ -371,6 +414,7 @@ impl<'a> Checker<'a> {
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
+                Entity::Input(k) => self.input(k, samples.as_ref()),
                 Entity::Measure(k) => {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
@@ -436,7 +480,7 @@ impl<'a> Checker<'a> {
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
                         let place = format!("the parameter `{}`", name.text);
-                        let part = errors::Part { span: setting.value.span, dimension: found };
+                        let part = rates::Part { span: setting.value.span, dimension: found };
                         self.report(errors::wrong_dimension(
                             &place,
                             wanted,
@@ -536,6 +580,7 @@ impl<'a> Checker<'a> {
         let named = self.name_symbol(Named::Argument, 0);
         let context = Context {
             time: true,
+            inputs: true,
             expands: false,
             argument: Some((&argument.text, Value { id: named, dim: Dim::Of(Dimension::PURE) })),
             ..Context::constant("a function")
@@ -554,11 +599,12 @@ impl<'a> Checker<'a> {
             formula,
             |name| self.hidden.contains(name),
             |name| {
-                let through_a_call = match self.entity(name) {
+                let through_a_name = match self.entity(name) {
                     Some(Entity::Function(k)) => self.functions[k].time.is_some(),
+                    Some(Entity::Input(_)) => true,
                     _ => false,
                 };
-                if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_call) {
+                if time.is_none() && name.text != argument.text && (name.text == "t" || through_a_name) {
                     time = Some(name.span);
                 }
             },

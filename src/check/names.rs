@@ -13,6 +13,7 @@ pub(super) enum Entity {
     Param(usize),
     Function(usize),
     Table(usize),
+    Input(usize),
     Body(usize),
     Joint(usize),
     Equation,
@@ -28,6 +29,7 @@ impl Entity {
             Entity::Param(_) => "a parameter",
             Entity::Function(_) => "a function",
             Entity::Table(_) => "a table",
+            Entity::Input(_) => "an input",
             Entity::Body(_) => "a body",
             Entity::Joint(_) => "a joint",
             Entity::Equation => "a constraint or driver",
@@ -38,7 +40,7 @@ impl Entity {
 
     fn kind_of_name(self) -> KindOfName {
         match self {
-            Entity::Param(_) | Entity::Measure(_) | Entity::Broken => KindOfName::Value,
+            Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Broken => KindOfName::Value,
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
             Entity::Body(_) => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
@@ -111,7 +113,7 @@ impl Checker<'_> {
     /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
         let (mut params, mut functions, mut tables) = (0, 0, 0);
-        let (mut bodies, mut joints, mut measures) = (0, 0, 0);
+        let (mut inputs, mut bodies, mut joints, mut measures) = (0, 0, 0, 0);
         let next = |count: &mut usize| {
             *count += 1;
             *count - 1
@@ -121,6 +123,7 @@ impl Checker<'_> {
                 ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut params))),
                 ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut functions))),
                 ItemKind::Table { name, .. } => (name, Entity::Table(next(&mut tables))),
+                ItemKind::Input { name, .. } => (name, Entity::Input(next(&mut inputs))),
                 ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut bodies))),
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),

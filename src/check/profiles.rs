@@ -77,10 +77,12 @@ impl<'a> Checker<'a> {
 
     /// A circle of a body or of the ground.
     pub(super) fn circle(&mut self, e: &Expr) -> Option<CircleId> {
-        match self.feature_at(e, "circle", |feature| matches!(feature, Feature::Circle(_)))? {
+        let is_circle = |feature| matches!(feature, Feature::Circle(_));
+        match self.feature_at(e, "circle", is_circle)? {
             (Feature::Circle(circle), _) => circle,
             (other, span) => {
-                self.wrong_kind(span, "a circle", other.noun());
+                let diagnostic = errors::wrong_kind(span, "a circle", other.noun());
+                self.report(diagnostic.fix_if(self.profile_for(e, is_circle)));
                 None
             }
         }
@@ -93,7 +95,8 @@ impl<'a> Checker<'a> {
             (Feature::Circle(circle), _) => circle.map(Profile::Circle),
             (Feature::Curve(curve), _) => curve.map(Profile::Curve),
             (other, span) => {
-                self.wrong_kind(span, "a curve or a circle", other.noun());
+                let diagnostic = errors::wrong_kind(span, "a curve or a circle", other.noun());
+                self.report(diagnostic.fix_if(self.profile_for(e, is_profile)));
                 None
             }
         }

@@ -145,10 +145,7 @@ impl Checker<'_> {
                 None
             }
             None => {
-                let mut known = self.suggestions(|entity| matches!(entity, Entity::Body(_)));
-                known.push("ground");
-                let diagnostic = errors::unknown("body", name, &known);
-                self.report(diagnostic);
+                self.unknown_body(name);
                 None
             }
         }

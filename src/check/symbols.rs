@@ -6,7 +6,9 @@
 use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
+use crate::syntax::ast::{
+    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows,
+};
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -36,6 +38,8 @@ pub enum NameKind {
     Argument,
     /// `table`
     Table,
+    /// `input`
+    Input,
     /// `ground`
     Ground,
     /// `body`
@@ -181,6 +185,8 @@ struct Walk<'t> {
 struct Scope<'a> {
     /// The argument of the function or curve around it.
     argument: Option<(&'a str, NameId)>,
+    /// What the numbers of a repeated declaration are called.
+    indices: &'a [(&'a str, NameId)],
     /// The body whose feature it belongs to.
     body: Option<NameId>,
     /// The point whose own formula it is.
@@ -209,6 +215,7 @@ impl Walk<'_> {
             ItemKind::Param { name, .. } => (name, NameKind::Param),
             ItemKind::Function { name, .. } => (name, NameKind::Function),
             ItemKind::Table { name, .. } => (name, NameKind::Table),
+            ItemKind::Input { name, .. } => (name, NameKind::Input),
             ItemKind::Body { name, .. } => (name, NameKind::Body),
             ItemKind::Joint { name, .. } => (name, NameKind::Joint),
             ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
@@ -257,9 +264,19 @@ impl Walk<'_> {
     }
 
     fn uses_in(&mut self, item: &Item, id: Option<NameId>) {
-        let plain = Scope::default();
+        let mut indices: Vec<(&str, NameId)> = Vec::new();
+        for range in &item.ranges {
+            let before = indices.clone();
+            let scope = Scope { indices: &before, ..Scope::default() };
+            self.formula(&range.from, scope);
+            self.formula(&range.to, scope);
+            indices.push((&range.index.text, self.declare(&range.index, NameKind::Argument, item.span, id)));
+        }
+        let plain = Scope { indices: &indices, ..Scope::default() };
         match &item.kind {
-            ItemKind::Param { value, .. } | ItemKind::Measure { value, .. } => self.formula(value, plain),
+            ItemKind::Param { value, .. } | ItemKind::Input { value, .. } | ItemKind::Measure { value, .. } => {
+                self.formula(value, plain);
+            }
             ItemKind::Function { argument, value, .. } => {
                 let declared = self.declare(argument, NameKind::Argument, item.span, id);
                 self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });
@@ -272,12 +289,12 @@ impl Walk<'_> {
             ItemKind::Table { rows: TableRows::File { units, .. }, .. } => {
                 units.iter().flatten().for_each(|unit| self.unit(unit));
             }
-            ItemKind::Ground { features } => self.uses_in_features(features, self.ground),
+            ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
             ItemKind::Body { pose, features, .. } => {
                 for part in pose.iter().flat_map(Pose::parts) {
                     self.read(part, plain, Wanted::Either);
                 }
-                self.uses_in_features(features, id);
+                self.uses_in_features(features, id, plain);
             }
             ItemKind::Joint { kind, arguments, .. } => {
                 if let Some(joint) = JointWord::named(&kind.text) {
@@ -300,8 +317,8 @@ impl Walk<'_> {
         }
     }
 
-    fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>) {
-        let own = Scope { body, ..Scope::default() };
+    fn uses_in_features(&mut self, features: &[Feature], body: Option<NameId>, plain: Scope<'_>) {
+        let own = Scope { body, ..plain };
         for feature in features {
             match &feature.kind {
                 FeatureKind::Point { at } => {
@@ -348,6 +365,7 @@ impl Walk<'_> {
                 ExprKind::Literal { unit: Some((unit, _)), .. } => self.unit(unit),
                 ExprKind::Name(name) => self.name(name, scope, wanted),
                 ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
+                ExprKind::Path(segments) => self.path(segments, scope, wanted),
                 ExprKind::Call { name, .. } => self.called(name),
                 _ => {}
             }
@@ -405,6 +423,10 @@ impl Walk<'_> {
             self.declared(name, id);
             return;
         }
+        if let Some(&(_, id)) = scope.indices.iter().find(|(index, _)| *index == name.text) {
+            self.declared(name, id);
+            return;
+        }
         let argument = scope.argument.map(|(argument, _)| argument);
         match alone(&name.text, argument, self.names.get(&name.text).copied()) {
             Alone::Argument => scope.argument.into_iter().for_each(|(_, id)| self.declared(name, id)),
@@ -419,6 +441,19 @@ impl Walk<'_> {
                     self.word(name, &side.word);
                 }
             }
+        }
+    }
+
+    /// `link[2].pin`; the numbers are formulas of their own.
+    fn path(&mut self, segments: &[Segment], scope: Scope<'_>, wanted: Wanted) {
+        match segments {
+            [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
+            [alone] => {
+                if let Some(&id) = self.names.get(&alone.name.text) {
+                    self.declared(&alone.name, id);
+                }
+            }
+            [] => {}
         }
     }
 

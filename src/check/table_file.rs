@@ -44,7 +44,7 @@ fn numbers(line: &str) -> Option<[f64; 2]> {
 }
 
 /// A finite number as programs write it: `inf`, `nan` and the like are none.
-fn number(cell: &str) -> Option<f64> {
+pub(super) fn number(cell: &str) -> Option<f64> {
     let plain = cell.bytes().all(|byte| byte.is_ascii_digit() || b"+-.eE".contains(&byte));
     cell.parse().ok().filter(|value: &f64| plain && value.is_finite())
 }

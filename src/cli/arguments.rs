@@ -1,6 +1,7 @@
 //! What can be typed.
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use std::path::PathBuf;
 
 const AFTER_HELP: &str = "\
 Examples:
@@ -118,6 +119,15 @@ pub(super) struct Input {
     /// of one name counts
     #[arg(long, value_name = "NAME=EXPR", allow_hyphen_values = true)]
     pub set: Vec<String>,
+
+    /// What an input of the mechanism is, as a formula of `t`: `--input turn='30 deg + 2 rad/s * t'`. Repeatable, once for each
+    #[arg(long = "input", value_name = "NAME=FORMULA", allow_hyphen_values = true)]
+    pub signals: Vec<String>,
+
+    /// Samples of inputs: a CSV file with a column `t` and one for each input, units in brackets (`turn [deg]`), joined by natural
+    /// cubic splines
+    #[arg(long, value_name = "FILE.csv")]
+    pub samples: Option<PathBuf>,
 
     #[command(flatten)]
     pub messages: Messages,

@@ -10,11 +10,7 @@ pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result
     let text = match arguments.stage {
         Stage::Ast => {
             let parsed = input::parsed(&arguments.input, reporter)?;
-            let faults = parsed.faults().clone();
-            if faults.has_errors() {
-                return Err(faults.into());
-            }
-            parsed.formatted()
+            parsed.formatted().ok_or_else(|| parsed.faults().clone())?
         }
         Stage::Model => input::model(&arguments.input, reporter)?.model_text().unwrap_or_default(),
         // the equations can be looked at even where they are too many or too few

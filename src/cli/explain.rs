@@ -42,7 +42,13 @@ fn unknown(name: &str) -> Diagnostic {
     }
     let words = vocabulary::words().map(|word| word.name).chain(OVERVIEWS.iter().copied());
     let code = nearest(&name.to_uppercase(), Code::ALL.iter().map(|code| code.as_str()));
-    match code.or_else(|| nearest(name, words)) {
+    if ["comment", "comments", "//", "///", "#"].contains(&name) {
+        return diagnostic
+            .help("a comment begins with `//` and ends with its line; `///` above a declaration documents it");
+    }
+    // a short word is near to many
+    let near = |meant: &&str| name.chars().count() > 5 || name.chars().next() == meant.chars().next();
+    match code.or_else(|| nearest(name, words).filter(near)) {
         Some(meant) => diagnostic.help(format!("was `{meant}` meant? `mechc explain` lists all codes")),
         None => diagnostic.help(format!("`mechc explain` lists all codes; the words are listed by {}", overviews())),
     }

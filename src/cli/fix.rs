@@ -6,7 +6,7 @@ use super::files::{self, Disk, Output};
 use super::input;
 use super::report::Reporter;
 use crate::diag::fixed;
-use crate::stages::Parsed;
+use crate::stages::{Choice, Parsed};
 
 /// A change may let another one be seen; a text that still changes after so many rounds is left as it is then.
 const MOST_ROUNDS: usize = 32;
@@ -31,8 +31,20 @@ pub(super) fn fix(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Fail
     }
     if parsed.file() != first || input.file == "-" {
         let mark = if has_mark { "\u{feff}" } else { "" };
-        Output::replace(&input.file, &format!("{mark}{}", reporter.sources.get(parsed.file()).text))?;
+        let text = format!("{mark}{}", reporter.sources.get(parsed.file()).text);
+        Output::replace(&input.file, &text).map_err(|why| unwritten(why, &read(first, reporter)))?;
     }
-    reporter.made(&made);
+    reporter.made(&made, first);
     Ok(parsed)
+}
+
+/// Why a mended text could not be written, with all that is wrong with the one that stays.
+fn unwritten(why: Failure, stays: &Parsed) -> Failure {
+    match why {
+        Failure::Said(mut said) => {
+            said.extend(stays.check(&Choice::default(), &Disk).diagnostics().iter().cloned());
+            Failure::Said(said)
+        }
+        Failure::ReaderGone => Failure::ReaderGone,
+    }
 }

@@ -17,6 +17,7 @@ pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> 
             .into());
     }
     let formula = Formula::of(&arguments.formula, &mut reporter.sources)?;
+    reporter.print(formula.remarks());
     let at = |text: &String| input::time("--at", text, &mut reporter.sources);
     let times = arguments.at.iter().map(at).collect::<Result<Vec<f64>, Failure>>()?;
     let (mut rows, mut failed) = (Vec::new(), Diagnostics::default());

@@ -45,7 +45,12 @@ pub(super) fn path(input: &Input) -> &Path {
 }
 
 fn checked(parsed: &Parsed, input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
-    let choice = Choice { mechanism: input.mechanism.clone(), set: input.set.clone() };
+    let choice = Choice {
+        mechanism: input.mechanism.clone(),
+        set: input.set.clone(),
+        inputs: input.signals.clone(),
+        samples: input.samples.clone(),
+    };
     let checked = parsed.check(&choice, &Disk);
     reporter.sources = checked.sources().clone();
     let said = checked.diagnostics().clone();

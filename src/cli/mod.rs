@@ -19,6 +19,7 @@ mod progress;
 mod report;
 mod run;
 mod timings;
+mod usage;
 
 use arguments::{Arguments, Command, Messages};
 use clap::Parser;
@@ -30,7 +31,8 @@ use std::process::ExitCode;
 #[must_use]
 pub fn main() -> ExitCode {
     interrupts::watch();
-    ExitCode::from(match Arguments::parse().command {
+    let arguments = Arguments::try_parse().unwrap_or_else(|error| usage::with_tip(error).exit());
+    ExitCode::from(match arguments.command {
         Command::Check(check) => reported(&check.input.messages, |reporter| check::check(&check, reporter)),
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),

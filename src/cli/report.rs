@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use crate::diag::{Color, Diagnostics, Fix, Format, Severity, render, render_made};
-use crate::source::Sources;
+use crate::source::{FileId, Sources};
 use std::io::{IsTerminal, Write};
 
 /// Prints diagnostics as the user wants them, and knows the texts that they speak of.
@@ -57,9 +57,21 @@ impl Reporter {
         }
     }
 
-    /// Says which changes of a text were made.
-    pub fn made(&self, fixes: &[Fix]) {
-        let text: String = fixes.iter().map(|fix| render_made(fix, &self.sources, self.format)).collect();
+    /// Says which changes of a file were made, from its beginning to its end, and how many.
+    pub fn made(&self, fixes: &[Fix], file: FileId) {
+        // each round has a text of its own, where places may be shifted by a line at most
+        let place =
+            |fix: &Fix| fix.edits.first().map(|edit| self.sources.get(edit.span.file).position(edit.span.start));
+        let mut fixes: Vec<&Fix> = fixes.iter().collect();
+        fixes.sort_by_key(|fix| place(fix));
+        let mut text: String = fixes.iter().map(|fix| render_made(fix, &self.sources, self.format)).collect();
+        if self.format != Format::Json {
+            let name = &self.sources.get(file).name;
+            text += &match fixes.len() {
+                0 => format!("nothing to fix in `{name}`\n"),
+                count => format!("fixed {count} in `{name}`\n"),
+            };
+        }
         Reporter::say(&text);
     }
 

@@ -147,6 +147,14 @@ impl Diagnostic {
         }
     }
 
+    /// The fix alone, whatever else was proposed.
+    #[must_use]
+    pub fn instead(mut self, fix: Fix) -> Diagnostic {
+        self.help.clear();
+        self.fixes.clear();
+        self.fix(fix)
+    }
+
     /// A number of the message, for other programs.
     #[must_use]
     pub fn datum(mut self, name: &str, value: impl Into<Value>) -> Diagnostic {
@@ -198,6 +206,12 @@ impl Diagnostics {
     /// In the order of finding.
     pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
         self.list.iter()
+    }
+
+    /// Leaves of each code at each place the first: what is wrong in every copy of a declaration.
+    pub fn tell_once(&mut self) {
+        let mut told: FxHashSet<(Code, Span)> = FxHashSet::default();
+        self.list.retain(|d| d.labels.first().is_none_or(|label| told.insert((d.code, label.span))));
     }
 
     /// By their place in the text, so that a reader meets them from top to bottom.

@@ -2,7 +2,7 @@
 //!
 //! The only file that knows the rendering library.
 
-use super::{Diagnostic, Fix, Label, Severity};
+use super::{Diagnostic, Edit, Fix, Label, Severity};
 use crate::source::{FileId, Source, Sources, Span};
 use codespan_reporting::diagnostic as rich;
 use codespan_reporting::files::{Error, Files};
@@ -46,17 +46,33 @@ pub fn render(diagnostic: &Diagnostic, sources: &Sources, format: Format, color:
     }
 }
 
-/// A fix that was made, as a line of text: `file:line: message`.
+/// A fix that was made, as a line of text: ``file:line:column: message: `**` → `^` ``.
 #[must_use]
 pub fn render_made(fix: &Fix, sources: &Sources, format: Format) -> String {
     if format == Format::Json {
         return format!("{}\n", json!({ "fixed": fix_as_json(fix, sources) }));
     }
-    let place = fix.edits.first().map_or(String::new(), |edit| {
-        let source = sources.get(edit.span.file);
-        format!("{}:{}: ", source.name, source.position(edit.span.start).0)
-    });
-    format!("{place}{}\n", fix.message)
+    let place = fix.edits.first().map_or(String::new(), |edit| format!("{}: ", place(edit.span, sources)));
+    let edits: Vec<String> = fix.edits.iter().map(|edit| edit_in_words(edit, sources)).collect();
+    format!("{place}{}: {}\n", fix.message, edits.join(", "))
+}
+
+/// How much of a text that was changed is shown (in characters).
+const LONGEST_EDIT: usize = 30;
+
+fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
+    let shown = |text: &str| {
+        let text = text.trim();
+        let line = text.lines().next().unwrap_or_default();
+        let start: String = line.chars().take(LONGEST_EDIT).collect();
+        if start.len() < text.len() { format!("`{start}…`") } else { format!("`{start}`") }
+    };
+    let [old, new] = [sources.text(edit.span), edit.text.as_str()];
+    match (old.trim().is_empty(), new.trim().is_empty()) {
+        (true, _) => format!("{} put in", shown(new)),
+        (_, true) => format!("{} taken out", shown(old)),
+        _ => format!("{} → {}", shown(old), shown(new)),
+    }
 }
 
 impl Severity {

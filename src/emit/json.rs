@@ -196,7 +196,9 @@ impl Writer<'_> {
             let (kind, table) = match condition.kind {
                 ConditionKind::Distance => ("distance", None),
                 ConditionKind::Interval => ("interval", None),
-                ConditionKind::Range(table) => ("range", Some(&self.system.graph.tables()[table.index()].name)),
+                ConditionKind::Range(table) | ConditionKind::Samples(table) => {
+                    ("range", Some(&self.system.graph.tables()[table.index()].name))
+                }
             };
             json!({
                 "owner": condition.owner,

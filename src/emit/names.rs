@@ -126,13 +126,16 @@ pub(super) fn is_keyword(name: &str) -> bool {
     KEYWORDS.contains(&name)
 }
 
-/// ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `é` is `u00e9`, `gearA` stays one word.
+/// ASCII letters, digits and single underscores: `crank.phi` is `crank_phi`, `leg[3].x` is `leg_3_x`, `leg[-1]` is `leg_m1`, `é` is
+/// `u00e9`, `gearA` stays one word.
 fn words(source: &str) -> String {
     let mut text = String::new();
     for c in source.chars() {
         if c.is_ascii_alphanumeric() {
             text.push(c);
-        } else if c == '_' || c == '.' || c == ' ' {
+        } else if c == '-' && text.ends_with('_') {
+            text.push('m');
+        } else if "_. [],".contains(c) {
             if !text.is_empty() && !text.ends_with('_') {
                 text.push('_');
             }

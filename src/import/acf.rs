@@ -31,7 +31,7 @@ pub(super) fn read(value: &Value, said: &mut Diagnostics) -> Option<Item> {
     let to = build::quantity(end.value, "s", end.span, build::Zero::WithUnit);
     let every = step(end, steps);
     let span = value.span;
-    Some(Item { docs: Vec::new(), span, kind: ItemKind::Analysis { from, to, every } })
+    Some(Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Analysis { from, to, every } })
 }
 
 fn simulation(value: &Value, said: &mut Diagnostics) {

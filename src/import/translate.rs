@@ -168,7 +168,7 @@ impl Translator<'_> {
         let features = self.features.get(k).map_or(Vec::new(), Features::declarations);
         let name = build::name(name, body.name.map_or(body.place, |name| name.span));
         let pose = Some(Pose { at: build::tuple(pose, span), toward: None });
-        Item { docs: Vec::new(), span: body.place, kind: ItemKind::Body { name, pose, features } }
+        Item { docs: Vec::new(), span: body.place, ranges: Vec::new(), kind: ItemKind::Body { name, pose, features } }
     }
 
     fn point_expr(&self, body: usize, point: usize, span: Span) -> Expr {
@@ -218,7 +218,12 @@ impl Translator<'_> {
 
 fn joint(name: &str, kind: &str, arguments: Vec<Expr>, span: Span) -> Item {
     let (name, kind) = (build::name(name, span), build::name(kind, span));
-    Item { docs: Vec::new(), span, kind: ItemKind::Joint { name, kind, arguments, call_span: span } }
+    Item {
+        docs: Vec::new(),
+        span,
+        ranges: Vec::new(),
+        kind: ItemKind::Joint { name, kind, arguments, call_span: span },
+    }
 }
 
 /// `left = formula`; a constant that is a number alone gets its unit.
@@ -229,7 +234,7 @@ fn equation(name: &str, left: Expr, formula: &Formula, unit: fn(f64, Span) -> Ex
         None => formula.expression.clone(),
     };
     let name = build::name(name, span);
-    Item { docs: Vec::new(), span, kind: ItemKind::Equation { driver, name, left, right } }
+    Item { docs: Vec::new(), span, ranges: Vec::new(), kind: ItemKind::Equation { driver, name, left, right } }
 }
 
 /// A coordinate of `2Q − P`, the point as far beyond Q as P is before it: as a number where that is exact, else as a

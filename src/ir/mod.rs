@@ -300,6 +300,8 @@ pub enum ConditionKind {
     Interval,
     /// The range of a table.
     Range(TableId),
+    /// The times of the samples of an input.
+    Samples(TableId),
 }
 
 /// A sparse matrix of expressions, row by row.

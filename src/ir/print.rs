@@ -112,6 +112,7 @@ impl ConstraintSystem {
                 ConditionKind::Distance => "a distance".to_owned(),
                 ConditionKind::Interval => "the interval of a motion".to_owned(),
                 ConditionKind::Range(table) => format!("within table `{}`", self.graph.tables()[table.index()].name),
+                ConditionKind::Samples(_) => "within the samples".to_owned(),
             };
             (condition.owner.clone(), format!("{} > 0, {why}", text(condition.positive)))
         })

@@ -287,6 +287,7 @@ impl Lowering<'_> {
                 ConditionKind::Interval => ir::ConditionKind::Interval,
                 // tables keep their numbers
                 ConditionKind::Range(table) => ir::ConditionKind::Range(table),
+                ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
             },
             span: condition.span,
             owner: condition.owner.clone(),

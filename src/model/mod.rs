@@ -80,6 +80,8 @@ pub struct Mechanism {
     pub named: Vec<Named>,
     /// The parameters that depend on no other, by the number of their symbol.
     pub params: Vec<Param>,
+    /// In the order in which they need nothing of a later one.
+    pub inputs: Vec<Input>,
     /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
@@ -112,6 +114,7 @@ impl Mechanism {
             graph: Graph::new(),
             named: Vec::new(),
             params: Vec::new(),
+            inputs: Vec::new(),
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -160,6 +163,15 @@ pub struct Param {
     pub value: f64,
     /// Of its value.
     pub dimension: Dimension,
+}
+
+/// A signal that comes from outside.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub declared: Declared,
+    /// What it is, as a formula of time, in SI.
+    pub value: ExprId,
 }
 
 /// A body.
@@ -501,6 +513,8 @@ pub enum ConditionKind {
     Interval,
     /// The range of a table.
     Range(TableId),
+    /// The times of the samples of an input.
+    Samples(TableId),
 }
 
 /// Which times to compute.

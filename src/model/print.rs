@@ -206,6 +206,12 @@ impl std::fmt::Display for Mechanism {
             }
         }
         text.write_tables(f)?;
+        if !self.inputs.is_empty() {
+            writeln!(f, "\ninputs, in SI")?;
+        }
+        for input in &self.inputs {
+            writeln!(f, "  {} = {}", input.declared.name, text.print(input.value, false))?;
+        }
         writeln!(f, "\nground")?;
         text.write_features(f, Frame::Ground)?;
         for (id, body) in self.body_ids().zip(&self.bodies) {

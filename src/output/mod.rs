@@ -85,8 +85,9 @@ impl<W: Write> TextWriter<W> {
         if is_json {
             write!(out, "{{\"columns\": {}, \"rows\": [", serde_json::json!(columns))?;
         } else {
-            // a name holds neither comma nor quote
-            writeln!(out, "{}", columns.join(","))?;
+            // no name holds a quote, and a comma one of two numbers (RFC 4180)
+            let quoted = |name: &String| if name.contains(',') { format!("\"{name}\"") } else { name.clone() };
+            writeln!(out, "{}", columns.iter().map(quoted).collect::<Vec<_>>().join(","))?;
         }
         Ok(TextWriter { out, is_json, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
     }

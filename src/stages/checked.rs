@@ -2,13 +2,14 @@
 
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
-use crate::check::{self, Setting, Surroundings, Symbols, TableFiles};
+use crate::check::{self, Given, Setting, Surroundings, Symbols, TableFiles};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
 use crate::lower;
 use crate::model::Mechanism;
 use crate::source::Sources;
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
+use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
 /// Which mechanism of a file is meant, and what is set in it from outside.
@@ -18,6 +19,10 @@ pub struct Choice {
     pub mechanism: Option<String>,
     /// `NAME=FORMULA`; the last of one name counts.
     pub set: Vec<String>,
+    /// What inputs are: `NAME=FORMULA`, each name once.
+    pub inputs: Vec<String>,
+    /// A CSV file with samples of inputs.
+    pub samples: Option<PathBuf>,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -59,7 +64,8 @@ impl Parsed {
         if !of_syntax.is_empty() {
             return of_syntax;
         }
-        let all = (0..self.mechanisms().len()).map(|number| Checked::of_number(self, number, &[], world));
+        let all =
+            (0..self.mechanisms().len()).map(|number| Checked::of_number(self, number, &Choice::default(), world));
         all.flat_map(|checked| certain(checked.diagnostics())).collect()
     }
 }
@@ -67,7 +73,7 @@ impl Parsed {
 impl Checked {
     fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         match chosen(parsed, choice.mechanism.as_deref()) {
-            Ok(number) => Checked::of_number(parsed, number, &choice.set, world),
+            Ok(number) => Checked::of_number(parsed, number, choice, world),
             Err(why) => {
                 let mut diagnostics = parsed.faults().clone();
                 // a mechanism that cannot be read may be the one
@@ -80,18 +86,23 @@ impl Checked {
     }
 
     /// The mechanism of a number, with settings from outside.
-    fn of_number(parsed: &Parsed, number: usize, set: &[String], world: &dyn World) -> Checked {
+    fn of_number(parsed: &Parsed, number: usize, choice: &Choice, world: &dyn World) -> Checked {
         let mut sources = parsed.sources().clone();
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));
         let tree = &parsed.tree().mechanisms[number];
-        let settings = settings(set, tree, &mut sources);
+        let settings = settings(&choice.set, tree, &mut sources);
+        let given = given(choice, tree, world, &mut sources);
         let files = table_files(parsed, tree, world, &mut sources);
         let mut model = None;
-        match settings {
-            Err(why) => diagnostics.extend(why),
-            Ok(settings) => {
-                let (found, said) = check::check(tree, &Surroundings { settings, files }, &sources);
+        match (settings, given) {
+            (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
+            (Err(why), Err(more)) => {
+                diagnostics.extend(why);
+                diagnostics.extend(more);
+            }
+            (Ok(settings), Ok(given)) => {
+                let (found, said) = check::check(tree, &Surroundings { settings, files, given }, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
             }
@@ -201,47 +212,103 @@ fn settings(given: &[String], tree: &ast::Mechanism, sources: &mut Sources) -> R
             _ => None,
         })
         .collect();
-    let mut diagnostics = Diagnostics::default();
-    let mut settings = Vec::new();
-    for text in given {
-        let Some((name, value)) = text.split_once('=') else {
-            diagnostics.push(
-                Diagnostic::new(Code::E0706, format!("`--set {text}` sets nothing"))
-                    .help("write `--set NAME=VALUE`, as in `--set crank_length=60mm`"),
-            );
-            continue;
-        };
-        let path = syntax::normalized(name.trim());
-        let Some((name, coordinate)) = param_of(&path, &params) else {
-            diagnostics.push(no_such_param(&tree.name.text, &path, &params));
-            continue;
-        };
-        let (name, file) = (name.to_owned(), sources.add_option(format!("--set {path}"), value));
-        match syntax::parse_expression(sources, file) {
-            Ok(value) => settings.push(Setting { name, coordinate, value }),
-            Err(faults) => diagnostics.extend(faults),
+    let option = NamedFormulas { option: "--set", noun: "parameter", example: "crank_length=60mm", names: &params };
+    let formulas = option.read(given, tree, sources)?;
+    let setting = |(path, value): (String, ast::Expr)| {
+        let (name, coordinate) = name_and_coordinate(&path);
+        Setting { name: name.to_owned(), coordinate, value }
+    };
+    Ok(formulas.into_iter().map(setting).collect())
+}
+
+/// What `NAME`, `NAME.x` or `NAME.y` names, and which of its coordinates.
+fn name_and_coordinate(path: &str) -> (&str, Option<usize>) {
+    let parts = path.split_once('.').map(|(name, coordinate)| (name.trim_end(), coordinate.trim_start()));
+    let coordinate = parts.and_then(|(_, coordinate)| ["x", "y"].iter().position(|axis| coordinate == *axis));
+    match (parts, coordinate) {
+        (Some((name, _)), Some(_)) => (name, coordinate),
+        _ => (path, None),
+    }
+}
+
+/// What inputs are told to be.
+fn given(
+    choice: &Choice,
+    tree: &ast::Mechanism,
+    world: &dyn World,
+    sources: &mut Sources,
+) -> Result<Given, Diagnostics> {
+    let inputs: Vec<&str> = tree
+        .items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ast::ItemKind::Input { name, .. } => Some(name.text.as_str()),
+            _ => None,
+        })
+        .collect();
+    let option = NamedFormulas { option: "--input", noun: "input", example: "turn='90 deg * t'", names: &inputs };
+    let formulas = option.read(&choice.inputs, tree, sources)?;
+    for (k, (name, _)) in formulas.iter().enumerate() {
+        if formulas[..k].iter().any(|(other, _)| other == name) {
+            let twice = Diagnostic::new(Code::E0706, format!("`--input {name}=…` stands there twice"));
+            return Err(twice.help("an input is what one of them says").into());
         }
     }
-    if diagnostics.is_empty() { Ok(settings) } else { Err(diagnostics) }
+    let samples = match &choice.samples {
+        None => None,
+        Some(path) => Some(world::text_of(world, path, sources).map_err(|why| *why)?),
+    };
+    Ok(Given { formulas, samples })
 }
 
-/// The parameter that `NAME`, `NAME.x` or `NAME.y` sets, and which of its coordinates.
-fn param_of<'p>(path: &'p str, params: &[&str]) -> Option<(&'p str, Option<usize>)> {
-    let (name, coordinate) = match path.split_once('.') {
-        None => (path, None),
-        Some((name, coordinate)) => {
-            (name.trim_end(), Some(["x", "y"].iter().position(|axis| coordinate.trim_start() == *axis)?))
+/// An option that gives formulas to names, each as `NAME=FORMULA`.
+struct NamedFormulas<'n> {
+    option: &'n str,
+    /// What the names are of.
+    noun: &'n str,
+    example: &'n str,
+    names: &'n [&'n str],
+}
+
+impl NamedFormulas<'_> {
+    fn read(
+        &self,
+        given: &[String],
+        tree: &ast::Mechanism,
+        sources: &mut Sources,
+    ) -> Result<Vec<(String, ast::Expr)>, Diagnostics> {
+        let (mut diagnostics, mut formulas) = (Diagnostics::default(), Vec::new());
+        for text in given {
+            let Some((name, value)) = text.split_once('=') else {
+                let &NamedFormulas { option, example, .. } = self;
+                diagnostics.push(
+                    Diagnostic::new(Code::E0706, format!("`{option} {text}` sets nothing"))
+                        .help(format!("write `{option} NAME=VALUE`, as in `{option} {example}`")),
+                );
+                continue;
+            };
+            let name = syntax::normalized(name.trim());
+            if !self.names.contains(&name_and_coordinate(&name).0) {
+                diagnostics.push(self.no_such_name(&tree.name.text, &name));
+                continue;
+            }
+            let file = sources.add_option(format!("{} {name}", self.option), value);
+            match syntax::parse_expression(sources, file) {
+                Ok(value) => formulas.push((name, value)),
+                Err(faults) => diagnostics.extend(faults),
+            }
         }
-    };
-    params.contains(&name).then_some((name, coordinate))
-}
+        if diagnostics.is_empty() { Ok(formulas) } else { Err(diagnostics) }
+    }
 
-fn no_such_param(mechanism: &str, name: &str, params: &[&str]) -> Diagnostic {
-    let meant = nearest(name, params.iter().copied()).map(|name| format!("was `{name}` meant?"));
-    let listed = match params {
-        [] => "it has no parameters".to_owned(),
-        _ => format!("its parameters are {}", params.join(", ")),
-    };
-    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no parameter `{name}`"))
-        .help(meant.unwrap_or(listed))
+    fn no_such_name(&self, mechanism: &str, name: &str) -> Diagnostic {
+        let &NamedFormulas { noun, names, .. } = self;
+        let meant = nearest(name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
+        let listed = match names {
+            [] => format!("it has no {noun}s"),
+            _ => format!("its {noun}s are {}", names.join(", ")),
+        };
+        Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
+            .help(meant.unwrap_or(listed))
+    }
 }

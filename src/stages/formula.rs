@@ -27,6 +27,7 @@ pub struct Formula {
     roots: [ExprId; 3],
     dimension: Option<Dimension>,
     conditions: Vec<Condition>,
+    remarks: Diagnostics,
     span: Span,
 }
 
@@ -38,7 +39,8 @@ impl Formula {
     pub fn of(text: &str, sources: &mut Sources) -> Result<Formula, Diagnostics> {
         let file = sources.add_option("EXPR", text);
         let tree = syntax::parse_expression(sources, file)?;
-        let FormulaOfTime { mut graph, value, dimension, conditions } = check::formula_of_time(&tree, sources)?;
+        let FormulaOfTime { mut graph, value, dimension, conditions, remarks } =
+            check::formula_of_time(&tree, sources)?;
         let mut derivative = |of: ExprId| {
             let slopes =
                 graph.derivatives(&[of], |graph, symbol| (symbol == Symbol::Time).then(|| graph.constant(1.0)));
@@ -52,7 +54,13 @@ impl Formula {
                 return Err(not_finite(tree.span, order, graph.value(id, |_| 0.0), None).into());
             }
         }
-        Ok(Formula { graph, roots: [value, first, second], dimension, conditions, span: tree.span })
+        Ok(Formula { graph, roots: [value, first, second], dimension, conditions, remarks, span: tree.span })
+    }
+
+    /// What is to be said of it beside its values: degrees that were probably meant.
+    #[must_use]
+    pub fn remarks(&self) -> &Diagnostics {
+        &self.remarks
     }
 
     /// The values at a time (s), unless one of them is no number or the formula has no meaning there.

@@ -81,10 +81,12 @@ impl Parsed {
         self.read.tree.mechanisms.iter().map(|mechanism| mechanism.name.text.as_str())
     }
 
-    /// The text as it would be written; that of what cannot be read is left out.
+    /// The text as it would be written; nothing where a part of it cannot be read, which would be lost.
     #[must_use]
-    pub fn formatted(&self) -> String {
-        syntax::format_with_comments(&self.read.tree, &self.read.trivia, &self.sources.get(self.file).text)
+    pub fn formatted(&self) -> Option<String> {
+        let text = &self.sources.get(self.file).text;
+        let is_whole = self.read.faults.is_empty();
+        is_whole.then(|| syntax::format_with_comments(&self.read.tree, &self.read.trivia, text))
     }
 
     pub(super) fn tree(&self) -> &ast::File {

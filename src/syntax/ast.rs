@@ -38,8 +38,23 @@ pub struct Item {
     pub docs: Vec<String>,
     /// The whole declaration.
     pub span: Span,
+    /// Behind its name: it stands for one declaration for each of the numbers.
+    pub ranges: Vec<Range>,
     /// Which one.
     pub kind: ItemKind,
+}
+
+/// `k in 0..n`: the whole numbers from one to another.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Range {
+    /// What the number is called in the declaration.
+    pub index: Name,
+    /// The first number.
+    pub from: Expr,
+    /// The last number, or the one behind it.
+    pub to: Expr,
+    /// `..=`: the last number is one of them.
+    pub is_closed: bool,
 }
 
 /// The declarations of a mechanism.
@@ -69,6 +84,13 @@ pub enum ItemKind {
         periodic: bool,
         /// Its points.
         rows: TableRows,
+    },
+    /// `input NAME = EXPR`
+    Input {
+        /// Its name.
+        name: Name,
+        /// What it is unless something else is said.
+        value: Expr,
     },
     /// `ground { … }`
     Ground {
@@ -248,6 +270,8 @@ pub enum ExprKind {
         /// The feature.
         feature: Name,
     },
+    /// `link[k].pin`, `link[0]`: what is repeated, by its numbers.
+    Path(Vec<Segment>),
     /// `x(rod.tip)`
     Call {
         /// What is called.
@@ -282,6 +306,15 @@ pub enum ExprKind {
         /// The value if none holds.
         otherwise: Box<Expr>,
     },
+}
+
+/// A part of a path.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Segment {
+    /// Its name.
+    pub name: Name,
+    /// The numbers in brackets behind it.
+    pub indices: Vec<Expr>,
 }
 
 /// How a term enters a sum.
@@ -345,6 +378,7 @@ impl Expr {
     pub fn children(&self) -> Vec<&Expr> {
         match &self.kind {
             ExprKind::Literal { .. } | ExprKind::Name(_) | ExprKind::Member { .. } => Vec::new(),
+            ExprKind::Path(segments) => segments.iter().flat_map(|segment| &segment.indices).collect(),
             ExprKind::Call { arguments: list, .. }
             | ExprKind::Tuple(list)
             | ExprKind::And(list)

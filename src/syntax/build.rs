@@ -1,6 +1,6 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
-use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
+use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Range as Repetition, TableRows};
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
 use crate::diag::Diagnostic;
@@ -22,6 +22,15 @@ pub(super) struct Reader<'a> {
     file: FileId,
     /// The byte of the text at which the piece begins.
     base: usize,
+}
+
+/// What stands before the brace of a mechanism or body.
+#[derive(Clone)]
+pub(super) struct Head {
+    pub name: Name,
+    pub ranges: Vec<Repetition>,
+    /// What stands behind `at`.
+    pub pose: Option<Pose>,
 }
 
 /// A stretch of a text.
@@ -126,7 +135,7 @@ impl Reader<'_> {
     fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
         let span = self.span(&pair);
         let mut inner = pair.into_inner();
-        let (name, _) = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
+        let Head { name, .. } = self.head(inner.next().ok_or_else(|| self.truncated())?)?;
         let mut items = Vec::new();
         for pair in inner {
             match pair.as_rule() {
@@ -144,13 +153,13 @@ impl Reader<'_> {
         let mut inner = pair.into_inner();
         let head = inner.next().ok_or_else(|| self.truncated())?;
         let features = inner.filter(|pair| pair.as_rule() != Rule::close).map(|pair| self.feature(pair));
-        let kind = if is_ground {
-            ItemKind::Ground { features: features.collect::<Built<_>>()? }
+        let (kind, ranges) = if is_ground {
+            (ItemKind::Ground { features: features.collect::<Built<_>>()? }, Vec::new())
         } else {
-            let (name, pose) = self.head(head)?;
-            ItemKind::Body { name, pose, features: features.collect::<Built<_>>()? }
+            let Head { name, ranges, pose } = self.head(head)?;
+            (ItemKind::Body { name, pose, features: features.collect::<Built<_>>()? }, ranges)
         };
-        Ok(Item { docs: self.docs_above(span.start), span, kind })
+        Ok(Item { docs: self.docs_above(span.start), span, ranges, kind })
     }
 
     /// A declaration of the mechanism that has no block.
@@ -158,6 +167,7 @@ impl Reader<'_> {
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
         let rule = pair.as_rule();
+        let ranges = self.ranges(&pair)?;
         let mut inner = significant(pair);
         let kind = match rule {
             Rule::param => ItemKind::Param { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
@@ -166,6 +176,7 @@ impl Reader<'_> {
                 argument: self.next_name(&mut inner)?,
                 value: self.next_expr(&mut inner)?,
             },
+            Rule::input => ItemKind::Input { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
             Rule::table => self.table(&mut inner)?,
             Rule::joint => self.joint(&mut inner)?,
             Rule::driver | Rule::constraint => ItemKind::Equation {
@@ -184,16 +195,32 @@ impl Reader<'_> {
             },
             _ => return Err(self.truncated()),
         };
-        Ok(Item { docs, span, kind })
+        Ok(Item { docs, span, ranges, kind })
     }
 
-    /// The name of a mechanism's or body's head, and the pose behind `at`.
-    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<(Name, Option<Pose>)> {
+    /// The head of a mechanism or body.
+    pub(super) fn head(&self, pair: Pair<'_, Rule>) -> Built<Head> {
+        let ranges = self.ranges(&pair)?;
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
         let at = self.last_expr(&mut inner)?;
         let toward = self.last_expr(&mut inner)?;
-        Ok((name, at.map(|at| Pose { at, toward })))
+        Ok(Head { name, ranges, pose: at.map(|at| Pose { at, toward }) })
+    }
+
+    /// `[k in 0..n]` behind the name of a declaration, if it is there.
+    fn ranges(&self, pair: &Pair<'_, Rule>) -> Built<Vec<Repetition>> {
+        let ranges = pair.clone().into_inner().nth(2).filter(|pair| pair.as_rule() == Rule::ranges);
+        let Some(ranges) = ranges else { return Ok(Vec::new()) };
+        ranges.into_inner().filter(|pair| pair.as_rule() == Rule::range).map(|pair| self.range(pair)).collect()
+    }
+
+    fn range(&self, pair: Pair<'_, Rule>) -> Built<Repetition> {
+        let is_closed = pair.clone().into_inner().any(|part| part.as_rule() == Rule::through);
+        let mut inner = significant(pair);
+        let index = self.next_name(&mut inner)?;
+        let (from, to) = (self.next_expr(&mut inner)?, self.next_expr(&mut inner)?);
+        Ok(Repetition { index, from, to, is_closed })
     }
 
     /// A formula that is alone in its text.
@@ -338,8 +365,11 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::conditional
             | Rule::literal
             | Rule::unit_power
+            | Rule::range
+            | Rule::member
             | Rule::param
             | Rule::function
+            | Rule::input
             | Rule::table
             | Rule::table_file
             | Rule::point

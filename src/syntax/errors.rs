@@ -8,6 +8,7 @@ use super::tokens::tokens;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::source::{FileId, Source, Span};
 use pest::error::{Error, ErrorVariant};
+use std::ops::Range;
 
 /// Nesting beyond the cap.
 pub fn too_deep(span: Span) -> Diagnostic {
@@ -54,6 +55,20 @@ pub fn chained_comparison(span: Span, middle: Span, text: &str) -> Diagnostic {
     ))
 }
 
+/// A declaration that ends too early.
+fn incomplete(what: &str, end: Span, wanted: &str) -> Diagnostic {
+    misplaced(end, &format!("{what} is not complete: expected {wanted}"), &format!("{wanted} goes behind this"))
+}
+
+/// With what was meant.
+fn with_intended(diagnostic: Diagnostic, intended: Intended) -> Diagnostic {
+    match intended {
+        Intended::Words(words) => diagnostic.help(words),
+        Intended::Change(fix) => diagnostic.fix(fix),
+        Intended::Incomplete { what, end, wanted, mend } => with_intended(incomplete(&what, end, wanted), *mend),
+    }
+}
+
 /// A declaration of the mechanism within the braces of a body.
 pub fn misplaced_in_body(mut fault: Diagnostic, word: &str) -> Diagnostic {
     fault.fixes.clear();
@@ -89,11 +104,15 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         return double;
     }
     let found = found_at(text, offset);
-    if let Some(bracket) = other_bracket(error, text, found.end, file) {
+    if let Some(bracket) = other_bracket(error, text, &found, file) {
         return bracket;
     }
-    let span = Span { file, start: found.start as u32, end: found.end as u32 };
     let word = &text[found.clone()];
+    // a string is marked along its length
+    let string =
+        word.starts_with('"').then(|| text[found.end..].lines().next().unwrap_or_default().find('"')).flatten();
+    let length = string.map_or(word.len(), |inside| word.len() + inside + 1);
+    let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let rules = match &error.variant {
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
         ErrorVariant::CustomError { .. } => &[],
@@ -104,6 +123,9 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         None => end.to_owned(),
         Some('"') if is_closed => "a string".to_owned(),
         Some('"') => "an unclosed string".to_owned(),
+        Some(_) if word == "ground" && text[found.end..].trim_start().starts_with([',', ')']) => {
+            "`ground` alone".to_owned()
+        }
         Some(_) => format!("`{word}`"),
     };
     let fault = Fault { text, file, at: found.start, found: word, expected: rules };
@@ -113,7 +135,13 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     } else {
         "not expected here".to_owned()
     };
-    let diagnostic = Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label);
+    let diagnostic = match comment_at(text, found.start) {
+        Some(at) => {
+            let span = Span { file, start: at as u32, end: at as u32 + 2 };
+            misplaced(span, "`/*` begins no comment", "not expected here")
+        }
+        None => Diagnostic::new(Code::E0101, format!("expected {expected}, found {shown}")).at(span, label),
+    };
     if !with_mend {
         return diagnostic;
     }
@@ -121,28 +149,51 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
         Some((at, text)) => diagnostic.also(Span { file, start: at as u32, end: at as u32 + 1 }, text),
         None => diagnostic,
     };
-    match Intent::new(text, file, found.start, word, rules).mend() {
-        Some(Intended::Words(words)) => return diagnostic.help(words),
-        Some(Intended::Change(fix)) => return diagnostic.fix(fix),
-        None => {}
+    let intent = Intent::new(text, file, found.start, word, rules);
+    if let Some(intended) = intent.mend() {
+        return with_intended(diagnostic, intended);
+    }
+    // of an option's value the declaration is not there
+    if source.is_option && word == "," && source.name.starts_with("--") {
+        let option = source.name.split(' ').next().unwrap_or_default();
+        return diagnostic.help(format!("give `{option}` once for each"));
     }
     match fault.mend(&expected) {
         Some(Mend::Words(words)) => diagnostic.help(words),
         Some(Mend::Fix(fix)) => diagnostic.fix(fix),
-        None => diagnostic,
+        None => match intent.written() {
+            Some(form) => with_intended(diagnostic, form),
+            None => diagnostic,
+        },
     }
 }
 
-/// Arguments in braces or square brackets: `revolute{A, B}`.
-fn other_bracket(error: &Error<Rule>, text: &str, behind: usize, file: FileId) -> Option<Diagnostic> {
-    let rest = text[behind..].trim_start();
-    let bracket = rest.get(..1).filter(|bracket| ["{", "["].contains(bracket))?;
-    if !expects(error, Rule::call) && !expects(error, Rule::expr) {
+/// Where `/*` begins, if one of its characters is what the parser could not go on with.
+fn comment_at(text: &str, at: usize) -> Option<usize> {
+    let is_one = |at: &usize| text.get(*at..).is_some_and(|rest| rest.starts_with("/*"));
+    [at, at.wrapping_sub(1)].into_iter().find(is_one)
+}
+
+/// Arguments or a pair in braces or square brackets: `revolute{A, B}`, `point A = [0, 0]`.
+fn other_bracket(error: &Error<Rule>, text: &str, found: &Range<usize>, file: FileId) -> Option<Diagnostic> {
+    let is_bracket = |bracket: &&str| ["{", "["].contains(bracket);
+    let (rest, is_pair) = match text.get(found.clone()).filter(is_bracket) {
+        Some(_) => (&text[found.start..], true),
+        None => (text[found.end..].trim_start(), false),
+    };
+    let bracket = rest.get(..1).filter(is_bracket)?;
+    let is_place = || expects(error, Rule::expr) && takes_coordinates(&text[..found.start]);
+    let is_expected = if is_pair {
+        expects(error, Rule::paren) || is_place()
+    } else {
+        expects(error, Rule::call) || expects(error, Rule::expr)
+    };
+    if !is_expected {
         return None;
     }
     let at = text.len() - rest.len();
     let span = |at: usize| Span { file, start: at as u32, end: at as u32 + 1 };
-    let words = "arguments stand in round brackets";
+    let words = if is_pair { "coordinates stand in round brackets" } else { "arguments stand in round brackets" };
     let fault = misplaced(span(at), &format!("expected `(`, found `{bracket}`"), "`(` goes here");
     Some(match partner(text, at) {
         Some(end) => {
@@ -151,6 +202,13 @@ fn other_bracket(error: &Error<Rule>, text: &str, behind: usize, file: FileId) -
         }
         None => fault.help(words),
     })
+}
+
+/// Whether a text ends where the coordinates of a point or pose go.
+fn takes_coordinates(before: &str) -> bool {
+    let tokens = tokens(before);
+    let words: Vec<&str> = tokens.iter().map(|token| token.text).collect();
+    matches!(words.as_slice(), [.., "point", _, "="] | [.., "at"])
 }
 
 /// The bracket that closes one, if all between them are closed, on its line.
@@ -193,7 +251,7 @@ fn expects(error: &Error<Rule>, rule: Rule) -> bool {
 }
 
 /// The word or character at an offset: what the parser could not go on with.
-fn found_at(text: &str, offset: usize) -> std::ops::Range<usize> {
+fn found_at(text: &str, offset: usize) -> Range<usize> {
     // the parser may stand before white space or a comment
     let mut start = offset.min(text.len());
     loop {
@@ -231,6 +289,11 @@ fn expectation(rules: &[Rule], found: &str, end: &str) -> String {
     }
     if words.is_empty() {
         return "the next declaration".to_owned();
+    }
+    // no other formula stands behind a joint's `:`
+    let is_joint = rules.contains(&Rule::call) && !rules.contains(&Rule::literal) && !rules.contains(&Rule::expr);
+    if is_joint && words == ["a formula"] {
+        return "a kind of joint with its arguments".to_owned();
     }
     // a formula may begin with both
     if words.contains(&"a formula") {
@@ -288,7 +351,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_if
         | Rule::kw_not => "a formula",
         Rule::infix | Rule::kw_and | Rule::kw_or => "an operator",
-        Rule::paren => "`(`",
+        Rule::paren | Rule::left => "`(`",
         Rule::equals => "`=`",
         Rule::colon => "`:`",
         Rule::comma => "`,`",

@@ -9,7 +9,7 @@
 mod comments;
 mod expression;
 
-use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose, TableRows};
+use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose, Range, TableRows};
 use super::trivia::Trivia;
 use comments::{Comments, lines};
 pub use expression::expression;
@@ -61,6 +61,7 @@ enum Group {
     Params,
     Functions,
     Tables,
+    Inputs,
     Bodies,
     Joints,
     Constraints,
@@ -76,6 +77,7 @@ impl Group {
             ItemKind::Param { .. } => Group::Params,
             ItemKind::Function { .. } => Group::Functions,
             ItemKind::Table { .. } => Group::Tables,
+            ItemKind::Input { .. } => Group::Inputs,
             ItemKind::Ground { .. } | ItemKind::Body { .. } => Group::Bodies,
             ItemKind::Joint { .. } => Group::Joints,
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
@@ -110,13 +112,14 @@ fn item_row<'a>(item: &'a Item, comments: &mut Comments<'_>) -> Row<'a> {
         }
         _ => (comments.around(item), String::new()),
     };
-    let cells = item_cells(&item.kind, &block);
+    let cells = item_cells(item, &block);
     Row { above, docs: &item.docs, cells, behind: comments.behind(item.span.end) }
 }
 
 /// With the block of a body or of the ground as text.
-fn item_cells(kind: &ItemKind, block: &str) -> Vec<String> {
-    match kind {
+fn item_cells(item: &Item, block: &str) -> Vec<String> {
+    let named = |name: &Name| format!("{}{}", name.text, ranges(&item.ranges));
+    match &item.kind {
         // what is broken has no form
         ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Param { name, value } => cells(["param", &name.text, &defined(value)]),
@@ -124,19 +127,20 @@ fn item_cells(kind: &ItemKind, block: &str) -> Vec<String> {
             cells(["fn", &format!("{}({})", name.text, argument.text), &defined(value)])
         }
         ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
+        ItemKind::Input { name, value } => cells(["input", &named(name), &defined(value)]),
         ItemKind::Ground { .. } => vec![format!("ground {block}")],
-        ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", name.text)],
+        ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", named(name))],
         ItemKind::Body { name, pose: Some(pose), .. } => {
-            vec![format!("body {} at {} {block}", name.text, placed(pose))]
+            vec![format!("body {} at {} {block}", named(name), placed(pose))]
         }
         ItemKind::Joint { name, kind, arguments, .. } => {
-            cells(["joint", &label(name), &format!("{}({})", kind.text, list(arguments))])
+            cells(["joint", &(named(name) + ":"), &format!("{}({})", kind.text, list(arguments))])
         }
         ItemKind::Equation { driver, name, left, right } => {
             let keyword = if *driver { "driver" } else { "constraint" };
-            cells([keyword, &label(name), &expression(left), &defined(right)])
+            cells([keyword, &(named(name) + ":"), &expression(left), &defined(right)])
         }
-        ItemKind::Measure { name, value } => cells(["measure", &name.text, &defined(value)]),
+        ItemKind::Measure { name, value } => cells(["measure", &named(name), &defined(value)]),
         ItemKind::Analysis { from, to, every } => {
             vec![format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))]
         }
@@ -151,8 +155,14 @@ fn defined(value: &Expr) -> String {
     format!("= {}", expression(value))
 }
 
-fn label(name: &Name) -> String {
-    format!("{}:", name.text)
+/// `[k in 0..n]`
+fn ranges(ranges: &[Range]) -> String {
+    let range = |range: &Range| {
+        let dots = if range.is_closed { "..=" } else { ".." };
+        format!("{} in {}{dots}{}", range.index.text, expression(&range.from), expression(&range.to))
+    };
+    let list: Vec<String> = ranges.iter().map(range).collect();
+    if list.is_empty() { String::new() } else { format!("[{}]", list.join(", ")) }
 }
 
 fn list(list: &[Expr]) -> String {

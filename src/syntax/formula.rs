@@ -3,7 +3,7 @@
 //! Loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (to the right). A `depth` counts every
 //! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
 
-use super::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use super::ast::{Comparison, Expr, ExprKind, Factor, Segment, Sign};
 use super::build::{Built, Reader};
 use super::grammar::Rule;
 use super::{DEEPEST, errors};
@@ -29,15 +29,7 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
     let kind = match pair.as_rule() {
         Rule::literal => literal(reader, pair)?,
         Rule::word => ExprKind::Name(reader.name(&pair)?),
-        Rule::member => {
-            let mut parts = pair.into_inner();
-            match (parts.next(), parts.next()) {
-                (Some(owner), Some(feature)) => {
-                    ExprKind::Member { owner: reader.name(&owner)?, feature: reader.name(&feature)? }
-                }
-                _ => return Err(reader.truncated()),
-            }
-        }
+        Rule::member => path(reader, pair, depth)?,
         Rule::call => {
             let mut parts = pair.into_inner();
             let name = reader.name(&parts.next().ok_or_else(|| reader.truncated())?)?;
@@ -58,6 +50,29 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
         _ => return Err(reader.truncated()),
     };
     Ok(Expr { kind, span })
+}
+
+/// `a.b`, or a longer one, or one with numbers in brackets.
+fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKind> {
+    let mut segments: Vec<Segment> = Vec::new();
+    for part in pair.into_inner() {
+        match segments.last_mut() {
+            Some(last) if part.as_rule() == Rule::indices => {
+                last.indices = reader.list(part.into_inner(), depth + 1)?;
+            }
+            _ => segments.push(Segment { name: reader.name(&part)?, indices: Vec::new() }),
+        }
+    }
+    let is_plain = segments.len() == 2 && segments.iter().all(|segment| segment.indices.is_empty());
+    Ok(match (is_plain, segments.pop(), segments.pop()) {
+        (true, Some(feature), Some(owner)) => ExprKind::Member { owner: owner.name, feature: feature.name },
+        (_, Some(last), before) => {
+            segments.extend(before);
+            segments.push(last);
+            ExprKind::Path(segments)
+        }
+        (_, None, _) => return Err(reader.truncated()),
+    })
 }
 
 fn within(depth: usize, span: Span) -> Built<()> {

@@ -1,10 +1,17 @@
 //! Declarations as other programs and textbooks write them: what they were meant to be, where their words leave no doubt.
 
+mod ground;
+mod heads;
+mod keywords;
+mod parts;
+mod separators;
+
 use super::grammar::Rule;
-use super::tokens::{Token, tokens};
+use super::tokens::{Token, begins_declaration, tokens};
 use crate::diag::{Applies, Edit, Fix};
 use crate::source::{FileId, Span};
-use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit, is_declaration};
+use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit};
+use heads::is_dash;
 use std::ops::Range;
 
 /// A fault in a declaration, with the words of the declaration before it.
@@ -25,32 +32,55 @@ pub(super) struct Intent<'a> {
 pub(super) enum Intended {
     Words(String),
     Change(Fix),
+    /// Something ends before what is wanted behind it: told there, and not where the next thing begins.
+    Incomplete {
+        what: String,
+        /// The last word or character that it has.
+        end: Span,
+        wanted: &'static str,
+        mend: Box<Intended>,
+    },
 }
 
 impl<'a> Intent<'a> {
     /// Of a word or character at a byte, in the place of what was expected.
     pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Intent<'a> {
         let all = tokens(&text[..at]);
-        let is_keyword = |k: usize| is_declaration(all[k].text) && !text[all[k].end()..].starts_with('.');
+        let is_keyword = |k: usize| begins_declaration(text, all[k]);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
         let bodies = all.windows(2).filter(|pair| pair[0].text == "body").map(|pair| pair[1].text).collect();
         let line = text[at..].split('\n').next().unwrap_or_default();
-        let is_here = |token: &Token<'_>| token.start == 0 || token.text != "}" && !is_declaration(token.text);
-        let rest = tokens(line)
-            .into_iter()
-            .take_while(is_here)
-            .map(|token| Token { start: at + token.start, ..token })
-            .collect();
+        let is_here = |token: &Token<'_>| token.start == at || token.text != "}" && !begins_declaration(text, *token);
+        let in_text = |token: Token<'a>| Token { start: at + token.start, ..token };
+        let rest = tokens(line).into_iter().map(in_text).take_while(is_here).collect();
         Intent { text, file, at, found, expected, before: all[start.min(all.len())..].to_vec(), rest, bodies }
     }
 
     /// What was meant.
     pub fn mend(&self) -> Option<Intended> {
+        if let Some(intended) = self.of_no_keyword() {
+            return Some(intended);
+        }
         let (keyword, last) = (self.before.first()?.text, self.before.last()?);
+        if let Some(half) = self.of_half_a_feature(keyword, last) {
+            return Some(half);
+        }
         if self.text[last.end()..self.at].contains('\n') {
             return None;
         }
-        self.of_a_hyphen(last)
+        self.of_a_head(keyword, last)
+            .or_else(|| self.of_bare_arguments(keyword, last))
+            .or_else(|| self.of_the_ground())
+            .or_else(|| self.of_an_axis_with_a_comma(keyword))
+            .or_else(|| self.of_rows_without_parentheses(keyword))
+            .or_else(|| self.of_no_joint(keyword))
+            .or_else(|| self.of_a_pose(keyword, last))
+            .or_else(|| self.of_a_diameter())
+            .or_else(|| self.of_a_list(keyword))
+            .or_else(|| self.of_a_coordinate(last))
+            .or_else(|| self.of_an_arrow(last))
+            .or_else(|| self.of_single_quotes())
+            .or_else(|| self.of_a_unit_behind_a_pair(last))
             .or_else(|| self.of_a_unit_in_brackets(last))
             .or_else(|| self.of_a_pair(keyword, last))
             .or_else(|| self.of_a_feature(last))
@@ -58,8 +88,19 @@ impl<'a> Intent<'a> {
             .or_else(|| self.of_an_equation(keyword))
     }
 
+    /// How the declaration is written, where nothing else is known.
+    pub fn written(&self) -> Option<Intended> {
+        self.form().map(Intended::Words)
+    }
+
     fn expects(&self, rule: Rule) -> bool {
         self.expected.contains(&rule)
+    }
+
+    /// Whether all brackets of the declaration are closed before the fault.
+    fn is_outside_of_brackets(&self) -> bool {
+        let count = |bracket: [&str; 2]| self.before.iter().filter(|token| bracket.contains(&token.text)).count();
+        count(["(", "["]) == count([")", "]"])
     }
 
     fn is_word(&self) -> bool {
@@ -78,19 +119,6 @@ impl<'a> Intent<'a> {
     /// Where what stands here ends.
     fn end(&self) -> usize {
         self.rest.last().map_or(self.at, |token| token.end())
-    }
-
-    /// `small-end`, where a name is declared.
-    fn of_a_hyphen(&self, last: &Token<'_>) -> Option<Intended> {
-        let keyword = self.before.get(self.before.len().checked_sub(2)?)?.text;
-        if self.found != "-" || !is_declaration(keyword) {
-            return None;
-        }
-        let name = hyphenated_at(self.text, last.start)?;
-        let written = name.replace('-', "_");
-        let uses = tokens(self.text).into_iter().filter(|token| hyphenated_at(self.text, token.start) == Some(name));
-        let edits = uses.map(|token| self.edit(token.start..token.start + name.len(), &written)).collect();
-        Some(Intent::change(format!("a name has no `-`: write `{written}`"), edits))
     }
 
     /// `50 [mm]`
@@ -134,11 +162,6 @@ impl<'a> Intent<'a> {
 
     /// `crank A`
     fn of_a_feature(&self, last: &Token<'_>) -> Option<Intended> {
-        if let ("ground", Some(feature)) = (self.found, self.rest.get(1).filter(|token| is_name(token.text))) {
-            let (end, message) = (self.at + self.found.len(), "what belongs to the ground is written");
-            let dot = self.edit(end..feature.start, ".");
-            return Some(Intent::change(format!("{message} `ground.{}`", feature.text), vec![dot]));
-        }
         let is_owner = last.text == "ground" || self.bodies.contains(&last.text);
         let is_in_formula = self.before.iter().any(|token| token.text == "(") && self.before.len() > 2;
         (self.is_word() && is_owner && is_in_formula).then(|| {
@@ -215,8 +238,8 @@ pub(super) fn hyphenated_at(text: &str, start: usize) -> Option<&str> {
     let rest = &text[start..];
     let mut end = rest.find(|c| !is_part(c)).unwrap_or(rest.len());
     let first = end;
-    while let Some(next) = rest[end..].strip_prefix('-').filter(|next| next.starts_with(is_part)) {
-        end += 1 + next.find(|c| !is_part(c)).unwrap_or(next.len());
+    while let Some(next) = rest[end..].strip_prefix(is_dash).filter(|next| next.starts_with(is_part)) {
+        end = rest.len() - next.len() + next.find(|c| !is_part(c)).unwrap_or(next.len());
     }
     (is_name(rest) && end > first).then(|| &rest[..end])
 }

@@ -2,9 +2,11 @@
 
 mod brackets;
 mod characters;
+mod semicolons;
+mod separators;
 
 use super::grammar::Rule;
-use super::tokens::next_token;
+use super::tokens::{Token, begins_declaration, next_token};
 use crate::diag::{Applies, Fix, nearest};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{
@@ -71,6 +73,11 @@ impl Fault<'_> {
         &before[start..]
     }
 
+    /// Whether a declaration begins here.
+    fn begins_declaration(&self) -> bool {
+        begins_declaration(self.text, Token { start: self.at, text: self.found })
+    }
+
     fn is_on_new_line(&self) -> bool {
         self.text[self.before().len()..self.at].contains('\n')
     }
@@ -86,28 +93,6 @@ impl Fault<'_> {
         let of_words = || self.of_a_keyword().or_else(|| self.of_a_word());
         let missing = || self.closing().or_else(|| self.separator(expected)).map(Mend::Fix);
         self.of_a_character().or_else(of_words).or_else(missing)
-    }
-
-    /// The `:` or `=` behind a name, where nothing else can stand.
-    fn separator(&self, expected: &str) -> Option<Fix> {
-        let (wanted, other) = match expected {
-            "`:`" => (":", "="),
-            "`=`" => ("=", ":"),
-            _ => return None,
-        };
-        if self.found == other {
-            let words = format!("write `{wanted}` instead of `{other}`");
-            return Some(Fix::replace(self.span(self.here()), wanted, words, Applies::Always));
-        }
-        let line = self.behind().lines().next().unwrap_or_default();
-        let begins_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '_' || c == '(');
-        // a word too many stands before it
-        if self.is_on_new_line() || !begins_operand || is_declaration(self.found) || line.contains([':', '=']) {
-            return None;
-        }
-        let words = format!("write `{wanted}` before `{}`", self.found);
-        let (place, text) = if wanted == ":" { (self.before().len(), ":") } else { (self.at, "= ") };
-        Some(Fix::replace(self.span(place..place), text, words, Applies::Always))
     }
 
     fn of_a_keyword(&self) -> Option<Mend> {
@@ -150,6 +135,9 @@ impl Fault<'_> {
         }
         let other = Synonym::of(Place::Declaration, self.found).filter(|synonym| self.begins(synonym.means));
         if let Some(synonym) = other {
+            if let ([only], true) = (synonym.means, synonym.is_same) {
+                return Some(Mend::Fix(Fix::meant(self.span(self.here()), only)));
+            }
             return Some(Mend::Words(synonym.say(&[])));
         }
         let starts_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');

@@ -2,7 +2,8 @@
 
 use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
-use crate::vocabulary::{Keyword, Role};
+use crate::diag::nearest;
+use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_ground};
 use rustc_hash::FxHashSet;
 
 /// The words of a text with what they may be the beginning of.
@@ -17,14 +18,24 @@ pub(super) struct Outline<'a> {
     hyphenated: FxHashSet<&'a str>,
 }
 
+/// What the first of some tokens is, if it is a keyword there.
+fn role_in(tokens: &[Token<'_>]) -> Option<Role> {
+    let role = Keyword::named(tokens.first()?.text)?.role;
+    let is_word = |token: &Token<'_>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
+    match (role, tokens) {
+        (Role::Opening, [_, name, equals, ..]) if is_word(name) && equals.text == "=" => Some(Role::Declaration),
+        (Role::Opening, _) => None,
+        _ => Some(role),
+    }
+}
+
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
 impl<'a> Outline<'a> {
     pub fn new(text: &'a str) -> Outline<'a> {
         let tokens = tokens(text);
-        let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
-        let roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
+        let roles: Vec<Option<Role>> = (0..tokens.len()).map(|k| role_in(&tokens[k..])).collect();
         let (mut names, mut is_name, mut takes_name) = (Vec::with_capacity(tokens.len()), false, false);
         for (token, role) in tokens.iter().zip(&roles) {
             is_name = takes_name && !is_name;
@@ -139,10 +150,13 @@ impl<'a> Outline<'a> {
 
     /// Whether a keyword stands where only a name makes sense: within a line, and not before what its declaration goes on with.
     fn is_inside(&self, k: usize) -> bool {
-        if self.is_first_on_its_line(k) {
-            return false;
-        }
         let (next, second) = (self.word(k + 1), self.word(k + 2));
+        let before = if k > 0 { self.word(k - 1) } else { "" };
+        // an argument on a line of its own
+        let is_argument = self.word(k) == "ground" && ["(", ","].contains(&before) && next != "{" && second != "{";
+        if self.is_first_on_its_line(k) {
+            return is_argument;
+        }
         let goes_on = match self.word(k) {
             "ground" => next == "{",
             "analysis" => next == "from",
@@ -153,7 +167,6 @@ impl<'a> Outline<'a> {
             _ => second == "=" && next != ")",
         };
         // after a bracket or an operator a formula goes on
-        let before = if k > 0 { self.word(k - 1) } else { "" };
         let is_operand = ["(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
         self.is_name_of(k) || is_operand && !goes_on
     }
@@ -186,9 +199,25 @@ impl<'a> Outline<'a> {
         }
         let is_equation = self.word(k + 2) == "=";
         let is_block = self.word(k + 1) == "{" && ["{", "}"].contains(&before);
+        let is_on_one_line = !self.is_first_on_its_line(k + 1);
         is_block
-            || (is_word(k + 1) && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
+            || self.begins_without_keyword(k)
+            || (is_word(k + 1) && is_on_one_line && (is_equation || [":", "{", "at"].contains(&self.word(k + 2))))
             || self.word(k + 1) == "from"
+    }
+
+    /// Whether a block begins at a token with a word that stands for `ground`: `frame {`.
+    pub fn is_ground_by_another_name(&self, k: usize) -> bool {
+        let word = self.word(k);
+        self.role(k).is_none() && self.word(k + 1) == "{" && (is_ground(word) || nearest(word, ["ground"]).is_some())
+    }
+
+    /// Whether a line begins as a declaration does behind its keyword: `r = 3`, `j: revolute(…)`; or with the kind of a joint.
+    fn begins_without_keyword(&self, k: usize) -> bool {
+        let [next, second] = [self.word(k + 1), self.word(k + 2)];
+        let is_joint = JointWord::named(self.word(k)).is_some();
+        let is_named_joint = second == "(" && (is_joint || Synonym::of(Place::Joint, self.word(k)).is_some());
+        self.is_first_on_its_line(k) && (["=", ":", "{"].contains(&next) || is_joint && next == "(" || is_named_joint)
     }
 
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.

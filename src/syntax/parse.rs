@@ -7,7 +7,7 @@
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
 use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name};
-use super::build::{Built, Piece, Reader, docs_above, normalized};
+use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
 use super::outline::Outline;
@@ -132,7 +132,7 @@ impl Reading<'_> {
         let head = self.head(Rule::mechanism_head, brace, |reader, pair| reader.head(pair));
         let mut has_brace = true;
         let name = match head {
-            Ok((name, _)) => name,
+            Ok(head) => head.name,
             Err(fault) => {
                 // who leaves out the brace that opens leaves out the one that closes as well
                 has_brace = brace.is_some();
@@ -147,7 +147,9 @@ impl Reading<'_> {
                         return None;
                     }
                 }
-                self.names_of(first, self.at).pop()?
+                // one without a name has its declarations all the same
+                let nameless = Name { text: String::new(), span: self.span(start..start) };
+                self.names_of(first, self.at).pop().unwrap_or(nameless)
             }
         };
         let mut items = Vec::new();
@@ -166,6 +168,7 @@ impl Reading<'_> {
                 }
                 "ground" if self.outline.begins_declaration(self.at) => self.block(items, Rule::ground_head),
                 "body" => self.block(items, Rule::body_head),
+                _ if self.outline.is_ground_by_another_name(self.at) => self.block(items, Rule::ground_head),
                 "" | "mechanism" if self.ends_the_mechanism() => {
                     if must_close {
                         self.tell_the_end(Rule::item_or_close);
@@ -217,20 +220,21 @@ impl Reading<'_> {
         let features = self.features(&mut misplaced);
         let span = self.span(start..self.outline.end_before(self.at));
         // a body whose head is at fault is a body all the same, if it has a name
-        let named = |(name, pose)| ItemKind::Body { name, pose, features: Vec::new() };
-        let mut kind = match head {
-            Ok(Some(head)) => named(head),
-            Ok(None) => ItemKind::Ground { features: Vec::new() },
-            Err(_) if rule == Rule::ground_head => ItemKind::Ground { features: Vec::new() },
+        let of_body = |Head { name, ranges, pose }| (ItemKind::Body { name, pose, features: Vec::new() }, ranges);
+        let ground = (ItemKind::Ground { features: Vec::new() }, Vec::new());
+        let (mut kind, ranges) = match head {
+            Ok(Some(head)) => of_body(head),
+            Ok(None) => ground,
+            Err(_) if rule == Rule::ground_head => ground,
             Err(_) => match self.names_of(first, behind_head).pop() {
-                Some(name) => named((name, None)),
-                None => ItemKind::Broken { names: Vec::new() },
+                Some(name) => of_body(Head { name, ranges: Vec::new(), pose: None }),
+                None => (ItemKind::Broken { names: Vec::new() }, Vec::new()),
             },
         };
         if let ItemKind::Body { features: own, .. } | ItemKind::Ground { features: own } = &mut kind {
             *own = features;
         }
-        items.push(Item { docs: docs_above(&self.source.text, start), span, kind });
+        items.push(Item { docs: docs_above(&self.source.text, start), span, ranges, kind });
         items.append(&mut misplaced);
     }
 
@@ -424,7 +428,7 @@ impl Reading<'_> {
     fn broken(&self, first: usize) -> Item {
         let span = self.span(self.outline.start(first)..self.outline.end_before(self.at));
         let docs = docs_above(&self.source.text, span.start as usize);
-        Item { docs, span, kind: ItemKind::Broken { names: self.names_of(first, self.at) } }
+        Item { docs, span, ranges: Vec::new(), kind: ItemKind::Broken { names: self.names_of(first, self.at) } }
     }
 
     fn names_of(&self, first: usize, end: usize) -> Vec<Name> {

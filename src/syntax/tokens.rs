@@ -2,7 +2,7 @@
 //!
 //! This is coarser than the grammar, and never fails: it serves where a text does not follow the grammar, or is not read yet.
 
-use crate::vocabulary::Keyword;
+use crate::vocabulary::{Keyword, is_declaration};
 
 /// A word or character, by the byte where it begins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -54,6 +54,18 @@ pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
         *rest = after;
         return Some(token);
     }
+}
+
+/// Whether a token is a keyword that begins a declaration: `ground.O` is a point, and `ground` where an operand goes means the body.
+pub(super) fn begins_declaration(text: &str, token: Token<'_>) -> bool {
+    let behind = text[token.end()..].trim_start();
+    if !is_declaration(token.text) || behind.starts_with('.') {
+        return false;
+    }
+    let before = text[..token.start].trim_end();
+    let is_first = text[before.len()..token.start].contains('\n') || before.is_empty() || before.ends_with(['{', '}']);
+    let is_operand = before.ends_with(['(', '[', ',', '=', '+', '-', '*', '/', '^', '<', '>']);
+    token.text != "ground" || behind.starts_with('{') || is_first && !is_operand
 }
 
 /// The words of a text that are keywords in some place, each with the byte where it begins.

@@ -25,6 +25,8 @@ pub struct Keyword {
 pub enum Role {
     /// Begins a declaration of a file or mechanism; cannot be a name.
     Declaration,
+    /// Begins a declaration of a mechanism where a name and `=` follow; a name elsewhere.
+    Opening,
     /// Begins a declaration in a body or the ground; cannot be a name.
     Feature,
     /// Joins parts of a formula; cannot be a name.
@@ -264,6 +266,22 @@ pub static KEYWORDS: &[Keyword] = &[
         "a number that is printed for every time, with its first two derivatives",
         "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`.",
         Example::Arm("measure height = y(arm.tip)\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))"),
+    ),
+    keyword(
+        Role::Opening,
+        "input",
+        &["input NAME = FORMULA"],
+        "a signal that comes from outside, as from an encoder",
+        "The formula, of `t`, params, functions and tables, is what it is when nobody says otherwise, and gives it its dimension; \
+         `--input NAME=FORMULA` and `--samples FILE.csv` say otherwise. It may stand wherever `t` may.",
+        Example::Whole(
+            "\
+input turn = 30 deg * sin(1 rev/s * t)
+ground { point O = (0, 0) }
+body arm { point O = (0, 0) }
+joint pivot: revolute(ground.O, arm.O)
+driver motor: rotation(pivot) = turn",
+        ),
     ),
     keyword(
         Role::Declaration,

@@ -22,7 +22,7 @@ pub use keywords::{KEYWORDS, Keyword, Role, is_declaration, is_feature};
 pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
-pub use synonyms::{Place, SYNONYMS, Synonym};
+pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
 pub use units::{UNITS, Unit};
 
 /// A word, as a reader is told of it.

@@ -185,7 +185,7 @@ fn units() -> String {
 
 fn keywords() -> String {
     let parts: [(&str, &[Role]); 4] = [
-        ("Declarations", &[Role::Declaration]),
+        ("Declarations", &[Role::Declaration, Role::Opening]),
         ("In a body or the ground", &[Role::Feature]),
         ("In formulas", &[Role::Formula]),
         ("Words in their places, and names elsewhere", &[Role::Separator, Role::Place, Role::Side]),

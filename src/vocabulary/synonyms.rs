@@ -28,6 +28,14 @@ pub enum Place {
     Call,
     /// Behind a number.
     Unit,
+    /// Alone, for a number.
+    Number,
+}
+
+/// Whether others call the ground by a word.
+#[must_use]
+pub fn is_ground(word: &str) -> bool {
+    Synonym::of(Place::Declaration, word).is_some_and(|synonym| synonym.means == ["ground"])
 }
 
 impl Synonym {
@@ -125,6 +133,10 @@ const fn joint(names: &'static [&'static str], means: &'static [&'static str], s
 
 const fn unit(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
     synonym(Place::Unit, names, means, say)
+}
+
+const fn number(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
+    synonym(Place::Number, names, means, say)
 }
 
 const fn declaration(names: &'static [&'static str], means: &'static [&'static str], say: &'static str) -> Synonym {
@@ -229,6 +241,26 @@ pub static SYNONYMS: &[Synonym] = &[
         &["acceleration", "acc", "accel"],
         &["der"],
         "an acceleration is the second time derivative of a place, in a measure: `der(der(x({0 P})))`, `der(der(y({0 P})))`",
+    ).takes_a_formula(),
+    call(
+        &["vx", "v_x", "velx", "vel_x", "xdot", "x_dot"],
+        &["der"],
+        "the velocity of a point along x is `der(x({0 P}))`, in a measure",
+    ).takes_a_formula(),
+    call(
+        &["vy", "v_y", "vely", "vel_y", "ydot", "y_dot"],
+        &["der"],
+        "the velocity of a point along y is `der(y({0 P}))`, in a measure",
+    ).takes_a_formula(),
+    call(
+        &["ax", "a_x", "accx", "acc_x", "xddot"],
+        &["der"],
+        "the acceleration of a point along x is `der(der(x({0 P})))`, in a measure",
+    ).takes_a_formula(),
+    call(
+        &["ay", "a_y", "accy", "acc_y", "yddot"],
+        &["der"],
+        "the acceleration of a point along y is `der(der(y({0 P})))`, in a measure",
     ).takes_a_formula(),
     call(&["jerk"], &["der"], "a jerk is a third time derivative, in a measure: `der(der(der(x({0 P}))))`").takes_a_formula(),
     call(
@@ -416,7 +448,7 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["h", "hour", "hours", "hr"], &["s"], "hours are no unit; `1 h` is `3600 s`").takes_a_formula(),
     unit(&["degree", "degrees", "°"], &["deg"], "was `deg` meant?"),
     unit(&["radian", "radians"], &["rad"], "was `rad` meant?"),
-    unit(&["turn", "turns", "revolution", "revolutions", "cycle", "cycles"], &["rev"], "was `rev` meant?"),
+    unit(&["rot", "rots", "turn", "turns", "revolution", "revolutions", "cycle", "cycles"], &["rev"], "was `rev` meant?"),
     unit(&["sec", "second", "seconds"], &["s"], "was `s` meant?"),
     unit(&["msec", "millisecond", "milliseconds"], &["ms"], "was `ms` meant?"),
     unit(&["usec", "microsecond", "microseconds"], &["us"], "was `us` meant?"),
@@ -439,11 +471,19 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["gon", "grad"], &["deg"], "gons are no unit; `1 gon` is `0.9 deg`").takes_a_formula(),
     unit(&["arcmin"], &["deg"], "minutes of arc are no unit; `1 deg` is 60 of them").takes_a_formula(),
     unit(&["arcsec"], &["deg"], "seconds of arc are no unit; `1 deg` is 3600 of them").takes_a_formula(),
+    // ---- names that stand for a number
+    number(&["time", "zeit", "temps", "tiempo"], &["t"], "was `t` meant?"),
+    number(&["π", "𝜋"], &["pi"], "was `pi` meant?"),
+    number(&["τ", "two_pi", "twopi"], &["tau"], "was `tau` meant?"),
     // ---- declarations
     declaration(&["model", "assembly", "system", "linkage", "machine"], &["mechanism"], "was `mechanism` meant?"),
     declaration(&["parameter", "const", "constant", "let", "var", "variable", "set"], &["param"], "was `param` meant?"),
     declaration(&["function", "def", "func", "fun"], &["fn"], "was `fn` meant?"),
-    declaration(&["base", "frame_ground", "world", "chassis"], &["ground"], "was `ground` meant?"),
+    declaration(
+        &["base", "frame", "frame_ground", "gnd", "grnd", "fixed", "world", "chassis", "foundation", "inertial"],
+        &["ground"],
+        "was `ground` meant?",
+    ),
     declaration(&["link", "bar", "rigid_body", "component", "element", "solid"], &["body"], "was `body` meant?"),
     declaration(&["marker", "node", "vertex"], &["point"], "was `point` meant?"),
     declaration(&["line", "vector", "direction", "ray"], &["axis"], "was `axis` meant?"),
@@ -454,6 +494,7 @@ pub static SYNONYMS: &[Synonym] = &[
     declaration(&["output", "plot", "print", "sensor", "request"], &["measure"], "was `measure` meant?"),
     declaration(&["simulate", "simulation", "solve", "run", "time"], &["analysis"], "was `analysis` meant?"),
     declaration(&["spline", "lookup", "data"], &["table"], "was `table` meant?"),
+    declaration(&["units", "unit", "unitsystem"], &[], "each number has its own unit: `30 mm`, `60 rpm`"),
 ];
 
 #[cfg(test)]

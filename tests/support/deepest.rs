@@ -139,7 +139,8 @@ fn ways(parsed: &Parsed) -> (Result<String, Diagnostics>, Sources) {
     let (emitted, said) = compiled.rust(&RustOptions::of("deep"));
     let Some(emitted) = emitted else { return (Err(said), sources) };
     let (latex, json) = (compiled.latex("deep"), compiled.json("deep"));
-    let sizes = [&parsed.formatted(), &model, &equations, &emitted, &latex, &json].map(String::len);
+    let formatted = parsed.formatted().unwrap_or_default();
+    let sizes = [&formatted, &model, &equations, &emitted, &latex, &json].map(String::len);
     (table(&compiled).map(|table| format!("{table}\n{sizes:?}\n")), sources)
 }
 

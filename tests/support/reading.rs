@@ -95,7 +95,7 @@ pub fn read(graph: &mut Graph, e: &ast::Expr, names: &dyn Names) -> ExprId {
             let ids: Vec<ExprId> = arguments.iter().map(&mut go).collect();
             call(graph, &name.text, &ids, names)
         }
-        Kind::Member { .. } | Kind::Tuple(_) => panic!("no such thing is printed"),
+        Kind::Member { .. } | Kind::Path(_) | Kind::Tuple(_) => panic!("no such thing is printed"),
     }
 }
 

@@ -1,6 +1,8 @@
 //! Trees without their places: what two texts of one meaning share.
 
-use mechc::rooms::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, File, ItemKind, Mechanism, TableRows};
+use mechc::rooms::syntax::ast::{
+    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Range, Segment, TableRows,
+};
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
 /// `and` and `or` flat, `else if` nested.
@@ -13,6 +15,10 @@ pub fn shape(e: &Expr) -> String {
         ExprKind::Literal { value, unit: Some((unit, power)) } => format!("<{value:?} {}^{power}>", unit.text),
         ExprKind::Name(name) => name.text.clone(),
         ExprKind::Member { owner, feature } => format!("{}.{}", owner.text, feature.text),
+        ExprKind::Path(segments) => {
+            let part = |segment: &Segment| format!("{}{}", segment.name.text, shapes(&segment.indices));
+            segments.iter().map(part).collect::<Vec<_>>().join(".")
+        }
         ExprKind::Call { name, arguments } => format!("{}{}", name.text, shapes(arguments)),
         ExprKind::Paren(inner) => shape(inner),
         ExprKind::Tuple(list) => shapes(list),
@@ -58,7 +64,7 @@ pub fn file_shape(file: &File) -> Vec<String> {
 fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
     let mut lines = vec![format!("{:?} mechanism {}", mechanism.docs, mechanism.name.text)];
     for item in &mechanism.items {
-        lines.push(format!("{:?} {}", item.docs, item_shape(&item.kind)));
+        lines.push(format!("{:?} {}", item.docs, item_shape(item)));
         if let ItemKind::Ground { features } | ItemKind::Body { features, .. } = &item.kind {
             lines.extend(features.iter().map(feature_shape));
         }
@@ -66,8 +72,16 @@ fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
     lines
 }
 
-fn item_shape(kind: &ItemKind) -> String {
+fn item_shape(item: &Item) -> String {
+    let range =
+        |range: &Range| format!("{} {} {} {}", range.index.text, shape(&range.from), shape(&range.to), range.is_closed);
+    let ranges: Vec<String> = item.ranges.iter().map(range).collect();
+    format!("{} {ranges:?}", kind_shape(&item.kind))
+}
+
+fn kind_shape(kind: &ItemKind) -> String {
     match kind {
+        ItemKind::Input { name, value } => format!("input {} {}", name.text, shape(value)),
         ItemKind::Param { name, value } => format!("param {} {}", name.text, shape(value)),
         ItemKind::Function { name, argument, value } => format!("fn {} {} {}", name.text, argument.text, shape(value)),
         ItemKind::Table { name, periodic, rows } => match rows {

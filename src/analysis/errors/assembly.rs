@@ -11,17 +11,22 @@ use crate::math;
 /// Gears may be off by this part of the larger radius.
 const LARGEST_MISFIT: f64 = 1e-6;
 
+/// Where a gap has another order of magnitude than the mechanism.
+const FAR_OFF: &str =
+    "that is far more than the mechanism's size: look for a length whose unit is missing or another one";
+
 /// A loop that does not close.
 pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnostic {
     let declaration = &system.declarations[open.at];
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     let far = if open.kind == CoordinateKind::Length { 100.0 * system.length } else { std::f64::consts::TAU };
-    if open.by > far {
+    let is_joint = matches!(declaration.kind, DeclarationKind::Joint(_));
+    if open.by > far && !(is_joint && open.by.is_finite()) {
         return without_value(system, open, t);
     }
     let by = if open.kind == CoordinateKind::Length { length(open.by) } else { degrees(open.by) };
     // loops stay open, and what is asked of a body is missed
-    let open_word = if matches!(declaration.kind, DeclarationKind::Joint(_)) { "open" } else { "off" };
+    let open_word = if is_joint { "open" } else { "off" };
     let message = format!("the mechanism cannot be assembled at {}: {noun} `{name}` stays {open_word} by {by}", at(t));
     let mut diagnostic = Diagnostic::new(Code::E0601, message)
         .at(declaration.span, format!("{open_word} by {by}"))
@@ -35,6 +40,9 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         if !names.is_empty() {
             diagnostic = diagnostic.note(format!("{what}: {}", cut_list(&names)));
         }
+    }
+    if open.by > far {
+        return diagnostic.help(FAR_OFF);
     }
     let driver = open.declarations.iter().find(|&&k| system.declarations[k].kind == DeclarationKind::Driver);
     let driver = driver
@@ -57,9 +65,16 @@ fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
     let (noun, name) = (declaration.kind.noun(), &declaration.name);
     let message =
         format!("the mechanism cannot be assembled at {}: {noun} `{name}` does not hold in any position", at(t));
+    let (label, help) = match declaration.kind {
+        DeclarationKind::Joint(_) => ("no motion brings its bodies nearer to each other", FAR_OFF),
+        _ => (
+            "no motion brings its two sides nearer to each other",
+            "look at the values that its two sides can have, and at their units",
+        ),
+    };
     Diagnostic::new(Code::E0601, message)
-        .at(declaration.span, "no motion brings its two sides nearer to each other")
-        .help("look at the values that its two sides can have")
+        .at(declaration.span, label)
+        .help(help)
         .datum("t", t)
         .datum("residual", open.residual)
 }
@@ -169,11 +184,13 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
                 .help("left and right are seen along the direction of the rack's axis"),
         );
     }
-    let (what, why) = match joint.kind {
-        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii"),
-        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii"),
-        _ => ("centre and axis", "the radius"),
+    let (what, why, other) = match joint.kind {
+        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii", Some("internal_gear")),
+        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii", Some("gear")),
+        _ => ("centre and axis", "the radius", None),
     };
+    // the sum of the radii, of gears whose difference was asked for, and the other way round
+    let fits_another = (distance - (2.0 * radius - wanted)).abs() <= LARGEST_MISFIT * radius;
     let message = format!(
         "the {what} of `{}` are {} apart at {}, and {why} is {}",
         joint.name,
@@ -181,14 +198,16 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         at(t),
         digits_that_differ(wanted, distance)
     );
-    Some(
-        Diagnostic::new(Code::W0501, message)
-            .at(joint.span, format!("{} too {}", length(off.abs()), if off < 0.0 { "near" } else { "far" }))
-            .help(format!(
-                "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
-                digits_that_differ(wanted, distance)
-            )),
-    )
+    let label =
+        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(wanted)), if off < 0.0 { "near" } else { "far" });
+    let help = match other.filter(|_| fits_another) {
+        Some(other) => format!("was `{other}` meant? its centres would be right"),
+        None => format!(
+            "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
+            digits_that_differ(wanted, distance)
+        ),
+    };
+    Some(Diagnostic::new(Code::W0501, message).at(joint.span, label).help(help))
 }
 
 /// A length (m) with as many digits as tell it from another.
@@ -197,8 +216,14 @@ fn digits_that_differ(value: f64, other: f64) -> String {
         return "0 mm".to_owned();
     }
     let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
-    let rounded: f64 = format!("{:.digits$e}", value * 1e3).parse().unwrap_or(value);
-    format!("{} mm", readable(rounded))
+    in_one_unit(value, digits, value.abs().max(other.abs()))
+}
+
+/// A length (m) with so many digits behind the first one, in the unit that suits the larger length beside it.
+fn in_one_unit(value: f64, digits: usize, beside: f64) -> String {
+    let (times, unit) = if beside.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
+    let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
+    format!("{} {unit}", readable(rounded))
 }
 
 impl Moved {

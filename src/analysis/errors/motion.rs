@@ -3,6 +3,7 @@
 use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_places};
 use crate::analysis::kinematics::Fault;
 use crate::diag::{Code, Diagnostic};
+use crate::expr::TableId;
 use crate::ir::{ConditionKind, ConstraintSystem, DeclarationKind};
 
 /// Columns that one message names at most.
@@ -50,6 +51,10 @@ fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let condition = &system.conditions[index];
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);
     let owner = &condition.owner;
+    let ends = |table: TableId| {
+        let knots = &system.graph.tables()[table.index()].knots;
+        [knots.first(), knots.last()].map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])))
+    };
     match condition.kind {
         ConditionKind::Distance => diagnostic(Code::E0606, &format!("the distance of `{owner}` is not positive"))
             .at(condition.span, "reaches zero")
@@ -58,12 +63,18 @@ fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
             .at(condition.span, "no later than its beginning there")
             .help("the arguments are `(u, u0, v0, u1, v1)`, and `u0 < u1` must hold at all times"),
         ConditionKind::Range(table) => {
+            let [first, last] = ends(table);
             let table = &system.graph.tables()[table.index()];
-            let ends = [table.knots.first(), table.knots.last()];
-            let [first, last] = ends.map(|end| end.map_or(f64::NAN, |&end| system.value_at(end, &[])));
             diagnostic(Code::E0608, &format!("table `{}` does not reach as far as `{owner}` goes", table.name))
                 .at(condition.span, format!("leaves its range, {} to {} in SI units", short(first), short(last)))
                 .help("add rows, or let the analysis end before; a table that ends as it begins can repeat: `periodic spline`")
+        }
+        ConditionKind::Samples(table) => {
+            let [first, last] = ends(table);
+            let [from, to] = [first, last].map(short);
+            diagnostic(Code::E0608, &format!("the motion leaves the samples of `{owner}`"))
+                .at(condition.span, format!("from {from} s to {to} s"))
+                .help(format!("add rows, or let the analysis go from {from} s to {to} s"))
         }
     }
 }

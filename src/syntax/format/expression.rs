@@ -41,6 +41,7 @@ impl Level {
             ExprKind::Literal { unit: None, .. }
             | ExprKind::Name(_)
             | ExprKind::Member { .. }
+            | ExprKind::Path(_)
             | ExprKind::Call { .. }
             | ExprKind::Paren(_)
             | ExprKind::Tuple(_) => Level::Operand,
@@ -88,6 +89,16 @@ fn write_bare(text: &mut String, e: &Expr) {
         }
         ExprKind::Name(name) => *text += &name.text,
         ExprKind::Member { owner, feature } => *text += &format!("{}.{}", owner.text, feature.text),
+        ExprKind::Path(segments) => {
+            for (k, segment) in segments.iter().enumerate() {
+                *text += if k > 0 { "." } else { "" };
+                *text += &segment.name.text;
+                if !segment.indices.is_empty() {
+                    let indices: Vec<String> = segment.indices.iter().map(expression).collect();
+                    *text += &format!("[{}]", indices.join(", "));
+                }
+            }
+        }
         ExprKind::Call { name, arguments } => {
             *text += &name.text;
             write_list(text, arguments);

@@ -2,8 +2,7 @@
 
 use super::Fault;
 use crate::diag::{Applies, Edit, Fix};
-use crate::syntax::tokens::{Token, tokens};
-use crate::vocabulary::is_declaration;
+use crate::syntax::tokens::{Token, begins_declaration, tokens};
 
 impl<'a> Fault<'a> {
     /// What was opened before the fault and not closed, innermost last.
@@ -15,7 +14,7 @@ impl<'a> Fault<'a> {
                 "(" | "[" | "{" => opened.push((token.start, token.text)),
                 ")" | "]" | "}" => drop(opened.pop()),
                 // no parenthesis reaches into the next declaration, and `ground.O` is a point
-                word if is_declaration(word) && !before[token.end()..].starts_with('.') => {
+                _ if begins_declaration(self.text, token) => {
                     opened.retain(|(_, token)| *token == "{");
                 }
                 _ => {}
@@ -26,14 +25,34 @@ impl<'a> Fault<'a> {
 
     /// Whether what stands here cannot belong to what is open.
     fn ends_what_is_open(&self) -> bool {
-        self.found.is_empty() || self.found == "}" || self.found == "{" || is_declaration(self.found)
+        self.found.is_empty() || self.found == "}" || self.found == "{" || self.begins_declaration()
+    }
+
+    /// Whether more parentheses and square brackets are closed than opened from here to the next declaration or brace.
+    fn is_closed_behind(&self) -> bool {
+        let rest = &self.text[self.at..];
+        let mut depth = 0;
+        for (k, token) in tokens(rest).into_iter().enumerate() {
+            let place = Token { start: self.at + token.start, ..token };
+            match token.text {
+                "(" | "[" => depth += 1,
+                ")" | "]" => depth -= 1,
+                "{" | "}" => return false,
+                _ if k > 0 && begins_declaration(self.text, place) => return false,
+                _ => {}
+            }
+            if depth < 0 {
+                return true;
+            }
+        }
+        false
     }
 
     /// Another place that explains a fault which shows only behind it, and what to say there.
     pub fn reason(&self) -> Option<(usize, &'static str)> {
         let before = self.before();
         match self.opened().last() {
-            _ if !self.ends_what_is_open() => None,
+            _ if !self.ends_what_is_open() || self.is_closed_behind() => None,
             _ if before.ends_with('=') => Some((before.len() - 1, "nothing stands behind this")),
             None if before.ends_with('}') => Some((before.len() - 1, "this `}` ends the mechanism")),
             Some((start, "(")) => Some((*start, "this `(` is not closed")),
@@ -47,7 +66,8 @@ impl<'a> Fault<'a> {
 
     /// The brackets that are missing before the fault.
     pub(super) fn closing(&self) -> Option<Fix> {
-        if !self.ends_what_is_open() || self.before().ends_with('=') {
+        // what is closed further on is not what is missing
+        if !self.ends_what_is_open() || self.before().ends_with('=') || self.is_closed_behind() {
             return None;
         }
         let opened = self.opened();
@@ -112,12 +132,12 @@ impl<'a> Fault<'a> {
     }
 
     /// As the text has them.
-    fn line_end(&self) -> &'static str {
+    pub(super) fn line_end(&self) -> &'static str {
         if self.text.contains("\r\n") { "\r\n" } else { "\n" }
     }
 
     /// The white space at the beginning of the line that holds a byte.
-    fn indentation(&self, byte: usize) -> &'a str {
+    pub(super) fn indentation(&self, byte: usize) -> &'a str {
         let start = self.text[..byte].rfind('\n').map_or(0, |at| at + 1);
         let line = &self.text[start..];
         &line[..line.len() - line.trim_start().len()]

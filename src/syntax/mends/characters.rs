@@ -20,7 +20,10 @@ const OPERAND: [Rule; 5] = [Rule::expr, Rule::prefix, Rule::literal, Rule::numbe
 
 impl Fault<'_> {
     pub(super) fn of_a_character(&self) -> Option<Mend> {
-        if let Some((_, text, words)) = WRITTEN.iter().find(|(written, ..)| *written == self.found) {
+        // where a name goes on it is no operator
+        let has_operator = self.expects(Rule::infix) || OPERAND.iter().any(|rule| self.expects(*rule));
+        let written = WRITTEN.iter().find(|(written, ..)| *written == self.found);
+        if let Some((_, text, words)) = written.filter(|_| has_operator) {
             return Some(Mend::Fix(self.everywhere_on_the_line(text, words)));
         }
         let (before, behind) = (self.before(), self.behind());
@@ -32,6 +35,7 @@ impl Fault<'_> {
             "==" if self.expects(Rule::equals) => {
                 self.replaced(self.here(), "=", "an equation is written with one `=`", Applies::Always)
             }
+            "=" if self.text[..self.at].ends_with(':') => return self.of_colon_and_equals(),
             "=" if self.expects(Rule::kw_then) => {
                 self.replaced(self.here(), "==", "a comparison is written `==`", Applies::Always)
             }
@@ -42,11 +46,10 @@ impl Fault<'_> {
             }
             "*" if self.text[..self.at].ends_with('/') => self.of_a_comment(self.at - 1),
             "/" if behind.starts_with('*') => self.of_a_comment(self.at),
-            "#" => {
-                let marks = 1 + behind.len() - behind.trim_start_matches('#').len();
-                let range = self.at..self.at + marks;
-                self.replaced(range, "//", "a comment begins with `//`", Applies::Always)
-            }
+            "#" => self.of_a_number_sign(),
+            "%" => Mend::words("a comment begins with `//`; a remainder is `mod(a, b)`"),
+            "√" => Mend::words("a square root is written `sqrt(a)`"),
+            "|" => Mend::words("an absolute value is written `abs(a)`"),
             "°" => self.of_degrees(),
             "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
             "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),
@@ -74,56 +77,47 @@ impl Fault<'_> {
         Fix { message: words.to_owned(), edits, applies: Applies::Always }
     }
 
-    fn left_out(&self, words: &str) -> Mend {
+    pub(super) fn left_out(&self, words: &str) -> Mend {
         let Range { start, end } = self.here();
         let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
         let joins = self.text[..start].ends_with(is_word) && self.text[end..].starts_with(is_word);
         self.replaced(start..end, if joins { " " } else { "" }, words, Applies::Always)
     }
 
-    fn of_a_semicolon(&self, around: &str) -> Mend {
-        let rows = "rows are separated by commas: `(1, 2), (3, 4)`";
-        match around {
-            "[" => self.replaced(self.here(), ",", rows, Applies::Always),
-            // closed on its line, it goes on behind the semicolon
-            "(" if self.expects(Rule::comma) && self.is_closed_on_the_line() => {
-                self.replaced(self.here(), ",", "what stands in parentheses is separated by commas", Applies::Always)
-            }
-            "(" => Mend::words("declarations need no terminator; leave the `;` out"),
-            _ => self.left_out("declarations need no terminator; leave the `;` out"),
-        }
+    /// `driver d := …`
+    fn of_colon_and_equals(&self) -> Option<Mend> {
+        let line = self.behind().lines().next().unwrap_or_default();
+        let is_sure = !self.expects(Rule::prefix) || line.contains('=');
+        let words = "a `:` alone stands behind the name";
+        let start = self.text[..self.at - 1].trim_end().len();
+        is_sure.then(|| self.replaced(start..self.here().end, ":", words, Applies::Always))
     }
 
-    /// Whether the line closes more parentheses behind the fault than it opens.
-    fn is_closed_on_the_line(&self) -> bool {
-        let line = self.behind().lines().next().unwrap_or_default();
-        let mut depth = 0;
-        tokens(line).iter().any(|token| {
-            depth += i32::from(token.text == "(") - i32::from(token.text == ")");
-            depth < 0
-        })
+    /// `# a comment`, and what is none: `a#1`.
+    fn of_a_number_sign(&self) -> Mend {
+        let words = "a comment begins with `//`";
+        let marks = self.found.len() + self.behind().len() - self.behind().trim_start_matches('#').len();
+        let range = self.at..self.at + marks;
+        let is_at_line_start = self.text[..self.at].trim_end_matches([' ', '\t']).ends_with('\n');
+        let is_apart = self.text[..self.at].ends_with(char::is_whitespace);
+        // what has begun and is not complete would go on in the comment
+        let is_complete = self.expects(Rule::infix) || self.expects(Rule::close);
+        match (is_at_line_start, is_apart, is_complete) {
+            (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applies::Always),
+            (_, false, true) => self.replaced(range, " //", words, Applies::Probably),
+            _ => Mend::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
+        }
     }
 
     /// `/* … */`
     fn of_a_comment(&self, start: usize) -> Mend {
         let words = "a comment begins with `//` and ends with its line".to_owned();
-        let inside = &self.text[start + 2..];
-        let Some(length) = inside.find("*/") else { return Mend::Words(words) };
+        let Some(length) = self.text[start + 2..].find("*/") else { return Mend::Words(words) };
         let end = start + 2 + length + 2;
         if !self.text[end..].lines().next().unwrap_or_default().trim().is_empty() {
             return Mend::Words(words);
         }
-        let mut text = String::new();
-        for (k, line) in inside[..length].trim_end().split('\n').enumerate() {
-            let content = line.trim_start();
-            let indent = &line[..line.len() - content.len()];
-            // `///` and what follows would be a doc comment
-            let space = if content.starts_with('/') { " " } else { "" };
-            match k {
-                0 => text += &format!("//{space}{line}"),
-                _ => text += &format!("\n{indent}// {}", content.trim_start_matches('*').trim_start_matches(' ')),
-            }
-        }
+        let text = line_comments(&self.text[start..end - 2]);
         Mend::Fix(Fix::replace(self.span(start..end), text, words, Applies::Always))
     }
 
@@ -171,4 +165,29 @@ impl Fault<'_> {
             _ => None,
         }
     }
+}
+
+/// What a comment from `/*` on says, as line comments; one from `/**` on documents what follows.
+fn line_comments(text: &str) -> String {
+    let is_doc = text.starts_with("/**") && !text.starts_with("/***");
+    let mark = if is_doc { "///" } else { "//" };
+    let inside = text.trim_start_matches('/').trim_start_matches('*').trim_end_matches('*').trim_end();
+    let mut lines = inside.split('\n').enumerate().peekable();
+    // of a doc comment the first line is mostly empty
+    if is_doc && inside.contains('\n') {
+        lines.next_if(|(_, line)| line.trim().is_empty());
+    }
+    let mut all = String::new();
+    for (k, line) in lines {
+        let content = line.trim_start();
+        let indent = &line[..line.len() - content.len()];
+        // the stars of the lines stand below that of the first
+        let indent = if content.starts_with('*') { indent.strip_suffix(' ').unwrap_or(indent) } else { indent };
+        let indent = if all.is_empty() { "" } else { indent };
+        let end = if all.is_empty() { "" } else { "\n" };
+        let content = if k == 0 { line } else { content.trim_start_matches('*').trim_start_matches(' ') };
+        let gap = if k > 0 || content.starts_with('/') { " " } else { "" };
+        all += &format!("{end}{indent}{mark}{gap}{content}");
+    }
+    all
 }

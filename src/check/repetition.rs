@@ -1,0 +1,381 @@
+//! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
+//! names that the copies have. All else of `check` knows plain declarations alone.
+
+use super::{Checker, Surroundings, errors};
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::model::Dimension;
+use crate::source::{Sources, Span};
+use crate::syntax::ast::{
+    self, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Sign,
+};
+use crate::vocabulary::is_taken;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// Declarations that a mechanism may have, written out.
+const MOST: usize = 1_000_000;
+
+/// How far a number may be from a whole one: rounding.
+const WHOLE: f64 = 1e-9;
+
+/// A mechanism with every repeated declaration written out, and what is wrong with the repetition; nothing where there is none.
+pub(super) fn written_out(
+    tree: &Mechanism,
+    surroundings: &Surroundings,
+    sources: &Sources,
+) -> Option<(Mechanism, Diagnostics)> {
+    if tree.items.iter().all(|item| item.ranges.is_empty()) {
+        return None;
+    }
+    let definitions = definitions_of(tree);
+    let mut checker = Checker::new(&definitions, surroundings, sources);
+    checker.collect(&definitions);
+    checker.definitions();
+    // the same is told of the whole
+    checker.diagnostics = Diagnostics::default();
+    let names = tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect();
+    let mut writer = Writer { checker, names, numbers: FxHashMap::default(), count: 0, told: FxHashSet::default() };
+    let copies: Vec<Option<Vec<Numbers>>> = tree.items.iter().map(|item| writer.copies(item)).collect();
+    for (item, copies) in tree.items.iter().zip(&copies) {
+        if let (Some(name), Some(copies)) = (name_of(item).filter(|_| !item.ranges.is_empty()), copies) {
+            let numbers = copies.iter().map(|numbers| numbers.iter().map(|(_, k)| *k).collect()).collect();
+            writer.numbers.insert(&name.text, numbers);
+        }
+    }
+    let mut items = Vec::new();
+    for (item, copies) in tree.items.iter().zip(&copies) {
+        match copies {
+            Some(copies) => items.extend(copies.iter().map(|numbers| writer.copy(item, numbers))),
+            None => items.push(broken(item, &Vec::new())),
+        }
+    }
+    let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
+    Some((written, writer.checker.diagnostics))
+}
+
+/// What the bounds of ranges may speak of.
+fn definitions_of(tree: &Mechanism) -> Mechanism {
+    let is_definition =
+        |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Function { .. } | ItemKind::Table { .. });
+    let items = tree.items.iter().filter(is_definition).cloned().collect();
+    Mechanism { items, docs: Vec::new(), name: tree.name.clone(), span: tree.span }
+}
+
+/// The numbers of a copy, each with what it is called.
+type Numbers<'t> = Vec<(&'t str, i64)>;
+
+struct Writer<'t, 'c> {
+    /// Knows the params.
+    checker: Checker<'c>,
+    /// The mechanism's names.
+    names: FxHashSet<&'t str>,
+    /// Of what is repeated: the numbers of its copies.
+    numbers: FxHashMap<&'t str, FxHashSet<Vec<i64>>>,
+    /// Declarations so far.
+    count: usize,
+    /// Where something was told already: what is wrong in every copy is told once.
+    told: FxHashSet<Span>,
+}
+
+/// A formula or declaration that cannot be written out, which has been said.
+struct Unwritten;
+
+type Written<T> = Result<T, Unwritten>;
+
+impl<'t> Writer<'t, '_> {
+    fn tell(&mut self, diagnostic: Diagnostic) {
+        let span = diagnostic.labels.first().map(|label| label.span);
+        if span.is_none_or(|span| self.told.insert(span)) {
+            self.checker.report(diagnostic);
+        }
+    }
+
+    /// The numbers of each copy of a declaration; of one that is not repeated there is one, without numbers. None where that cannot
+    /// be told.
+    fn copies(&mut self, item: &'t Item) -> Option<Vec<Numbers<'t>>> {
+        let mut copies: Vec<Numbers<'t>> = vec![Vec::new()];
+        for range in &item.ranges {
+            if !self.is_free(range, &item.ranges) {
+                return None;
+            }
+            let mut longer = Vec::new();
+            for numbers in copies {
+                let [from, to] = self.bounds(range, &numbers)?;
+                let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
+                if self.count.saturating_add(longer.len()).saturating_add(more) > MOST {
+                    self.tell(errors::too_many_declarations(range.index.span, MOST));
+                    return None;
+                }
+                longer.extend((from..to).map(|k| {
+                    let mut numbers = numbers.clone();
+                    numbers.push((range.index.text.as_str(), k));
+                    numbers
+                }));
+            }
+            copies = longer;
+        }
+        self.count += copies.len();
+        Some(copies)
+    }
+
+    /// Whether an index has a name of its own.
+    fn is_free(&mut self, range: &ast::Range, all: &[ast::Range]) -> bool {
+        let name = &range.index;
+        let before = all.iter().take_while(|other| other.index.span != name.span);
+        let is_again = before.into_iter().any(|other| other.index.text == name.text);
+        let is_free = !is_taken(&name.text) && !self.names.contains(name.text.as_str()) && !is_again;
+        if !is_free {
+            self.tell(errors::index_is_taken(name));
+        }
+        is_free
+    }
+
+    /// The first number, and the one behind the last.
+    fn bounds(&mut self, range: &ast::Range, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
+        let from = self.whole_number(&range.from, numbers, "a bound of a range").ok()?;
+        let to = self.whole_number(&range.to, numbers, "a bound of a range").ok()?;
+        Some([from, if range.is_closed { to.saturating_add(1) } else { to }])
+    }
+
+    fn whole_number(&mut self, e: &Expr, numbers: &Numbers<'_>, place: &str) -> Written<i64> {
+        let value = if let Some(value) = simple(e, numbers) {
+            value
+        } else {
+            let formula = self.formula(e, numbers)?;
+            self.checker.constant(&formula, place, Dimension::PURE).ok_or(Unwritten)?.1
+        };
+        let whole = value.round();
+        if (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
+            self.tell(errors::not_whole(place, e.span, value, numbers));
+            return Err(Unwritten);
+        }
+        Ok(whole as i64)
+    }
+
+    /// A copy of a declaration; as broken, where something in it cannot be written out.
+    fn copy(&mut self, item: &Item, numbers: &Numbers<'_>) -> Item {
+        match self.kind(&item.kind, numbers) {
+            Ok(kind) => Item { docs: item.docs.clone(), span: item.span, ranges: Vec::new(), kind },
+            Err(Unwritten) => broken(item, numbers),
+        }
+    }
+
+    fn kind(&mut self, kind: &ItemKind, numbers: &Numbers<'_>) -> Written<ItemKind> {
+        let own = |name: &Name| named(name, numbers);
+        Ok(match kind {
+            ItemKind::Input { name, value } => {
+                ItemKind::Input { name: own(name), value: self.formula(value, numbers)? }
+            }
+            ItemKind::Measure { name, value } => {
+                ItemKind::Measure { name: own(name), value: self.formula(value, numbers)? }
+            }
+            ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
+            ItemKind::Body { name, pose, features } => ItemKind::Body {
+                name: own(name),
+                pose: pose.as_ref().map(|pose| self.pose(pose, numbers)).transpose()?,
+                features: self.features(features, numbers)?,
+            },
+            ItemKind::Joint { name, kind, arguments, call_span } => ItemKind::Joint {
+                name: own(name),
+                kind: kind.clone(),
+                arguments: self.formulas(arguments, numbers)?,
+                call_span: *call_span,
+            },
+            ItemKind::Equation { driver, name, left, right } => ItemKind::Equation {
+                driver: *driver,
+                name: own(name),
+                left: self.formula(left, numbers)?,
+                right: self.formula(right, numbers)?,
+            },
+            other => other.clone(),
+        })
+    }
+
+    fn features(&mut self, features: &[Feature], numbers: &Numbers<'_>) -> Written<Vec<Feature>> {
+        let copy = |feature: &Feature| {
+            let mut of = |e: &Expr| self.formula(e, numbers);
+            let kind = match &feature.kind {
+                FeatureKind::Broken => FeatureKind::Broken,
+                FeatureKind::Point { at } => FeatureKind::Point { at: at.as_ref().map(of).transpose()? },
+                FeatureKind::AxisAlong { origin, direction } => {
+                    FeatureKind::AxisAlong { origin: of(origin)?, direction: of(direction)? }
+                }
+                FeatureKind::AxisTo { origin, target } => {
+                    FeatureKind::AxisTo { origin: of(origin)?, target: of(target)? }
+                }
+                FeatureKind::Circle { center, radius } => {
+                    FeatureKind::Circle { center: of(center)?, radius: of(radius)? }
+                }
+                FeatureKind::Curve { argument, at, estimate } => FeatureKind::Curve {
+                    argument: argument.clone(),
+                    at: of(at)?,
+                    estimate: estimate.as_ref().map(of).transpose()?,
+                },
+            };
+            Ok(Feature { docs: feature.docs.clone(), span: feature.span, name: feature.name.clone(), kind })
+        };
+        features.iter().map(copy).collect()
+    }
+
+    fn pose(&mut self, pose: &Pose, numbers: &Numbers<'_>) -> Written<Pose> {
+        let toward = pose.toward.as_ref().map(|toward| self.formula(toward, numbers)).transpose()?;
+        Ok(Pose { at: self.formula(&pose.at, numbers)?, toward })
+    }
+
+    fn formulas(&mut self, list: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<Expr>> {
+        list.iter().map(|e| self.formula(e, numbers)).collect()
+    }
+
+    /// A formula with its numbers in the place of what they are called, and paths as names.
+    fn formula(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Written<Expr> {
+        let mut boxed = |e: &Expr| self.formula(e, numbers).map(Box::new);
+        let kind = match &e.kind {
+            ExprKind::Literal { .. } => e.kind.clone(),
+            ExprKind::Name(name) => {
+                if let Some(&(_, k)) = numbers.iter().find(|(index, _)| *index == name.text) {
+                    ExprKind::Literal { value: k as f64, unit: None }
+                } else {
+                    self.must_not_be_repeated(name)?;
+                    e.kind.clone()
+                }
+            }
+            ExprKind::Member { owner, .. } => {
+                self.must_not_be_repeated(owner)?;
+                e.kind.clone()
+            }
+            ExprKind::Path(segments) => self.path(e.span, segments, numbers)?,
+            ExprKind::Call { name, arguments } => {
+                ExprKind::Call { name: name.clone(), arguments: self.formulas(arguments, numbers)? }
+            }
+            ExprKind::Paren(inner) => ExprKind::Paren(boxed(inner)?),
+            ExprKind::Negate(inner) => ExprKind::Negate(boxed(inner)?),
+            ExprKind::Not(inner) => ExprKind::Not(boxed(inner)?),
+            ExprKind::Power(a, b) => ExprKind::Power(boxed(a)?, boxed(b)?),
+            ExprKind::Compare(a, relation, b) => ExprKind::Compare(boxed(a)?, *relation, boxed(b)?),
+            ExprKind::Tuple(list) => ExprKind::Tuple(self.formulas(list, numbers)?),
+            ExprKind::And(list) => ExprKind::And(self.formulas(list, numbers)?),
+            ExprKind::Or(list) => ExprKind::Or(self.formulas(list, numbers)?),
+            ExprKind::Sum(first, rest) => {
+                let terms = rest.iter().map(|(sign, term)| Ok((*sign, self.formula(term, numbers)?)));
+                let rest = terms.collect::<Written<_>>()?;
+                ExprKind::Sum(Box::new(self.formula(first, numbers)?), rest)
+            }
+            ExprKind::Product(first, rest) => {
+                let factors = rest.iter().map(|(kind, factor)| Ok((*kind, self.formula(factor, numbers)?)));
+                let rest = factors.collect::<Written<_>>()?;
+                ExprKind::Product(Box::new(self.formula(first, numbers)?), rest)
+            }
+            ExprKind::If { arms, otherwise } => {
+                let arms = arms
+                    .iter()
+                    .map(|(condition, value)| Ok((self.formula(condition, numbers)?, self.formula(value, numbers)?)));
+                let arms = arms.collect::<Written<_>>()?;
+                ExprKind::If { arms, otherwise: Box::new(self.formula(otherwise, numbers)?) }
+            }
+        };
+        Ok(Expr { kind, span: e.span })
+    }
+
+    fn must_not_be_repeated(&mut self, name: &Name) -> Written<()> {
+        let Some(copies) = self.numbers.get(name.text.as_str()) else { return Ok(()) };
+        let first = copies.iter().min().map(|numbers| indexed(&name.text, numbers));
+        self.tell(errors::which_copy(name, first.as_deref()));
+        Err(Unwritten)
+    }
+
+    /// `link[2].pin`
+    fn path(&mut self, span: Span, segments: &[ast::Segment], numbers: &Numbers<'_>) -> Written<ExprKind> {
+        let [first, rest @ ..] = segments else { return Err(Unwritten) };
+        let owner = self.copy_named(first, numbers)?;
+        match rest {
+            [] => Ok(ExprKind::Name(owner)),
+            [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
+            _ => {
+                self.tell(errors::path_of_nothing(span, segments));
+                Err(Unwritten)
+            }
+        }
+    }
+
+    /// The name that a copy has.
+    fn copy_named(&mut self, segment: &ast::Segment, numbers: &Numbers<'_>) -> Written<Name> {
+        let ast::Segment { name, indices } = segment;
+        if indices.is_empty() {
+            self.must_not_be_repeated(name)?;
+            return Ok(name.clone());
+        }
+        let values =
+            indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect::<Written<Vec<i64>>>()?;
+        let diagnostic = match self.numbers.get(name.text.as_str()) {
+            Some(copies) if copies.contains(&values) => {
+                return Ok(Name { text: indexed(&name.text, &values), span: name.span });
+            }
+            Some(copies) => {
+                let ends =
+                    [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
+                let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
+                errors::no_such_copy(&indexed(&name.text, &values), span, ends, numbers)
+            }
+            None if self.names.contains(name.text.as_str()) => errors::not_repeated(name),
+            // nothing of that name is told by whoever asks for it
+            None => return Ok(Name { text: indexed(&name.text, &values), span: name.span }),
+        };
+        self.tell(diagnostic);
+        Err(Unwritten)
+    }
+}
+
+fn name_of(item: &Item) -> Option<&Name> {
+    match &item.kind {
+        ItemKind::Param { name, .. }
+        | ItemKind::Function { name, .. }
+        | ItemKind::Table { name, .. }
+        | ItemKind::Input { name, .. }
+        | ItemKind::Body { name, .. }
+        | ItemKind::Joint { name, .. }
+        | ItemKind::Equation { name, .. }
+        | ItemKind::Measure { name, .. } => Some(name),
+        ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
+    }
+}
+
+/// A declaration, or one of its copies, that cannot be written out, which has been said.
+fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
+    let names = name_of(item).map(|name| named(name, numbers)).into_iter().collect();
+    Item { docs: Vec::new(), span: item.span, ranges: Vec::new(), kind: ItemKind::Broken { names } }
+}
+
+/// What a copy is called.
+fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
+    if numbers.is_empty() {
+        return name.clone();
+    }
+    let numbers: Vec<i64> = numbers.iter().map(|(_, k)| *k).collect();
+    Name { text: indexed(&name.text, &numbers), span: name.span }
+}
+
+/// `grid[1,3]`
+fn indexed(name: &str, numbers: &[i64]) -> String {
+    let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
+    format!("{name}[{}]", numbers.join(","))
+}
+
+/// The value of a formula of numbers alone, as most indices are.
+fn simple(e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
+    Some(match &e.kind {
+        ExprKind::Literal { value, unit: None } => *value,
+        ExprKind::Name(name) => numbers.iter().find(|(index, _)| *index == name.text)?.1 as f64,
+        ExprKind::Paren(inner) => simple(inner, numbers)?,
+        ExprKind::Negate(inner) => -simple(inner, numbers)?,
+        ExprKind::Sum(first, rest) => rest.iter().try_fold(simple(first, numbers)?, |sum, (sign, term)| {
+            let term = simple(term, numbers)?;
+            Some(if *sign == Sign::Plus { sum + term } else { sum - term })
+        })?,
+        ExprKind::Product(first, rest) => {
+            rest.iter().try_fold(simple(first, numbers)?, |product, (kind, factor)| {
+                let factor = simple(factor, numbers)?;
+                (*kind == Factor::Times).then_some(product * factor)
+            })?
+        }
+        _ => return None,
+    })
+}

@@ -1,0 +1,135 @@
+//! Inputs: what they are by the text, by a formula from outside, by samples.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions, Times};
+
+/// A crank and a slider on rails of their own, with what they do.
+fn machine(inputs: &str, [turn, feed]: [&str; 2]) -> String {
+    format!(
+        "mechanism machine {{
+            param gain = 2
+            fn    double(u) = gain * u
+            {inputs}
+            ground {{ point O = (0, 0)  axis way = (0, 0) along (1, 0) }}
+            body crank at (0, 0, 0) {{ point O = (0, 0)  point pin = (50 mm, 0) }}
+            body rod at (50 mm, 0, 0) {{ point pin = (0, 0)  point eye = (150 mm, 0) }}
+            body slide at (200 mm, 0, 0) {{ point eye = (0, 0)  axis way = eye along (1, 0) }}
+            body bed at (0, 0, 0) {{ axis way = (0, 0) along (1, 0) }}
+            joint main:  revolute(ground.O, crank.O)
+            joint big:   revolute(crank.pin, rod.pin)
+            joint small: revolute(rod.eye, slide.eye)
+            joint guide: translational(ground.way, slide.way)
+            joint rails: translational(ground.way, bed.way)
+            driver motor: rotation(main) = {turn}
+            driver drive: displacement(rails) = {feed}
+            measure sum = {turn} + ({feed}) / 1 mm
+            analysis from 0 s to 1 s every 40 ms
+        }}"
+    )
+}
+
+const INPUTS: &str = "input turn = 30 deg + 1 rev/s * t
+            input feed = 10 mm + 5 mm/s * t";
+
+/// The rows of a text, or the codes of what is wrong with it.
+fn rows(text: &str, choice: &Choice, world: &Memory) -> Result<Vec<Vec<u64>>, Vec<&'static str>> {
+    let checked = Parsed::of("machine.mech", text).check(choice, world);
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let codes = || checked.diagnostics().iter().chain(said.iter()).map(|fault| fault.code.as_str()).collect::<Vec<_>>();
+    let compiled = compiled.ok_or_else(codes)?;
+    let [from, to, every] = compiled.analysis().expect("times");
+    let times = Times::grid(from, to, every).expect("a grid");
+    let (run, said) = compiled.run(&times, &RunOptions::default());
+    let mut run = run.ok_or_else(|| said.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>())?;
+    let mut rows = Vec::new();
+    while let Some(row) = run.next_row() {
+        match row {
+            Ok(row) => rows.push(row.iter().map(|value| value.to_bits()).collect()),
+            Err(why) => return Err(vec![why.code.as_str()]),
+        }
+    }
+    Ok(rows)
+}
+
+fn told(inputs: &[&str], samples: Option<&str>) -> (Choice, Memory) {
+    let inputs = inputs.iter().map(|input| (*input).to_owned()).collect();
+    let world = samples.map_or_else(Memory::default, |text| Memory::default().with("samples.csv", text));
+    (Choice { inputs, samples: samples.map(|_| "samples.csv".into()), ..Choice::default() }, world)
+}
+
+/// The rows of a mechanism whose inputs are told something are those of one in which that is written.
+fn is_the_same_as(inputs: &[&str], samples: Option<&str>, definitions: &str, written: [&str; 2]) {
+    let (choice, world) = told(inputs, samples);
+    let with_inputs = rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world).expect("rows");
+    let without = rows(&machine(definitions, written), &Choice::default(), &Memory::default()).expect("rows");
+    assert!(with_inputs.len() > 20);
+    assert!(with_inputs == without, "the rows differ: {definitions}");
+}
+
+#[test]
+fn an_input_that_nobody_tells_anything_is_its_formula() {
+    is_the_same_as(&[], None, "", ["30 deg + 1 rev/s * t", "10 mm + 5 mm/s * t"]);
+}
+
+#[test]
+fn an_input_is_the_formula_that_it_is_told_to_be() {
+    let formulas = ["turn=double(t / 1 s) - 0.5", " feed = 0.02 * t"];
+    is_the_same_as(&formulas, None, "", ["double(t / 1 s) - 0.5", "20 mm/s * t"]);
+}
+
+#[test]
+fn samples_are_joined_by_the_splines_of_tables() {
+    let samples = "feed [mm], t [ms], turn [deg]\n10,0,30\n12,400,90\n13,1000,200\n";
+    let definitions = "table turn = spline [(0 s, 30 deg), (400 ms, 90 deg), (1000 ms, 200 deg)]
+            table feed = spline [(0 s, 10 mm), (400 ms, 12 mm), (1000 ms, 13 mm)]";
+    is_the_same_as(&[], Some(samples), definitions, ["turn(t)", "feed(t)"]);
+    // one by samples, the other by a formula
+    let samples = "t,turn\n0,0.5\n2,1.5\n";
+    let definitions = "table turn = spline [(0 s, 0.5), (2 s, 1.5)]";
+    is_the_same_as(&["feed=0.03"], Some(samples), definitions, ["turn(t)", "30 mm"]);
+}
+
+#[test]
+fn what_cannot_be_is_told() {
+    let of = |inputs: &[&str], samples: Option<&str>| {
+        let (choice, world) = told(inputs, samples);
+        rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world).expect_err("a fault")
+    };
+    assert_eq!(of(&["turns=3"], None), ["E0703"]);
+    assert_eq!(of(&["turn"], None), ["E0706"]);
+    assert_eq!(of(&["turn=3", "turn=4"], None), ["E0706"]);
+    assert_eq!(of(&["turn=3 mm"], None), ["E0402"]);
+    assert_eq!(of(&["turn=x(crank.pin)"], None), ["E0307"]);
+    assert_eq!(of(&["turn=feed / 1 mm"], None), ["E0306"]);
+    assert_eq!(of(&["turn=3"], Some("t,turn\n0,1\n1,2\n")), ["E0706"]);
+    assert_eq!(of(&[], Some("t,turns\n0,1\n1,2\n")), ["E0703"]);
+    assert_eq!(of(&[], Some("t,turn [mm]\n0,1\n1,2\n")), ["E0402"]);
+    assert_eq!(of(&[], Some("t,turn\n0,1\n0,2\n")), ["E0414"]);
+    assert_eq!(of(&[], Some("t,turn\n0,one\n1,2\n")), ["E0416"]);
+    // a time outside the samples is told when it is reached
+    assert_eq!(of(&[], Some("t,turn\n0,1\n0.5,2\n")), ["E0608"]);
+    assert_eq!(of(&[], Some("t,turn\n0.5,1\n2,2\n")), ["E0608"]);
+}
+
+#[test]
+fn inputs_stand_where_time_may() {
+    let codes = |change: (&str, &str)| {
+        let text = machine(INPUTS, ["turn", "feed"]);
+        assert!(text.contains(change.0));
+        rows(&text.replacen(change.0, change.1, 1), &Choice::default(), &Memory::default()).err()
+    };
+    assert_eq!(codes(("double(u) = gain * u", "double(u) = turn * u")), None);
+    assert_eq!(codes(("gain = 2", "gain = turn")), Some(vec!["E0306"]));
+    assert_eq!(codes(("(50 mm, 0)", "(feed, 0)")), Some(vec!["E0306"]));
+    assert_eq!(codes(("5 mm/s * t", "turn * 5 mm")), Some(vec!["E0306"]));
+    assert_eq!(codes(("driver drive", "constraint drive")), Some(vec!["E0306"]));
+    assert_eq!(codes(("input feed = 10 mm + 5 mm/s * t", "input feed = x(crank.pin)")), Some(vec!["E0307"]));
+    // a function that holds an input may not stand in one
+    let through = (
+        "double(u) = gain * u\n            input turn = 30 deg",
+        "double(u) = feed * u\n            input turn = double(1) / 1 mm",
+    );
+    assert_eq!(codes(through), Some(vec!["E0306"]));
+    assert_eq!(codes(("1 rev/s * t", "1 rev/s * t + turn")), Some(vec!["E0206"]));
+}
