@@ -60,6 +60,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         ItemKind::Param { value, .. } | ItemKind::Function { value, .. } | ItemKind::Measure { value, .. } => {
             vec![value]
         }
+        ItemKind::Trace { point, .. } => vec![point],
         ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),
         ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),

@@ -17,6 +17,7 @@ mod meaning;
 mod mends;
 mod mentions;
 mod names;
+mod printed;
 mod profiles;
 mod quantities;
 mod symbols;
@@ -30,7 +31,7 @@ use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param};
 use crate::source::{Sources, Span};
-use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
+use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
@@ -173,8 +174,20 @@ struct Function<'a> {
 struct MeasureState<'a> {
     name: &'a Name,
     value: &'a Expr,
+    /// In what it is printed, if that is said.
+    unit: Option<&'a WrittenUnit>,
     dimensional: bool,
     sound: bool,
+    /// How often an angle is a factor of it.
+    angle: i32,
+    /// Whether it holds a number that may stand for anything.
+    holds_plain_number: bool,
+}
+
+impl<'a> MeasureState<'a> {
+    fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+        MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, holds_plain_number: false }
+    }
 }
 
 struct Checker<'a> {
@@ -199,6 +212,8 @@ struct Checker<'a> {
     lengths: Lengths<'a>,
     /// Bodies whose place in the drawing is not known.
     broken_poses: FxHashSet<Frame>,
+    /// How often an angle is a factor of each parameter.
+    param_angles: Vec<i32>,
     /// Parameters that are given in a unit of angle, with the places of their names.
     angle_params: FxHashMap<usize, Span>,
     named: FxHashMap<Named, NamedId>,
@@ -242,6 +257,7 @@ impl<'a> Checker<'a> {
             features: FxHashMap::default(),
             lengths: Lengths::default(),
             broken_poses: FxHashSet::default(),
+            param_angles: Vec::new(),
             angle_params: FxHashMap::default(),
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
@@ -302,6 +318,7 @@ impl<'a> Checker<'a> {
                     entities.push(Entity::Param(self.params.len()));
                     definitions.push((name, vec![value]));
                     self.params.push(None);
+                    self.param_angles.push(0);
                     self.param_formulas.push((name, value));
                 }
                 ItemKind::Function { name, argument, value } => {
@@ -309,10 +326,10 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.functions.push(Function { argument, value, dimensional: false, time: None, sound: false });
                 }
-                ItemKind::Measure { name, value } => {
+                ItemKind::Measure { name, value, unit } => {
                     entities.push(Entity::Measure(self.measures.len()));
                     definitions.push((name, vec![value]));
-                    self.measures.push(MeasureState { name, value, dimensional: false, sound: false });
+                    self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
@@ -338,6 +355,7 @@ impl<'a> Checker<'a> {
                 Entity::Param(k) => {
                     self.params[k] = formulas.first().and_then(|value| {
                         self.remember_angle(name, value);
+                        self.param_angles[k] = self.angle_power(value);
                         self.param(name, docs[at], value)
                     });
                 }

@@ -5,7 +5,9 @@
 
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
+use crate::syntax::ast::{
+    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows, WrittenUnit,
+};
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -55,6 +57,8 @@ pub enum NameKind {
     Driver,
     /// `measure`
     Measure,
+    /// `trace`
+    Trace,
     /// What cannot be read.
     Broken,
 }
@@ -205,6 +209,7 @@ impl Walk {
             ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
             ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
+            ItemKind::Trace { name, .. } => (name, NameKind::Trace),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -250,7 +255,13 @@ impl Walk {
     fn uses_in(&mut self, item: &Item, id: Option<NameId>) {
         let plain = Scope::default();
         match &item.kind {
-            ItemKind::Param { value, .. } | ItemKind::Measure { value, .. } => self.formula(value, plain),
+            ItemKind::Param { value, .. } => self.formula(value, plain),
+            ItemKind::Measure { value: formula, unit, .. } | ItemKind::Trace { point: formula, unit, .. } => {
+                self.formula(formula, plain);
+                if let Some(unit) = unit {
+                    self.compound(unit);
+                }
+            }
             ItemKind::Function { argument, value, .. } => {
                 let declared = self.declare(argument, NameKind::Argument, item.span, id);
                 self.formula(value, Scope { argument: Some((&argument.text, declared)), ..plain });
@@ -261,7 +272,7 @@ impl Walk {
                 }
             }
             ItemKind::Table { rows: TableRows::File { units, .. }, .. } => {
-                units.iter().flatten().for_each(|unit| self.unit(unit));
+                units.iter().flatten().for_each(|unit| self.compound(unit));
             }
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground),
             ItemKind::Body { pose, features, .. } => {
@@ -341,6 +352,10 @@ impl Walk {
 
     fn declared(&mut self, name: &Name, id: NameId) {
         self.symbols.uses.push(Use { span: name.span, meaning: Meaning::Declared(id), declares: false });
+    }
+
+    fn compound(&mut self, written: &WrittenUnit) {
+        written.factors.iter().for_each(|factor| self.unit(&factor.name));
     }
 
     fn unit(&mut self, name: &Name) {

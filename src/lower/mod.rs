@@ -14,9 +14,9 @@ mod uses;
 use crate::expr::{Comparison, ExprId, Graph, Symbol};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
-    Owner, Param, Row, SparseRows, Watch,
+    Owner, Param, Row, SparseRows, Units, Watch,
 };
-use crate::model::{AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
+use crate::model::{self, AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -306,7 +306,8 @@ impl Lowering<'_> {
                 let holds = self.all_hold(&measure.conditions);
                 let value = self.only_where(holds, value);
                 let [first, second] = [first, second].map(|id| id.map(|id| self.only_where(holds, id)));
-                Measure { name, value, first, second, span }
+                let model::Units { si, printed, scale } = measure.units.clone();
+                Measure { name, value, first, second, span, units: Units { si, printed, scale } }
             })
             .collect()
     }

@@ -5,7 +5,7 @@
 
 mod print;
 
-pub use crate::vocabulary::Dimension;
+pub use crate::vocabulary::{CompoundUnit, Dimension};
 
 use crate::expr::{ExprId, Graph, TableId};
 use crate::source::Span;
@@ -477,6 +477,44 @@ pub struct Measure {
     pub value: ExprId,
     /// What must be positive for it to have a value.
     pub conditions: Vec<Condition>,
+    /// In what it is printed.
+    pub units: Units,
+}
+
+/// The units of a measure and of its derivatives.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Units {
+    /// The SI unit of its value.
+    pub si: String,
+    /// Those in which it, its first and its second time derivative are printed.
+    pub printed: [String; 3],
+    /// What SI is multiplied with, and then divided by, to be in these.
+    pub scale: [f64; 2],
+}
+
+impl Units {
+    /// SI; angles are told from other pure numbers.
+    #[must_use]
+    pub fn si(dimension: Dimension, is_angle: bool) -> Units {
+        let printed = [0.0, 1.0, 2.0].map(|times| si(dimension.over(Dimension::TIME.to_the(times)), is_angle));
+        Units { si: printed[0].clone(), printed, scale: [1.0, 1.0] }
+    }
+
+    /// Another unit.
+    #[must_use]
+    pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
+        let printed = [0, 1, 2].map(|times| unit.per_second(times));
+        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.from_si() }
+    }
+}
+
+/// `m/s^2`; `rad/s` for a turning speed.
+fn si(dimension: Dimension, is_angle: bool) -> String {
+    let unit = dimension.unit();
+    match unit.strip_prefix('1') {
+        Some(rest) if is_angle => format!("rad{rest}"),
+        _ => unit,
+    }
 }
 
 /// A formula that must be positive, for others to have a meaning.

@@ -233,7 +233,9 @@ impl std::fmt::Display for Mechanism {
             writeln!(f, "\nmeasures")?;
         }
         for measure in &self.measures {
-            writeln!(f, "  {} = {}", measure.declared.name, text.formula_text(measure.value))?;
+            let [unit, ..] = &measure.units.printed;
+            let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", measure.declared.name, text.formula_text(measure.value))?;
         }
         if let Some(analysis) = self.analysis {
             let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);

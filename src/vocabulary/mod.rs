@@ -23,7 +23,7 @@ pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use synonyms::{Place, SYNONYMS, Synonym};
-pub use units::{UNITS, Unit};
+pub use units::{CompoundUnit, UNITS, Unit};
 
 /// A word, as a reader is told of it.
 #[derive(Debug)]

@@ -172,7 +172,8 @@ fn list(title: &str, intro: &str, words: &[&Word]) -> String {
 
 fn units() -> String {
     let intro = "A unit follows a literal number, with its power if it has one: `50 mm`, `50 mm^2`. Elsewhere it is a constant: \
-                 `9.81 m/s^2`. Inside, all is in m, rad and s, and so are the tables of results. Angles are pure numbers.";
+                 `9.81 m/s^2`. Inside, all is in m, rad and s, and so are the tables of results, but for measures and traces with \
+                 another unit behind `in`: units with powers, joined by `*` and `/`. Angles are pure numbers.";
     let rows: Vec<[String; 2]> = UNITS
         .iter()
         .map(|unit| [unit.word.name.to_owned(), format!("{:24}  {}", in_si(unit), unit.word.meaning)])
@@ -185,7 +186,7 @@ fn keywords() -> String {
         ("Declarations", &[Role::Declaration]),
         ("In a body or the ground", &[Role::Feature]),
         ("In formulas", &[Role::Formula]),
-        ("Words in their places, and names elsewhere", &[Role::Separator, Role::Place, Role::Side]),
+        ("Words in their places, and names elsewhere", &[Role::Opener, Role::Separator, Role::Place, Role::Side]),
     ];
     let mut text = "# Keywords\n".to_owned();
     for (title, roles) in parts {
