@@ -161,19 +161,19 @@ impl Started {
 pub struct ColumnUnit {
     /// `mm/s`; `1` for a pure number.
     pub text: String,
-    /// What SI is multiplied with, and then divided by, to be in this unit.
-    scale: [f64; 2],
+    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    scale: [f64; 3],
 }
 
 impl ColumnUnit {
     fn si(text: impl Into<String>) -> ColumnUnit {
-        ColumnUnit { text: text.into(), scale: [1.0, 1.0] }
+        ColumnUnit { text: text.into(), scale: [1.0; 3] }
     }
 
     /// A value in SI, in this unit.
     #[must_use]
     pub fn from_si(&self, value: f64) -> f64 {
-        value * self.scale[0] / self.scale[1]
+        value / self.scale[0] * self.scale[1] / self.scale[2]
     }
 }
 

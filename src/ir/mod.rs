@@ -234,8 +234,8 @@ pub struct Units {
     pub si: String,
     /// Those in which it, its first and its second time derivative are printed.
     pub printed: [String; 3],
-    /// What SI is multiplied with, and then divided by, to be in these.
-    pub scale: [f64; 2],
+    /// What SI is divided by, multiplied with and divided by to be in these.
+    pub scale: [f64; 3],
 }
 
 /// A formula that must be above zero.

@@ -488,8 +488,8 @@ pub struct Units {
     pub si: String,
     /// Those in which it, its first and its second time derivative are printed.
     pub printed: [String; 3],
-    /// What SI is multiplied with, and then divided by, to be in these.
-    pub scale: [f64; 2],
+    /// What SI is divided by, multiplied with and divided by to be in these.
+    pub scale: [f64; 3],
 }
 
 impl Units {
@@ -497,7 +497,7 @@ impl Units {
     #[must_use]
     pub fn si(dimension: Dimension, is_angle: bool) -> Units {
         let printed = [0.0, 1.0, 2.0].map(|times| si(dimension.over(Dimension::TIME.to_the(times)), is_angle));
-        Units { si: printed[0].clone(), printed, scale: [1.0, 1.0] }
+        Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
     }
 
     /// Another unit.

@@ -217,15 +217,23 @@ impl CompoundUnit {
         self.factors.iter().fold(value, |value, (unit, power)| unit.to_si(value, *power))
     }
 
-    /// What a value in SI is multiplied with and then divided by to be in this unit.
+    /// What a value in SI is divided by, multiplied with and divided by, one after the other, to be in this unit: so 2π per second is
+    /// 60 rpm to the bit, and 25.4 mm one inch.
     #[must_use]
-    pub fn from_si(&self) -> [f64; 2] {
-        let mut scale = [1.0, 1.0];
+    pub fn from_si(&self) -> [f64; 3] {
+        let mut scale = [1.0; 3];
         for (unit, power) in &self.factors {
-            let [multiply, divide] = if *power > 0 { [0, 1] } else { [1, 0] };
+            let numerator = unit.numerator * unit.factor;
+            // what is no whole number comes first
+            let divides = if numerator.fract() == 0.0 { 2 } else { 0 };
             for _ in 0..power.abs() {
-                scale[multiply] *= unit.denominator;
-                scale[divide] *= unit.numerator * unit.factor;
+                if *power > 0 {
+                    scale[divides] *= numerator;
+                    scale[1] *= unit.denominator;
+                } else {
+                    scale[1] *= numerator;
+                    scale[2] *= unit.denominator;
+                }
             }
         }
         scale
@@ -265,8 +273,8 @@ mod tests {
     #[allow(clippy::float_cmp)] // to the bit
     fn what_is_printed_in_a_unit_is_rounded_once() {
         let printed = |si: f64, factors: &[(&str, i32)]| {
-            let [multiply, divide] = compound(factors).from_si();
-            si * multiply / divide
+            let [first, multiply, last] = compound(factors).from_si();
+            si / first * multiply / last
         };
         assert_eq!(printed(0.05, &[("mm", 1)]), 50.0);
         assert_eq!(printed(0.05, &[("mm", 1), ("s", -1)]), 50.0);
