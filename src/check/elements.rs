@@ -120,7 +120,7 @@ impl Checker<'_> {
 
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<EquationForm> {
         let [left, right] = sides;
-        if !sides.iter().any(|side| Self::holds_quantity(side)) {
+        if !sides.iter().any(|side| self.holds_quantity(side)) {
             // a name that is wrong explains more than the want of a quantity
             let context = self.equation_context(driver, sides);
             let (a, b) = (self.formula(left, &context), self.formula(right, &context));
@@ -171,7 +171,7 @@ impl Checker<'_> {
         }
         // `distance` alone on the left, and no quantity on the right
         if let Some((p, q)) = self.as_distance(left, a.id)
-            && !Self::holds_quantity(right)
+            && !self.holds_quantity(right)
         {
             let constant = self.constant_value(b.id);
             if let Some(value) = constant.filter(|&value| value <= 0.0) {
@@ -194,7 +194,7 @@ impl Checker<'_> {
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
     fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind
-            && let Some(quantity) = QuantityWord::named(&name.text)
+            && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);

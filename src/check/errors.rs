@@ -204,6 +204,7 @@ pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnos
 
 pub fn joint_without(quantity: &str, wanted: &str, joint: &str, kind: &str, span: Span, declared: Span) -> Diagnostic {
     let other = match kind {
+        _ if !["rotation", "displacement"].contains(&quantity) => None,
         "revolute" => Some(format!("was `rotation({joint})` meant?")),
         "translational" => Some(format!("was `displacement({joint})` meant?")),
         _ => None,
@@ -239,6 +240,14 @@ pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{name}` may not stand in {place}"))
         .at(span, "depends on the motion")
         .help("kinematic quantities stand in constraints, drivers and measures")
+}
+
+/// A quantity that measures and traces alone may hold.
+pub fn quantity_of_measures(place: &str, name: &str, span: Span) -> Diagnostic {
+    let what = if name == "angle" { "angle(P, Q, R)" } else { name };
+    Diagnostic::new(Code::E0307, format!("the kinematic quantity `{what}` may not stand in {place}"))
+        .at(span, "for measures and traces alone")
+        .help("drivers and constraints are made of `x`, `y`, `angle`, `distance`, `rotation` and `displacement`")
 }
 
 pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {

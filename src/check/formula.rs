@@ -24,7 +24,6 @@ pub(super) enum Dim {
 
 impl Dim {
     pub const PURE: Dim = Dim::Of(Dimension::PURE);
-    pub const LENGTH: Dim = Dim::Of(Dimension::LENGTH);
 
     /// What a literal zero is once something has been done with it: only a zero as it stands fits anything.
     pub fn settled(self) -> Dimension {
@@ -107,7 +106,9 @@ impl Checker<'_> {
                 }
                 ExprKind::Name(name) if argument == Some(name.text.as_str()) => false,
                 ExprKind::Name(name) => self.is_dimensional_name(name),
-                ExprKind::Call { name, .. } if !is_called(&name.text) => self.is_dimensional_name(name),
+                ExprKind::Call { name, .. } if !is_called(&name.text) && self.quantity_word(name).is_none() => {
+                    self.is_dimensional_name(name)
+                }
                 // a literal point says nothing about the formula around it
                 ExprKind::Tuple(_) => continue,
                 _ => false,
@@ -544,11 +545,11 @@ impl Checker<'_> {
     }
 
     /// Whether a formula as written holds a kinematic quantity.
-    pub(super) fn holds_quantity(formula: &Expr) -> bool {
+    pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             if let ExprKind::Call { name, .. } = &e.kind
-                && QuantityWord::named(&name.text).is_some()
+                && self.quantity_word(name).is_some()
             {
                 return true;
             }

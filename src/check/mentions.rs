@@ -7,7 +7,7 @@ use crate::vocabulary::{Constant, StandsFor, Unit, is_called};
 /// Where the argument of a function or curve stands in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
-    mentioned(formula, |name| {
+    mentioned(formula, |name, _| {
         if name.text == argument.text {
             uses.push(name.span);
         }
@@ -84,14 +84,15 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
     }
 }
 
-/// Every name that a formula mentions on its own or calls, but for the calls of the language's own functions and
-/// quantities, whose names something else may share.
-pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name)) {
+/// Every name that a formula mentions on its own or calls, and whether it does call it, but for the calls of the language's own functions
+/// and quantities, whose names something else may share. A quantity that gives way is one of those told.
+pub(super) fn mentioned<'e>(formula: &'e Expr, mut each: impl FnMut(&'e Name, bool)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {
             ExprKind::Call { name, .. } if is_called(&name.text) => {}
-            ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
+            ExprKind::Name(name) => each(name, false),
+            ExprKind::Call { name, .. } => each(name, true),
             _ => {}
         }
         open.extend(e.children().into_iter().rev());

@@ -391,7 +391,11 @@ impl<'a> Checker<'a> {
             .map(|(k, (name, formulas))| {
                 let mut uses = Vec::new();
                 for formula in formulas {
-                    mentioned(formula, |used| {
+                    mentioned(formula, |used, is_called| {
+                        // `speed(P)` is a quantity, whatever else is called `speed`
+                        if is_called && self.quantity_word(used).is_some() {
+                            return;
+                        }
                         let hidden = arguments.get(&k) == Some(&used.text.as_str());
                         let is_own = !hidden && !self.is_declared_though_taken(used);
                         let entity = self.entity(used).filter(|_| is_own);
@@ -483,7 +487,7 @@ impl<'a> Checker<'a> {
     /// Where a formula brings time in, if it does.
     fn time_in(&self, formula: &Expr, argument: &Name) -> Option<Span> {
         let mut time = None;
-        mentioned(formula, |name| {
+        mentioned(formula, |name, _| {
             let through_a_call = match self.entity(name) {
                 Some(Entity::Function(k)) => self.functions[k].time.is_some(),
                 _ => false,

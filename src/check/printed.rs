@@ -83,6 +83,7 @@ impl Checker<'_> {
         while let Some(e) = open.pop() {
             match &e.kind {
                 ExprKind::Literal { value, unit: None } if *value != 0.0 => return true,
+                ExprKind::Call { name, .. } if self.quantity_word(name).is_some() => {}
                 ExprKind::Name(name) | ExprKind::Call { name, .. } => match self.entity(name) {
                     Some(Entity::Param(k)) if !self.angle_params.contains_key(&k) => return true,
                     Some(Entity::Function(_) | Entity::Table(_)) => return true,

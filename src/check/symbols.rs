@@ -397,11 +397,15 @@ impl Walk {
         }
     }
 
-    /// What is called: the language's own functions before the user's.
+    /// What is called: the language's own functions before the user's, but for quantities that give way.
     fn called(&mut self, name: &Name) {
+        let declared = self.names.get(&name.text);
+        let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
+        let hides = declared.is_some_and(is_callable);
+        let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
-        let word = function.or_else(|| QuantityWord::named(&name.text).map(|quantity| &quantity.word));
-        match (word, self.names.get(&name.text)) {
+        let word = function.or_else(|| quantity.map(|quantity| &quantity.word));
+        match (word, declared) {
             (Some(word), _) => self.word(name, word),
             (None, Some(&id)) => self.declared(name, id),
             (None, None) => {}

@@ -10,6 +10,7 @@ mod joints;
 mod quantities;
 mod size;
 mod uses;
+mod velocities;
 
 use crate::expr::{Comparison, ExprId, Graph, Symbol};
 use crate::ir::{
@@ -139,6 +140,7 @@ impl Lowering<'_> {
         for k in 0..self.model.named.len() {
             let id = match self.model.named[k] {
                 Named::Quantity(quantity) => self.quantity(quantity),
+                Named::Exists(quantity) => self.existence(quantity),
                 Named::Derivative(inner) => {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
@@ -277,20 +279,18 @@ impl Lowering<'_> {
     }
 
     fn condition(&mut self, condition: &crate::model::Condition, positive: ExprId) {
+        let kind = match condition.kind {
+            ConditionKind::Distance => ir::ConditionKind::Distance,
+            ConditionKind::Interval => ir::ConditionKind::Interval,
+            // tables keep their numbers
+            ConditionKind::Range(table) => ir::ConditionKind::Range(table),
+            // of a measure, in a branch that is never taken
+            ConditionKind::Existence => return,
+        };
         if !self.known_conditions.insert(positive) {
             return;
         }
-        self.conditions.push(Condition {
-            positive,
-            kind: match condition.kind {
-                ConditionKind::Distance => ir::ConditionKind::Distance,
-                ConditionKind::Interval => ir::ConditionKind::Interval,
-                // tables keep their numbers
-                ConditionKind::Range(table) => ir::ConditionKind::Range(table),
-            },
-            span: condition.span,
-            owner: condition.owner.clone(),
-        });
+        self.conditions.push(Condition { positive, kind, span: condition.span, owner: condition.owner.clone() });
     }
 
     fn measures(&mut self) -> Vec<Measure> {
@@ -350,6 +350,12 @@ impl Lowering<'_> {
             Quantity::Distance(p, q) => self.distance(p, q),
             Quantity::Rotation(joint, axes) => self.rotation(joint, axes),
             Quantity::Displacement(_, a, b) => self.displacement(a, b),
+            Quantity::Corner(points) => self.corner(points),
+            Quantity::Curvature(point) => self.path_curvature(point),
+            Quantity::Pole(of, from, part) => self.pole(of, from, part),
+            Quantity::Speed(point) => self.speed(point),
+            Quantity::PressureAngle(joint, frame) => self.pressure_angle(joint, frame),
+            Quantity::Slip(joint) => self.slip(joint),
         }
     }
 }

@@ -416,6 +416,8 @@ pub enum Named {
     Quantity(Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
+    /// Above zero where a quantity of measures exists.
+    Exists(Quantity),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }
@@ -435,6 +437,54 @@ pub enum Quantity {
     Rotation(JointId, Option<(AxisId, AxisId)>),
     /// Way of a translational joint along its first axis, to its second (m).
     Displacement(JointId, AxisId, AxisId),
+    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad); this and the following stand in measures
+    /// alone.
+    Corner([PointId; 3]),
+    /// Curvature of a point's path, positive to the left (1/m).
+    Curvature(PointId),
+    /// x (part 0) or y (part 1) of the instant centre of a frame relative to another (m).
+    Pole(Frame, Frame, u32),
+    /// Length of a point's velocity (m/s).
+    Speed(PointId),
+    /// Between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
+    PressureAngle(JointId, Frame),
+    /// Sliding speed at a contact (m/s).
+    Slip(JointId),
+}
+
+impl Quantity {
+    /// How many time derivatives of the coordinates it holds.
+    #[must_use]
+    pub fn order(self) -> u8 {
+        match self {
+            Quantity::Curvature(_) => 2,
+            Quantity::Pole(..) | Quantity::Speed(_) | Quantity::PressureAngle(..) | Quantity::Slip(_) => 1,
+            _ => 0,
+        }
+    }
+
+    /// Whether there are positions or velocities at which it has no value.
+    #[must_use]
+    pub fn may_not_exist(self) -> bool {
+        matches!(self, Quantity::Corner(_) | Quantity::Curvature(_) | Quantity::Pole(..) | Quantity::PressureAngle(..))
+    }
+
+    /// Its dimension.
+    #[must_use]
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Quantity::Angle(..) | Quantity::Rotation(..) | Quantity::Corner(_) | Quantity::PressureAngle(..) => {
+                Dimension::PURE
+            }
+            Quantity::Curvature(_) => Dimension::PURE.over(Dimension::LENGTH),
+            Quantity::Speed(_) | Quantity::Slip(_) => Dimension::LENGTH.over(Dimension::TIME),
+            Quantity::X(..)
+            | Quantity::Y(..)
+            | Quantity::Distance(..)
+            | Quantity::Displacement(..)
+            | Quantity::Pole(..) => Dimension::LENGTH,
+        }
+    }
 }
 
 /// A body's x axis, or an axis.
@@ -535,6 +585,8 @@ pub struct Condition {
 pub enum ConditionKind {
     /// A prescribed distance.
     Distance,
+    /// A quantity of measures; where it does not exist, they have no value.
+    Existence,
     /// The interval of a motion function.
     Interval,
     /// The range of a table.
