@@ -485,6 +485,19 @@ mod tests {
     }
 
     #[test]
+    fn traces_units_and_quantities_have_their_meanings() {
+        let text = "mechanism m {\n param Hz = 3\n body b { point ‸P = (2, 0) }\n trace trace = b.P in mm\n measure speed = speed(b.P) in mm/Hz\n measure in_it = speed / 2 in mm/s\n}";
+        assert_eq!(places(text).len(), 3);
+        // a unit behind `in` is one, whatever else is called so
+        assert_eq!(places(&text.replace('‸', "").replace("Hz =", "‸Hz =")).len(), 1);
+        assert_eq!(places(&text.replace('‸', "").replace("measure speed", "measure ‸speed")).len(), 2);
+        assert_eq!(places(&text.replace('‸', "").replace("trace trace", "trace ‸trace")).len(), 1);
+        let called =
+            text.replace('‸', "").replace(" param", " fn slip(u) = u\n param").replace("speed(b.P)", "‸slip(1)");
+        assert_eq!(places(&called).len(), 2);
+    }
+
+    #[test]
     fn names_are_known_beside_a_fault() {
         let text = "mechanism m {\n param ‸r = 3 mm\n body b { point P = (r, 0) }\n joint j revolute(b.P, ground.O)\n measure k = r\n}";
         assert_eq!(places(text).len(), 3);

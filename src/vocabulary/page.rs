@@ -3,8 +3,8 @@
 use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
 use super::{
-    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, Role, Synonym, UNITS,
-    Unit, Word, words,
+    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, Role,
+    Synonym, UNITS, Unit, Word, words,
 };
 
 /// Lines of prose are not longer (in characters).
@@ -13,10 +13,11 @@ const WIDTH: usize = 100;
 /// The kinds of words that have a page, by their names.
 pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "joints", "units", "keywords", "constants"];
 
-/// The page of a word, or of a kind of words.
+/// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
-    overview(name).or_else(|| words().find(|word| word.name == name).map(of_word))
+    let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
+    overview(name).or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
 }
 
 impl Category {
@@ -103,6 +104,11 @@ fn details(word: &Word) -> Vec<String> {
     }
     if !word.more.is_empty() {
         details.push(word.more.to_owned());
+    }
+    let quantity = QuantityWord::named(word.name).filter(|_| word.category == Category::Quantity);
+    if quantity.is_some_and(|quantity| quantity.gives_way) {
+        let words = "It stands in measures and traces alone. A `fn` or `table` of the mechanism that is called so is meant where it is called.";
+        details.push(words.to_owned());
     }
     if Function::named(word.name).is_some_and(|function| function.group == super::Group::Motion) {
         details.push(OF_MOTIONS.to_owned());
