@@ -28,10 +28,13 @@ fn keywords(wanted: impl Fn(&Keyword) -> bool) -> BTreeSet<String> {
 fn the_grammar_has_the_keywords_of_the_table() {
     assert_eq!(words_of_rule("reserved"), keywords(Keyword::is_reserved));
     assert_eq!(words_of_rule("separator"), keywords(|keyword| keyword.role == Role::Separator));
+    assert_eq!(words_of_rule("opener"), keywords(|keyword| keyword.role == Role::Opener));
     let grammar = fs::read_to_string("grammar/mech.pest").expect("the grammar");
     for keyword in KEYWORDS.iter().filter(|keyword| keyword.role != Role::Side) {
-        let (name, prefix) = (keyword.word.name, if keyword.is_reserved() { "kw_" } else { "" });
-        let rule = grammar.lines().find(|line| line.starts_with(&format!("{prefix}{name} ")));
+        let name = keyword.word.name;
+        // what may be a name elsewhere has a rule of either kind
+        let is_rule = |prefix: &str| grammar.lines().find(|line| line.starts_with(&format!("{prefix}{name} ")));
+        let rule = is_rule("kw_").or_else(|| is_rule("").filter(|_| !keyword.is_reserved()));
         assert!(rule.is_some_and(|rule| rule.contains(&format!("\"{name}\""))), "no rule for `{name}`: {rule:?}");
     }
     let features = words_of_rule("feature");

@@ -84,7 +84,17 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("terms", &[("name", "text"), ("value", "text")]),
     ("rows", &[("name", "text"), ("declaration", "count"), ("phi", "text")]),
     ("phi_q", &[("row", "count"), ("column", "count"), ("value", "text")]),
-    ("measures", &[("name", "text"), ("line", "count"), ("value", "text"), ("first", "text?"), ("second", "text?")]),
+    (
+        "measures",
+        &[
+            ("name", "text"),
+            ("line", "count"),
+            ("unit", "text"),
+            ("value", "text"),
+            ("first", "text?"),
+            ("second", "text?"),
+        ],
+    ),
     ("conditions", &[("owner", "text"), ("kind", "text"), ("table", "text?"), ("positive", "text")]),
     ("watches", &[("declaration", "count"), ("kind", "text"), ("value", "text")]),
     ("left_out", &[("declaration", "count"), ("phi", "text")]),

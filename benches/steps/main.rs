@@ -214,7 +214,7 @@ fn output() {
     for (name, format) in [("CSV", TableFormat::Csv), ("JSON", TableFormat::Json), ("Parquet", TableFormat::Parquet)] {
         let time = median(9, || {
             per_step(STEPS, || {
-                let mut table = TableWriter::new(std::io::sink(), format, &columns).expect("a sink");
+                let mut table = TableWriter::new(std::io::sink(), format, &columns, &[]).expect("a sink");
                 for row in &rows {
                     table.row(row).expect("a sink");
                 }

@@ -47,7 +47,7 @@ pub use times::Times;
 
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, Measure};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -156,6 +156,44 @@ impl Started {
     pub fn into_motion(self, times: &Times) -> Motion {
         Motion::new(self.kinematics, self.state, self.solver, times.clone())
     }
+}
+
+/// The unit that a column is printed in.
+#[derive(Clone, PartialEq, Debug)]
+pub struct ColumnUnit {
+    /// `mm/s`; `1` for a pure number.
+    pub text: String,
+    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    scale: [f64; 3],
+}
+
+impl ColumnUnit {
+    fn si(text: impl Into<String>) -> ColumnUnit {
+        ColumnUnit { text: text.into(), scale: [1.0; 3] }
+    }
+
+    /// A value in SI, in this unit.
+    #[must_use]
+    pub fn from_si(&self, value: f64) -> f64 {
+        value / self.scale[0] * self.scale[1] / self.scale[2]
+    }
+}
+
+/// Units of a result's columns, in the order of [`columns`].
+pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
+    let mut units = vec![ColumnUnit::si("s")];
+    for (order, per) in ["", "/s", "/s^2"].into_iter().enumerate() {
+        let coordinates = system.coordinates.iter().map(|coordinate| match coordinate.kind.unit() {
+            "" => "1",
+            unit => unit,
+        });
+        units.extend(coordinates.map(|unit| ColumnUnit::si(unit.to_owned() + per)));
+        let is_there = |measure: &&Measure| [true, measure.first.is_some(), measure.second.is_some()][order];
+        let measures = system.measures.iter().filter(is_there);
+        let unit = |of: &Measure| ColumnUnit { text: of.units.printed[order].clone(), scale: of.units.scale };
+        units.extend(measures.map(unit));
+    }
+    units
 }
 
 /// Names of a result's columns, in order.

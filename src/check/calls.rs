@@ -69,6 +69,14 @@ impl<'a> Checker<'a> {
             }
             return self.builtin(e, name, arguments, context);
         }
+        if matches!(self.space.get(&name.text), Some(Entity::Broken)) {
+            return None;
+        }
+        // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
+        let is_quantity = context.measures || self.space.get(&name.text).is_none();
+        if is_quantity && self.quantity_word(name).is_some() {
+            return self.quantity(e, name, arguments, context);
+        }
         match self.resolve(name).ok()?.filter(|_| context.names) {
             Some(Entity::Function(k)) => {
                 let [argument] = arguments else {

@@ -1,13 +1,14 @@
 //! Measures, constraints, drivers and the analysis.
 
-use super::formula::{Context, Dim};
+use super::formula::{Context, Dim, Value};
 use super::{Checker, declared, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId, Quantity,
+    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId,
+    Quantity, Units,
 };
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
+use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 use crate::vocabulary::QuantityWord;
 
 impl Checker<'_> {
@@ -16,35 +17,92 @@ impl Checker<'_> {
         let mut values = vec![None; self.measures.len()];
         let mut asked = vec![Vec::new(); self.measures.len()];
         for &k in order {
-            let judged = self.measures[k].dimensional;
-            let context = Context {
-                judged,
-                time: true,
-                inputs: true,
-                quantities: true,
-                measures: true,
-                ..Context::constant("a measure")
-            };
             let conditions = self.model.conditions.len();
-            values[k] = self.formula(self.measures[k].value, &context);
-            let name = &self.measures[k].name.text;
-            let mut own = self.model.conditions.split_off(conditions);
-            for condition in &mut own {
-                condition.owner.clone_from(name);
-            }
-            // what parameters alone decide holds at no time or at all times
-            let graph = &self.model.graph;
-            let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
-            self.model.conditions.append(&mut { always });
-            asked[k] = at_times;
+            let formula = self.measures[k].value;
+            values[k] = self.formula(formula, &measure_context(self.measures[k].dimensional));
+            asked[k] = self.asked_at_times(conditions, &self.measures[k].name.text);
             self.measures[k].sound = values[k].is_some();
+            self.measures[k].angle = self.angle_power(formula);
+            self.measures[k].holds_plain_number = self.holds_plain_number(formula);
         }
-        for ((state, value), conditions) in self.measures.iter().zip(values).zip(asked) {
-            if let Some(value) = value {
-                let measure = Measure { declared: declared(state.name), value: value.id, conditions };
-                self.model.measures.push(measure);
+        self.list_measures(values.into_iter().zip(asked));
+    }
+
+    /// Lists the measures, and the traces among them, in the order of the text.
+    fn list_measures(&mut self, measures: impl IntoIterator<Item = (Option<Value>, Vec<Condition>)>) {
+        let mut measures = measures.into_iter().enumerate();
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Measure { name, .. } => {
+                    let Some((k, (Some(value), conditions))) = measures.next() else { continue };
+                    if let Some(units) = self.units_of_measure(k, value) {
+                        let declared = declared(name);
+                        self.model.measures.push(Measure { declared, value: value.id, conditions, units });
+                    }
+                }
+                ItemKind::Trace { name, point, unit } => self.trace(name, point, unit.as_ref()),
+                _ => {}
             }
         }
+    }
+
+    fn units_of_measure(&mut self, k: usize, value: Value) -> Option<Units> {
+        let (formula, unit, judged) = (self.measures[k].value, self.measures[k].unit, self.measures[k].dimensional);
+        let dimension = match unit {
+            Some(_) => self.known_dimension(formula, value, &measure_context(judged)),
+            None => Some(value.dim.settled()),
+        };
+        self.units(formula, dimension, self.measures[k].angle, unit)
+    }
+
+    /// The path of a point, as two measures.
+    fn trace(&mut self, name: &Name, point: &Expr, unit: Option<&WrittenUnit>) {
+        let conditions = self.model.conditions.len();
+        let coordinates = match &point.bare().kind {
+            ExprKind::Tuple(parts) => self.coordinates_of_trace(point, parts),
+            _ => self.point(point).map(|point| {
+                [Quantity::X(None, point), Quantity::Y(None, point)]
+                    .map(|quantity| self.name_symbol(Named::Quantity(quantity), 0))
+            }),
+        };
+        let asked = self.asked_at_times(conditions, &name.text);
+        let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
+        if let (Some(coordinates), Some(units)) = (coordinates, units) {
+            for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
+                let declared = Declared { name: format!("{}.{part}", name.text), span: name.span };
+                let (conditions, units) = (asked.clone(), units.clone());
+                self.model.measures.push(Measure { declared, value, conditions, units });
+            }
+        }
+    }
+
+    /// `(pole_x(b), pole_y(b))`: two formulas of a measure.
+    fn coordinates_of_trace(&mut self, point: &Expr, parts: &[Expr]) -> Option<[ExprId; 2]> {
+        let [x, y] = parts else {
+            self.wrong_kind(point.span, "a point `(x, y)`", &format!("a list of {}", parts.len()));
+            return None;
+        };
+        let judged = self.is_dimensional(x) || self.is_dimensional(y);
+        let context = Context { place: "a trace", ..measure_context(judged) };
+        let coordinates = [x, y].map(|part| {
+            let value = self.formula(part, &context)?;
+            self.demand("a coordinate of a trace", Dimension::LENGTH, part.span, value.dim, &context)?;
+            Some(value.id)
+        });
+        Some([coordinates[0]?, coordinates[1]?])
+    }
+
+    /// What has been asked to be positive from a condition on, by a measure or trace: what parameters alone decide holds at no time or at
+    /// all times, the rest is given back.
+    fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+        let mut own = self.model.conditions.split_off(from);
+        for condition in &mut own {
+            owner.clone_into(&mut condition.owner);
+        }
+        let graph = &self.model.graph;
+        let (always, at_times) = own.into_iter().partition(|c| graph.dependence(c.positive).is_constant());
+        self.model.conditions.append(&mut { always });
+        at_times
     }
 
     pub(super) fn equations(&mut self) {
@@ -62,7 +120,7 @@ impl Checker<'_> {
 
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<EquationForm> {
         let [left, right] = sides;
-        if !sides.iter().any(|side| Self::holds_quantity(side)) {
+        if !sides.iter().any(|side| self.holds_quantity(side)) {
             // a name that is wrong explains more than the want of a quantity
             let context = self.equation_context(driver, sides);
             let (a, b) = (self.formula(left, &context), self.formula(right, &context));
@@ -113,7 +171,7 @@ impl Checker<'_> {
         }
         // `distance` alone on the left, and no quantity on the right
         if let Some((p, q)) = self.as_distance(left, a.id)
-            && !Self::holds_quantity(right)
+            && !self.holds_quantity(right)
         {
             let constant = self.constant_value(b.id);
             if let Some(value) = constant.filter(|&value| value <= 0.0) {
@@ -136,7 +194,7 @@ impl Checker<'_> {
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
     fn unlike_a_quantity(&mut self, known: (Span, Dim), other: &Expr, context: &Context<'_>) {
         if let ExprKind::Call { name, .. } = &other.bare().kind
-            && let Some(quantity) = QuantityWord::named(&name.text)
+            && let Some(quantity) = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way)
         {
             let dimension = if is_an_angle(other) { Dimension::PURE } else { Dimension::LENGTH };
             let place = format!("what equals this `{}`", quantity.word.name);
@@ -212,6 +270,11 @@ impl Checker<'_> {
         }
         self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
     }
+}
+
+/// How the formula of a measure is read.
+fn measure_context(judged: bool) -> Context<'static> {
+    Context { judged, time: true, inputs: true, quantities: true, measures: true, ..Context::constant("a measure") }
 }
 
 /// Whether a side of an equation is a length and nothing else.

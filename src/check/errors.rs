@@ -6,7 +6,7 @@ use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
-use crate::syntax::ast::{Name, Segment};
+use crate::syntax::ast::{Column, ColumnKind, Name, Segment};
 use crate::syntax::format::expression;
 use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
 
@@ -336,6 +336,7 @@ pub fn joint_with_itself(joint: &Name, frame: &str, spans: [Span; 2]) -> Diagnos
 
 pub fn joint_without(quantity: &str, wanted: &str, joint: &str, kind: &str, span: Span, declared: Span) -> Diagnostic {
     let other = match kind {
+        _ if !["rotation", "displacement"].contains(&quantity) => None,
         "revolute" => Some(format!("was `rotation({joint})` meant?")),
         "translational" => Some(format!("was `displacement({joint})` meant?")),
         _ => None,
@@ -399,6 +400,14 @@ pub fn quantity_in(place: &str, name: &str, span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0307, format!("the kinematic quantity `{name}` may not stand in {place}"))
         .at(span, "depends on the motion")
         .help("kinematic quantities stand in constraints, drivers and measures")
+}
+
+/// A quantity that measures and traces alone may hold.
+pub fn quantity_of_measures(place: &str, name: &str, span: Span) -> Diagnostic {
+    let what = if name == "angle" { "angle(P, Q, R)" } else { name };
+    Diagnostic::new(Code::E0307, format!("the kinematic quantity `{what}` may not stand in {place}"))
+        .at(span, "for measures and traces alone")
+        .help("drivers and constraints are made of `x`, `y`, `angle`, `distance`, `rotation` and `displacement`")
 }
 
 pub fn no_quantity(driver: bool, name: &Name, span: Span) -> Diagnostic {
@@ -578,6 +587,64 @@ pub fn not_a_unit_of_a_column(name: &Name) -> Diagnostic {
     let diagnostic =
         Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text)).at(name.span, "the unit of a column");
     meant_unit(diagnostic, name)
+}
+
+pub fn not_a_unit_to_print_in(name: &Name) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0202, format!("`{}` is not a unit", name.text))
+        .at(name.span, "only units, `*`, `/` and powers may stand behind `in`");
+    meant_unit(diagnostic, name)
+}
+
+/// A unit behind `in` that is of another dimension than the formula: with the places and dimensions of the two.
+pub fn not_printed_in(unit: &str, [at, formula]: [Span; 2], [own, found]: [Dimension; 2]) -> Diagnostic {
+    let wanted = if own.is(Dimension::PURE) { "an angle".to_owned() } else { own.in_words() };
+    Diagnostic::new(Code::E0402, format!("what is printed in `{unit}` must be {wanted}, found {}", found.in_words()))
+        .at(at, wanted)
+        .also(formula, found.in_words())
+        .help(if found.is(Dimension::PURE) {
+            "leave `in` out, or name a unit of angle: `in deg`".to_owned()
+        } else {
+            format!("name a unit of its dimension: `in {}`", usual_unit(found))
+        })
+}
+
+/// A turning speed in hertz.
+pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0402, "a turning speed is not printed in `Hz`")
+        .at(at, "1 per second")
+        .also(formula, "radians per second")
+        .help("name a unit of turning speed: `in rpm` or `in rev/s`")
+}
+
+/// A column that a file does not have.
+pub fn no_column(path: &Name, column: &Column, header: &[&str]) -> Diagnostic {
+    let (message, wanted) = match &column.kind {
+        ColumnKind::Number(number) => (format!("`{}` has no column {number}", path.text), None),
+        ColumnKind::Named(name) => (format!("`{}` has no column `{name}`", path.text), Some(name)),
+    };
+    let diagnostic = Diagnostic::new(Code::E0201, message).at(column.span, "not in its first line");
+    let Some(name) = wanted else {
+        return diagnostic.help(match header.len() {
+            1 => "it has 1 column; columns are separated by commas".to_owned(),
+            count => format!("it has {count} columns"),
+        });
+    };
+    match nearest(name, header.iter().copied()) {
+        Some(meant) => diagnostic.fix(Fix::replace(
+            column.span,
+            format!("\"{meant}\""),
+            format!("did you mean `{meant}`?"),
+            Applies::Probably,
+        )),
+        None => diagnostic.help(format!("its first line has {}", list(header))),
+    }
+}
+
+/// A name of a column that stands twice in a file's first line.
+pub fn column_twice(path: &Name, span: Span, name: &str, [first, second]: [usize; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0203, format!("`{}` has two columns `{name}`", path.text))
+        .at(span, "which of them?")
+        .help(format!("take one by its number: {} or {}", first + 1, second + 1))
 }
 
 pub fn row_of(span: Span, found: usize) -> Diagnostic {

@@ -129,7 +129,11 @@ impl Checker<'_> {
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
                     self.is_dimensional_point(owner, Wanted::Point)
                 }
-                ExprKind::Call { name, .. } if !self.is_of_language(&name.text) => self.is_dimensional_name(name),
+                ExprKind::Call { name, .. }
+                    if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
+                {
+                    self.is_dimensional_name(name)
+                }
                 // a literal point says nothing about the formula of a number around it
                 ExprKind::Tuple(_) if !with_points => continue,
                 _ => false,
@@ -601,11 +605,11 @@ impl Checker<'_> {
     }
 
     /// Whether a formula as written holds a kinematic quantity.
-    pub(super) fn holds_quantity(formula: &Expr) -> bool {
+    pub(super) fn holds_quantity(&self, formula: &Expr) -> bool {
         let mut open = vec![formula];
         while let Some(e) = open.pop() {
             if let ExprKind::Call { name, .. } = &e.kind
-                && QuantityWord::named(&name.text).is_some()
+                && self.quantity_word(name).is_some()
             {
                 return true;
             }

@@ -41,12 +41,15 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Option<Fix> {
-        let ([argument], Some(synonym)) = (arguments, Synonym::of(Place::Call, &name.text)) else { return None };
+        let [argument] = arguments else { return None };
         let ExprKind::Name(joint) = &argument.bare().kind else { return None };
-        let quantity = self.quantity_of(joint).filter(|_| synonym.means.contains(&"der"))?;
+        let synonym = Synonym::of(Place::Call, &name.text);
+        let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
+        let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
         if !context.measures {
             return Some(self.in_its_equation(e.span, &quantity));
         }
+        let synonym = synonym?;
         let said = synonym.say(&[]);
         let order = (1..=3).rev().find(|&order| said.contains(&"der(".repeat(order))).unwrap_or(1);
         let written = format!("{}{quantity}{}", "der(".repeat(order), ")".repeat(order));

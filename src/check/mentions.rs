@@ -8,7 +8,7 @@ use crate::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 /// Where the argument of a function or curve stands in its formula.
 pub(super) fn uses_of_argument(argument: &Name, formula: &Expr) -> Vec<Span> {
     let mut uses = Vec::new();
-    mentioned(formula, gives_way, |name| {
+    mentioned(formula, gives_way, |name, _| {
         if name.text == argument.text {
             uses.push(name.span);
         }
@@ -64,6 +64,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         | ItemKind::Measure { value, .. } => {
             vec![value]
         }
+        ItemKind::Trace { point, .. } => vec![point],
         ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),
         ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),
@@ -88,15 +89,17 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
     }
 }
 
-/// Every name that a formula mentions on its own, or before `.x` and `.y`, or calls, but for the calls of the language's own functions
-/// and quantities, whose names something else may share; `hidden` tells the functions and tables of the file that hide one of those.
-pub(super) fn mentioned<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name)) {
+/// Every name that a formula mentions on its own, or before `.x` and `.y`, or calls, and whether it does call it, but for the calls of
+/// the language's own functions and quantities, whose names something else may share; `hidden` tells the functions and tables of the
+/// file that hide one of those. A quantity that gives way is one of those told.
+pub(super) fn mentioned<'e>(formula: &'e Expr, hidden: impl Fn(&str) -> bool, mut each: impl FnMut(&'e Name, bool)) {
     let mut open = vec![formula];
     while let Some(e) = open.pop() {
         match &e.kind {
             ExprKind::Call { name, .. } if is_called(&name.text) && !hidden(&name.text) => {}
-            ExprKind::Name(name) | ExprKind::Call { name, .. } => each(name),
-            ExprKind::Member { owner, feature } if coordinate(feature).is_some() => each(owner),
+            ExprKind::Name(name) => each(name, false),
+            ExprKind::Call { name, .. } => each(name, true),
+            ExprKind::Member { owner, feature } if coordinate(feature).is_some() => each(owner, false),
             _ => {}
         }
         open.extend(e.children().into_iter().rev());

@@ -24,6 +24,7 @@ mod named_points;
 mod names;
 mod points;
 mod poses;
+mod printed;
 mod profiles;
 mod quantities;
 mod rates;
@@ -42,7 +43,7 @@ use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PointId};
 use crate::source::{Sources, Span};
-use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows};
+use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
 use calls::{Call, Calls};
 use features::Feature;
@@ -213,8 +214,20 @@ struct InputState<'a> {
 struct MeasureState<'a> {
     name: &'a Name,
     value: &'a Expr,
+    /// In what it is printed, if that is said.
+    unit: Option<&'a WrittenUnit>,
     dimensional: bool,
     sound: bool,
+    /// How often an angle is a factor of it.
+    angle: i32,
+    /// Whether it holds a number that may stand for anything.
+    holds_plain_number: bool,
+}
+
+impl<'a> MeasureState<'a> {
+    fn of(name: &'a Name, value: &'a Expr, unit: Option<&'a WrittenUnit>) -> MeasureState<'a> {
+        MeasureState { name, value, unit, dimensional: false, sound: false, angle: 0, holds_plain_number: false }
+    }
 }
 
 struct Checker<'a> {
@@ -251,6 +264,8 @@ struct Checker<'a> {
     lengths: Lengths<'a>,
     /// Bodies whose place in the drawing is not known.
     broken_poses: FxHashSet<Frame>,
+    /// How often an angle is a factor of each parameter.
+    param_angles: Vec<i32>,
     /// Parameters that are given in a unit of angle, with the places of their names.
     angle_params: FxHashMap<usize, Span>,
     named: FxHashMap<Named, NamedId>,
@@ -301,6 +316,7 @@ impl<'a> Checker<'a> {
             features: FxHashMap::default(),
             lengths: Lengths::default(),
             broken_poses: FxHashSet::default(),
+            param_angles: Vec::new(),
             angle_params: FxHashMap::default(),
             named: FxHashMap::default(),
             derivative_orders: Vec::new(),
@@ -362,6 +378,7 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.params.push(None);
                     self.drawn.push(None);
+                    self.param_angles.push(0);
                     self.param_formulas.push((name, value));
                 }
                 ItemKind::Function { name, argument, value } => {
@@ -375,10 +392,10 @@ impl<'a> Checker<'a> {
                     definitions.push((name, std::iter::once(value).chain(told).collect()));
                     self.inputs.push(InputState { name, formula: value, value: None });
                 }
-                ItemKind::Measure { name, value } => {
+                ItemKind::Measure { name, value, unit } => {
                     entities.push(Entity::Measure(self.measures.len()));
                     definitions.push((name, vec![value]));
-                    self.measures.push(MeasureState { name, value, dimensional: false, sound: false });
+                    self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
@@ -408,6 +425,7 @@ impl<'a> Checker<'a> {
                         if self.point_param(name) == Some(k) {
                             self.drawn[k] = self.point_of_param(name, docs[at], value);
                         } else {
+                            self.param_angles[k] = self.angle_power(value);
                             self.params[k] = self.param(name, docs[at], value);
                         }
                     }
@@ -448,7 +466,11 @@ impl<'a> Checker<'a> {
                     mentioned(
                         formula,
                         |name| self.hidden.contains(name),
-                        |used| {
+                        |used, is_called| {
+                            // `speed(P)` is a quantity, whatever else is called `speed`
+                            if is_called && self.quantity_word(used).is_some() {
+                                return;
+                            }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
@@ -598,7 +620,7 @@ impl<'a> Checker<'a> {
         mentioned(
             formula,
             |name| self.hidden.contains(name),
-            |name| {
+            |name, _| {
                 let through_a_name = match self.entity(name) {
                     Some(Entity::Function(k)) => self.functions[k].time.is_some(),
                     Some(Entity::Input(_)) => true,

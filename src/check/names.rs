@@ -18,6 +18,7 @@ pub(super) enum Entity {
     Joint(usize),
     Equation,
     Measure(usize),
+    Trace,
     /// Its declaration does not follow the grammar, which has been said.
     Broken,
 }
@@ -34,13 +35,16 @@ impl Entity {
             Entity::Joint(_) => "a joint",
             Entity::Equation => "a constraint or driver",
             Entity::Measure(_) => "a measure",
+            Entity::Trace => "a trace",
             Entity::Broken => "a declaration that cannot be read",
         }
     }
 
     fn kind_of_name(self) -> KindOfName {
         match self {
-            Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Broken => KindOfName::Value,
+            Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Trace | Entity::Broken => {
+                KindOfName::Value
+            }
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
             Entity::Body(_) => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
@@ -128,6 +132,7 @@ impl Checker<'_> {
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
+                ItemKind::Trace { name, .. } => (name, Entity::Trace),
                 ItemKind::Broken { names, .. } => {
                     self.collect_broken(names);
                     continue;

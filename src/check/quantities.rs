@@ -3,7 +3,7 @@
 use super::formula::{Context, Dim, Value};
 use super::names::Entity;
 use super::{Checker, errors};
-use crate::model::{AxisId, Direction, Frame, JointId, JointKind, Named, PointId, Quantity};
+use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, JointId, JointKind, Named, PointId, Quantity};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Name};
 use crate::vocabulary::QuantityWord;
@@ -19,6 +19,16 @@ impl Checker<'_> {
     ) -> Option<Value> {
         if !context.quantities {
             self.report(errors::quantity_in(context.place, &name.text, e.span));
+            return None;
+        }
+        let is_of_measures = QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way);
+        if !context.measures && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
+            let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
+            let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
+                Some(fix) => diagnostic.instead(fix),
+                None => diagnostic,
+            };
+            self.report(diagnostic);
             return None;
         }
         let quantity = match (name.text.as_str(), arguments) {
@@ -50,6 +60,22 @@ impl Checker<'_> {
                     _ => return None,
                 }
             }
+            ("angle", [p, q, r]) => {
+                let [p, q, r] = [p, q, r].map(|point| self.point(point));
+                Quantity::Corner([p?, q?, r?])
+            }
+            ("curvature", [p]) => Quantity::Curvature(self.point(p)?),
+            ("speed", [p]) => Quantity::Speed(self.point(p)?),
+            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, Frame::Ground, part_of(name)),
+            ("pole_x" | "pole_y", [b, c]) => {
+                let (b, c) = (self.body_of(b), self.body_of(c));
+                Quantity::Pole(b?, c?, part_of(name))
+            }
+            ("pressure_angle", [joint, b]) => {
+                let (joint, b) = (self.joint_with("pressure_angle", joint), self.body_of(b));
+                Quantity::PressureAngle(joint?, b?)
+            }
+            ("slip", [joint]) => Quantity::Slip(self.joint_with("slip", joint)?),
             (what, _) => {
                 let quantity = QuantityWord::named(what)?;
                 let found = arguments.len();
@@ -57,11 +83,35 @@ impl Checker<'_> {
                 return None;
             }
         };
-        let dim = match quantity {
-            Quantity::Angle(..) | Quantity::Rotation(..) => Dim::PURE,
-            _ => Dim::LENGTH,
-        };
-        Some(Value { id: self.name_symbol(Named::Quantity(quantity), 0), dim })
+        if quantity.may_not_exist() {
+            self.ask_for_existence(quantity, e.span);
+        }
+        let id = self.name_symbol(Named::Quantity(quantity), quantity.order());
+        Some(Value { id, dim: Dim::Of(quantity.dimension()) })
+    }
+
+    /// Asks that a quantity exists, where the branch that it stands in counts.
+    fn ask_for_existence(&mut self, quantity: Quantity, span: Span) {
+        let exists = self.name_symbol(Named::Exists(quantity), quantity.order());
+        let one = self.model.graph.constant(1.0);
+        let positive = self.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
+        let kind = ConditionKind::Existence;
+        self.model.conditions.push(Condition { positive, kind, span, owner: String::new() });
+    }
+
+    /// A quantity of the language, unless a function or table of the mechanism has its name, which it gives way to.
+    pub(super) fn quantity_word(&self, name: &Name) -> Option<&'static QuantityWord> {
+        let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
+        QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !is_hidden())
+    }
+
+    /// A body, or the ground.
+    fn body_of(&mut self, e: &Expr) -> Option<Frame> {
+        if let ExprKind::Name(name) = &e.bare().kind {
+            return self.body(name);
+        }
+        self.wrong_kind(e.span, "a body", Self::describe(e));
+        None
     }
 
     pub(super) fn two_points(&mut self, p: &Expr, q: &Expr) -> Option<(PointId, PointId)> {
@@ -123,6 +173,11 @@ impl Checker<'_> {
         let kind = self.model[joint].kind;
         let (fits, wanted) = match quantity {
             "rotation" => (matches!(kind, JointKind::Revolute(..)), "revolute"),
+            "pressure_angle" | "slip" => {
+                let has_contact =
+                    matches!(kind, JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..));
+                (has_contact, "`point_follower`, `cam` and `flat_follower`")
+            }
             _ => (matches!(kind, JointKind::Translational(..)), "translational"),
         };
         if fits {
@@ -180,7 +235,11 @@ impl Checker<'_> {
             Quantity::X(p, q) | Quantity::Y(p, q) => p.into_iter().chain([q]).map(point).collect(),
             Quantity::Distance(p, q) => vec![point(p), point(q)],
             Quantity::Angle(a, b) => a.into_iter().chain([b]).map(direction).collect(),
-            Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) => {
+            Quantity::Corner(points) => points.map(point).to_vec(),
+            Quantity::Curvature(p) | Quantity::Speed(p) => vec![point(p)],
+            Quantity::Pole(b, c, _) => vec![b, c],
+            Quantity::PressureAngle(_, b) => vec![b],
+            Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..) | Quantity::Slip(joint) => {
                 self.model[joint].kind.frames(&self.model).to_vec()
             }
         }
@@ -190,4 +249,9 @@ impl Checker<'_> {
     pub(super) fn wrong_kind(&mut self, span: Span, wanted: &str, found: &str) {
         self.report(errors::wrong_kind(span, wanted, found));
     }
+}
+
+/// Which coordinate of a pole is asked for.
+fn part_of(name: &Name) -> u32 {
+    u32::from(name.text.ends_with('y'))
 }

@@ -165,8 +165,11 @@ impl<'t> Writer<'t, '_> {
             ItemKind::Input { name, value } => {
                 ItemKind::Input { name: own(name), value: self.formula(value, numbers)? }
             }
-            ItemKind::Measure { name, value } => {
-                ItemKind::Measure { name: own(name), value: self.formula(value, numbers)? }
+            ItemKind::Measure { name, value, unit } => {
+                ItemKind::Measure { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+            }
+            ItemKind::Trace { name, point, unit } => {
+                ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
             }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
@@ -333,7 +336,8 @@ fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Body { name, .. }
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
-        | ItemKind::Measure { name, .. } => Some(name),
+        | ItemKind::Measure { name, .. }
+        | ItemKind::Trace { name, .. } => Some(name),
         ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }
 }

@@ -7,7 +7,7 @@ use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows,
+    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows, WrittenUnit,
 };
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
@@ -60,6 +60,8 @@ pub enum NameKind {
     Driver,
     /// `measure`
     Measure,
+    /// `trace`
+    Trace,
     /// What cannot be read.
     Broken,
 }
@@ -221,6 +223,7 @@ impl Walk<'_> {
             ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
             ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
+            ItemKind::Trace { name, .. } => (name, NameKind::Trace),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -274,8 +277,12 @@ impl Walk<'_> {
         }
         let plain = Scope { indices: &indices, ..Scope::default() };
         match &item.kind {
-            ItemKind::Param { value, .. } | ItemKind::Input { value, .. } | ItemKind::Measure { value, .. } => {
-                self.formula(value, plain);
+            ItemKind::Param { value, .. } | ItemKind::Input { value, .. } => self.formula(value, plain),
+            ItemKind::Measure { value: formula, unit, .. } | ItemKind::Trace { point: formula, unit, .. } => {
+                self.formula(formula, plain);
+                if let Some(unit) = unit {
+                    self.compound(unit);
+                }
             }
             ItemKind::Function { argument, value, .. } => {
                 let declared = self.declare(argument, NameKind::Argument, item.span, id);
@@ -287,7 +294,7 @@ impl Walk<'_> {
                 }
             }
             ItemKind::Table { rows: TableRows::File { units, .. }, .. } => {
-                units.iter().flatten().for_each(|unit| self.unit(unit));
+                units.iter().flatten().for_each(|unit| self.compound(unit));
             }
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
             ItemKind::Body { pose, features, .. } => {
@@ -411,6 +418,10 @@ impl Walk<'_> {
         self.symbols.uses.push(Use { span: name.span, meaning: Meaning::Declared(id), declares: false });
     }
 
+    fn compound(&mut self, written: &WrittenUnit) {
+        written.factors.iter().for_each(|factor| self.unit(&factor.name));
+    }
+
     fn unit(&mut self, name: &Name) {
         if let Some(unit) = Unit::named(&name.text) {
             self.word(name, &unit.word);
@@ -473,10 +484,14 @@ impl Walk<'_> {
 
     /// What is called: the language's own functions before the user's, unless they give way.
     fn called(&mut self, name: &Name) {
+        let declared = self.names.get(&name.text);
+        let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
+        let hides = declared.is_some_and(is_callable);
+        let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
-        let word = function.or_else(|| QuantityWord::named(&name.text).map(|quantity| &quantity.word));
+        let word = function.or_else(|| quantity.map(|quantity| &quantity.word));
         let word = word.filter(|_| !self.hidden.contains(name.text.as_str()));
-        match (word, self.names.get(&name.text)) {
+        match (word, declared) {
             (Some(word), _) => self.word(name, word),
             (None, Some(&id)) => self.declared(name, id),
             (None, None) => {}
@@ -570,6 +585,19 @@ mod tests {
         assert_eq!(of("(r, A.x)", "(‸r, A.x)"), ["param r = 3 mm", second, last, body]);
         assert_eq!(of("Q = r", "Q = ‸r"), [second, last]);
         assert_eq!(of("(r, A.x)", "(r, ‸A.x)"), of("mid(A", "mid(‸A"));
+    }
+
+    #[test]
+    fn traces_units_and_quantities_have_their_meanings() {
+        let text = "mechanism m {\n param Hz = 3\n body b { point ‸P = (2, 0) }\n trace trace = b.P in mm\n measure speed = speed(b.P) in mm/Hz\n measure in_it = speed / 2 in mm/s\n}";
+        assert_eq!(places(text).len(), 3);
+        // a unit behind `in` is one, whatever else is called so
+        assert_eq!(places(&text.replace('‸', "").replace("Hz =", "‸Hz =")).len(), 1);
+        assert_eq!(places(&text.replace('‸', "").replace("measure speed", "measure ‸speed")).len(), 2);
+        assert_eq!(places(&text.replace('‸', "").replace("trace trace", "trace ‸trace")).len(), 1);
+        let called =
+            text.replace('‸', "").replace(" param", " fn slip(u) = u\n param").replace("speed(b.P)", "‸slip(1)");
+        assert_eq!(places(&called).len(), 2);
     }
 
     #[test]

@@ -1,11 +1,44 @@
-//! A table's file: two columns of numbers separated by commas, each fault with its place in the file.
+//! A table's file: two columns of numbers separated by commas, or two among others, each fault with its place in the file.
 
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 
+/// Which cells of a row a table takes.
+#[derive(Clone, Copy)]
+pub(super) enum Picked {
+    /// Both; there are no others.
+    Both,
+    /// Two of them, by their numbers from 0.
+    Two {
+        /// Argument and value.
+        cells: [usize; 2],
+        /// Whether they are named in the first line, which is a header then, whatever it looks like.
+        by_name: bool,
+    },
+}
+
+/// The cells of the first line that is not blank, as names.
+pub(super) fn first_line(source: &Source) -> Vec<&str> {
+    let line = source.text.split('\n').find(|line| !line.trim().is_empty()).unwrap_or_default();
+    cells(line).collect()
+}
+
+/// The cells of a line, without the quotes around them: between quotes a comma parts nothing.
+fn cells(line: &str) -> impl Iterator<Item = &str> {
+    let mut is_quoted = false;
+    let parts = line.split(move |c| {
+        is_quoted ^= c == '"';
+        c == ',' && !is_quoted
+    });
+    parts.map(|cell| {
+        let cell = cell.trim();
+        cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell)
+    })
+}
+
 /// The rows with their places, and what is wrong with the others, each kind of fault once. A header line and blank lines
 /// are passed over.
-pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec<Diagnostic>) {
+pub(super) fn read(source: &Source, file: FileId, picked: Picked) -> (Vec<([f64; 2], Span)>, Vec<Diagnostic>) {
     let mut rows = Vec::new();
     let mut faults: Vec<(Diagnostic, usize)> = Vec::new();
     let mut at = 0;
@@ -16,11 +49,15 @@ pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec
         if line.trim().is_empty() {
             continue;
         }
-        match numbers(line) {
+        match numbers(line, picked) {
+            _ if may_be_header && matches!(picked, Picked::Two { by_name: true, .. }) => {}
             Some(row) => rows.push((row, span)),
-            None if may_be_header && is_header(line) => {}
+            None if may_be_header && is_header(line, picked) => {}
             None => {
-                let fault = not_two_numbers(line, span);
+                let fault = match picked {
+                    Picked::Both => not_two_numbers(line, span),
+                    Picked::Two { cells, .. } => not_numbers_there(line, span, cells),
+                };
                 match faults.iter_mut().find(|(known, _)| known.help == fault.help) {
                     Some((_, more)) => *more += 1,
                     None => faults.push((fault, 0)),
@@ -37,10 +74,18 @@ pub(super) fn read(source: &Source, file: FileId) -> (Vec<([f64; 2], Span)>, Vec
     (rows, faults.into_iter().map(told).collect())
 }
 
-fn numbers(line: &str) -> Option<[f64; 2]> {
-    let mut cells = line.split(',').map(|cell| number(cell.trim()));
-    let (first, second) = (cells.next()??, cells.next()??);
-    cells.next().is_none().then_some([first, second])
+fn numbers(line: &str, picked: Picked) -> Option<[f64; 2]> {
+    match picked {
+        Picked::Both => {
+            let mut cells = line.split(',').map(|cell| number(cell.trim()));
+            let (first, second) = (cells.next()??, cells.next()??);
+            cells.next().is_none().then_some([first, second])
+        }
+        Picked::Two { cells: [first, second], .. } => {
+            let cell = |at: usize| cells(line).nth(at).and_then(number);
+            Some([cell(first)?, cell(second)?])
+        }
+    }
 }
 
 /// A finite number as programs write it: `inf`, `nan` and the like are none.
@@ -50,10 +95,16 @@ pub(super) fn number(cell: &str) -> Option<f64> {
 }
 
 /// A line none of whose parts is a number.
-fn is_header(line: &str) -> bool {
-    let parts = line.split([',', ';', '\t']).map(str::trim).filter(|part| !part.is_empty());
-    let begins_a_number = |part: &str| part.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c));
-    !parts.clone().any(|part| begins_a_number(part.trim_start_matches(['"', '\''])))
+fn is_header(line: &str, picked: Picked) -> bool {
+    let begins_a_number = |part: &str| {
+        part.trim_start_matches(['"', '\'']).starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
+    };
+    match picked {
+        Picked::Both => !line.split([',', ';', '\t']).map(str::trim).any(begins_a_number),
+        Picked::Two { cells: picked, .. } => {
+            picked.iter().all(|&at| cells(line).nth(at).is_some_and(|cell| !cell.is_empty() && !begins_a_number(cell)))
+        }
+    }
 }
 
 fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
@@ -62,7 +113,7 @@ fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
         "columns are separated by commas, and decimals written with a point"
     } else if cells.len() > 2 && cells.iter().all(|cell| cell.bytes().all(|byte| byte.is_ascii_digit() || byte == b'.'))
     {
-        "write numbers without separators between their thousands, and decimals with a point"
+        "write numbers without separators between their thousands, and decimals with a point;\nof a wider table name two columns: `columns 1, 3`"
     } else if cells.len() == 1 {
         "a row is an argument and a value, separated by a comma"
     } else {
@@ -77,6 +128,29 @@ fn not_two_numbers(line: &str, span: Span) -> Diagnostic {
         None => String::new(),
     };
     Diagnostic::new(Code::E0416, "this row of a table is not two numbers").at(span, label).help(help)
+}
+
+/// A row in which a column that was picked is missing, or holds no number.
+fn not_numbers_there(line: &str, span: Span, picked: [usize; 2]) -> Diagnostic {
+    let count = cells(line).count();
+    let label = match picked.iter().find(|&&at| cells(line).nth(at).is_none_or(|cell| number(cell).is_none())) {
+        Some(&at) if at >= count => format!("found {}, and none in column {}", parts(count), at + 1),
+        Some(&at) => match cells(line).nth(at).unwrap_or_default() {
+            "" => format!("column {} is empty", at + 1),
+            cell => format!("`{}` is not a number", shown(cell)),
+        },
+        None => String::new(),
+    };
+    Diagnostic::new(Code::E0416, "this row of a table is not two numbers").at(span, label).help(
+        "each of the two columns holds a number in every row, with a decimal point; columns are separated by commas",
+    )
+}
+
+/// As much of a cell as a message has room for.
+fn shown(cell: &str) -> String {
+    const LONGEST: usize = 80;
+    let text: String = cell.chars().take(LONGEST).collect();
+    if text.len() < cell.len() { text + "…" } else { text }
 }
 
 fn parts(count: usize) -> String {

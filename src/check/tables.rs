@@ -1,13 +1,15 @@
 //! Tables: their rows from a list or a file, and their calls.
 
 use super::formula::{Context, Dim, Value};
-use super::{Checker, errors, table_file};
+use super::table_file::{self, Picked};
+use super::{Checker, errors};
 use crate::diag::Diagnostic;
 use crate::expr::{ExprId, TableId};
 use crate::model::{Condition, ConditionKind, Dimension};
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Expr, ExprKind, Name, TableRows};
-use crate::vocabulary::Unit;
+use crate::syntax::ast::{Column, ColumnKind, Expr, ExprKind, Name, TableRows, WrittenUnit};
+use crate::syntax::normalized;
+use crate::vocabulary::CompoundUnit;
 use rustc_hash::FxHashMap;
 
 /// How far beyond its range an argument may lie and still count as the end, as a part of the range: rounding.
@@ -54,7 +56,7 @@ impl<'a> Checker<'a> {
         let (name, periodic, rows_written) = (self.tables[k].name, self.tables[k].periodic, self.tables[k].rows);
         let read = match rows_written {
             TableRows::Listed(rows) => self.listed_rows(rows),
-            TableRows::File { path, units } => self.file_rows(path, units.as_ref()),
+            TableRows::File { path, columns, units } => self.file_rows(path, columns.as_ref(), units.as_ref()),
         };
         let Some((rows, columns)) = read else {
             return;
@@ -128,23 +130,70 @@ impl<'a> Checker<'a> {
         Some((column?, dim.map_or(Dim::PURE, |(_, dim)| dim)))
     }
 
-    /// `"file.csv" (unit, unit)`
-    fn file_rows(&mut self, path: &Name, units: Option<&[Name; 2]>) -> Option<(Vec<Row>, [Dim; 2])> {
+    /// `"file.csv" columns 1, 3 (unit, unit)`
+    fn file_rows(
+        &mut self,
+        path: &Name,
+        columns: Option<&[Column; 2]>,
+        units: Option<&[WrittenUnit; 2]>,
+    ) -> Option<(Vec<Row>, [Dim; 2])> {
         let units = match units {
             None => [None, None],
-            Some(names) => {
-                let units = [0, 1].map(|k: usize| {
-                    let unit = Unit::named(&names[k].text);
-                    if unit.is_none() {
-                        self.report(errors::not_a_unit_of_a_column(&names[k]));
-                    }
-                    unit
-                });
-                units.iter().all(Option::is_some).then_some(units)?
+            Some(written) => {
+                let [first, second] =
+                    written.each_ref().map(|unit| self.compound(unit, errors::not_a_unit_of_a_column));
+                [Some(first?), Some(second?)]
             }
         };
-        let file = match self.files.get(&path.text) {
-            Some(Ok(file)) => *file,
+        let file = self.file_of_table(path)?;
+        let picked = match columns {
+            None => Picked::Both,
+            Some(columns) => self.picked(path, columns, file)?,
+        };
+        let (rows, faults) = table_file::read(self.sources.get(file), file, picked);
+        if !faults.is_empty() {
+            for fault in faults {
+                self.report(fault.also(path.span, "named here"));
+            }
+            return None;
+        }
+        let mut cell = |unit: Option<&CompoundUnit>, value: f64| {
+            let si = unit.map_or(value, |unit| unit.to_si(value));
+            self.model.graph.constant(si)
+        };
+        let rows: Vec<Row> = rows
+            .into_iter()
+            .map(|(values, span)| {
+                let cells = [0, 1].map(|k: usize| cell(units[k].as_ref(), values[k]));
+                Row { cells, written: Some(values[0]), span }
+            })
+            .collect();
+        if rows.is_empty() {
+            self.report(errors::empty_table_file(path));
+            return None;
+        }
+        let dims = units.map(|unit| Dim::Of(unit.map_or(Dimension::PURE, |unit| unit.dimension())));
+        Some((rows, dims))
+    }
+
+    /// Where the two columns are that a text names.
+    fn picked(&mut self, path: &Name, columns: &[Column; 2], file: FileId) -> Option<Picked> {
+        let header = table_file::first_line(self.sources.get(file));
+        let cells = columns.each_ref().map(|column| match position_of(path, column, &header) {
+            Ok(at) => Some(at),
+            Err(diagnostic) => {
+                self.report(*diagnostic);
+                None
+            }
+        });
+        let by_name = columns.iter().any(|column| matches!(column.kind, ColumnKind::Named(_)));
+        Some(Picked::Two { cells: [cells[0]?, cells[1]?], by_name })
+    }
+
+    /// The text that a table names, if it could be read.
+    fn file_of_table(&mut self, path: &Name) -> Option<FileId> {
+        match self.files.get(&path.text) {
+            Some(Ok(file)) => Some(*file),
             Some(Err(diagnostic)) => {
                 let named = "named here";
                 let diagnostic = diagnostic.as_ref().clone();
@@ -153,37 +202,13 @@ impl<'a> Checker<'a> {
                 } else {
                     diagnostic.also(path.span, named)
                 });
-                return None;
+                None
             }
             None => {
                 self.report(errors::no_table_file(path));
-                return None;
+                None
             }
-        };
-        let (rows, faults) = table_file::read(self.sources.get(file), file);
-        if !faults.is_empty() {
-            for fault in faults {
-                self.report(fault.also(path.span, "named here"));
-            }
-            return None;
         }
-        let mut cell = |unit: Option<&Unit>, value: f64| {
-            let si = unit.map_or(value, |unit| unit.to_si(value, 1));
-            self.model.graph.constant(si)
-        };
-        let rows: Vec<Row> = rows
-            .into_iter()
-            .map(|(values, span)| {
-                let cells = [0, 1].map(|k: usize| cell(units[k], values[k]));
-                Row { cells, written: Some(values[0]), span }
-            })
-            .collect();
-        if rows.is_empty() {
-            self.report(errors::empty_table_file(path));
-            return None;
-        }
-        let dims = units.map(|unit| Dim::Of(unit.map_or(Dimension::PURE, |unit| unit.dimension)));
-        Some((rows, dims))
     }
 
     /// Enough rows, arguments that rise, and, where it repeats, an end like the start.
@@ -270,4 +295,20 @@ impl<'a> Checker<'a> {
         }
         Some(())
     }
+}
+
+/// The number of a column in a file's first line, from 0.
+fn position_of(path: &Name, column: &Column, header: &[&str]) -> Result<usize, Box<Diagnostic>> {
+    let at = match &column.kind {
+        ColumnKind::Number(number) => Some(*number as usize - 1).filter(|at| *at < header.len()),
+        ColumnKind::Named(name) => {
+            let mut found = (0..header.len()).filter(|&at| normalized(header[at]) == normalized(name));
+            let first = found.next();
+            if let (Some(first), Some(second)) = (first, found.next()) {
+                return Err(Box::new(errors::column_twice(path, column.span, name, [first, second])));
+            }
+            first
+        }
+    };
+    at.ok_or_else(|| Box::new(errors::no_column(path, column, header)))
 }

@@ -57,7 +57,7 @@ struct Table {
 impl Table {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
     fn write(mut self, mut run: Run) -> Result<Ended, Failure> {
-        let (columns, count) = (run.columns().to_vec(), run.times().len());
+        let (columns, units, count) = (run.columns().to_vec(), run.units().to_vec(), run.times().len());
         if std::io::stderr().is_terminal()
             && let Some(text) = beforehand(count, columns.len(), self.format)
         {
@@ -67,11 +67,17 @@ impl Table {
         let (mut stopped, mut rows) = (Ok(()), 0);
         let timings = &mut self.timings;
         let written = (|| {
-            let mut table = TableWriter::new(self.output.writer(), self.format, &columns)?;
+            let texts: Vec<&str> = units.iter().map(|unit| unit.text.as_str()).collect();
+            let mut table = TableWriter::new(self.output.writer(), self.format, &columns, &texts)?;
+            let mut printed = Vec::with_capacity(columns.len());
             while let Some(row) = run.next_row() {
                 timings.end(Phase::Solve);
                 match row {
-                    Ok(row) => table.row(row)?,
+                    Ok(row) => {
+                        printed.clear();
+                        printed.extend(units.iter().zip(row).map(|(unit, &value)| unit.from_si(value)));
+                        table.row(&printed)?;
+                    }
                     Err(diagnostic) => {
                         stopped = Err(diagnostic.into());
                         break;

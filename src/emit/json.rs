@@ -183,6 +183,7 @@ impl Writer<'_> {
             json!({
                 "name": measure.name,
                 "line": self.line(measure.span),
+                "unit": measure.units.si,
                 "value": (self.text)(measure.value),
                 "first": measure.first.map(self.text),
                 "second": measure.second.map(self.text),

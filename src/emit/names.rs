@@ -104,6 +104,17 @@ impl Namer {
         self.unique(&words(source).to_uppercase(), '_')
     }
 
+    /// Names for constants, in order. Where two meet, the one that is no path keeps its name: `pen_x` before `pen.x`.
+    pub fn constants(&mut self, sources: &[&str]) -> Vec<String> {
+        let mut names = vec![String::new(); sources.len()];
+        for paths in [false, true] {
+            for (name, source) in names.iter_mut().zip(sources).filter(|(_, source)| source.contains('.') == paths) {
+                *name = self.constant(source);
+            }
+        }
+        names
+    }
+
     fn unique(&mut self, name: &str, separator: char) -> String {
         let safe = if is_keyword(name) { format!("{name}{separator}") } else { name.to_owned() };
         self.numbered(&safe, &separator.to_string())
@@ -163,5 +174,7 @@ mod tests {
         assert_eq!(names, ["fn_", "type_", "self_", "u00e9", "r", "r_2", "crank_phi", "unnamed", "n1", "r_3"]);
         let mut namer = Namer::default();
         assert_eq!(["a.x", "A.x"].map(|name| namer.constant(name)), ["A_X", "A_X_2"]);
+        let mut namer = Namer::default();
+        assert_eq!(namer.constants(&["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
     }
 }

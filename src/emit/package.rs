@@ -7,6 +7,7 @@ use super::Unit;
 use super::names::{Namer, is_keyword};
 use super::rust;
 use super::text::{lines, literal, one_line};
+use crate::ir::Measure;
 use std::fmt::Display;
 
 /// The version of `libm` that the interpreter runs with; `Cargo.toml` pins the same.
@@ -194,8 +195,8 @@ impl Writer<'_> {
     /// What the example prints, and what it needs for it.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
-        if let Some(measure) = system.measures.first() {
-            let name = Namer::default().constant(&measure.name);
+        let sources: Vec<&str> = system.measures.iter().map(|of| of.name.as_str()).collect();
+        if let Some(name) = Namer::default().constants(&sources).first() {
             return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
         }
         if let Some(body) = system.bodies.first() {
@@ -269,20 +270,25 @@ impl Writer<'_> {
         if measures.is_empty() {
             return String::new();
         }
-        let mut namers = [Namer::default(), Namer::default(), Namer::default()];
-        let mut index = |kind: usize, name: &str| {
-            let module = ["measure", "measure_rate", "measure_acceleration"][kind];
-            format!("`{module}::{}`", namers[kind].constant(name))
+        // those of each module, by measure
+        let indices = |module: &str, has: fn(&Measure) -> bool| {
+            let sources: Vec<&str> = measures.iter().filter(|of| has(of)).map(|of| of.name.as_str()).collect();
+            let mut names = Namer::default().constants(&sources).into_iter();
+            let mut index = || names.next().map_or_else(String::new, |name| format!("`{module}::{name}`"));
+            measures.iter().map(|of| if has(of) { index() } else { String::new() }).collect::<Vec<String>>()
         };
+        let values = indices("measure", |_| true);
+        let rates = indices("measure_rate", |of| of.first.is_some());
+        let accelerations = indices("measure_acceleration", |of| of.second.is_some());
         let mut rows = String::new();
-        for measure in measures {
-            let rate = measure.first.map_or(String::new(), |_| index(1, &measure.name));
-            let acceleration = measure.second.map_or(String::new(), |_| index(2, &measure.name));
-            rows += &line(&[format!("`{}`", measure.name), index(0, &measure.name), rate, acceleration]);
+        for (k, measure) in measures.iter().enumerate() {
+            let [value, rate, acceleration] = [&values, &rates, &accelerations].map(|list| list[k].clone());
+            rows += &line(&[format!("`{}`", measure.name), unit(&measure.units.si), value, rate, acceleration]);
         }
         format!(
-            "## Measures\n\n`values`, `rates` and `accelerations` of `state.measures()`, by these indices:\n\n\
-             | measure | value | first derivative | second derivative |\n| --- | --- | --- | --- |\n{rows}\n"
+            "## Measures\n\n`values`, `rates` and `accelerations` of `state.measures()`, by these indices. They are in SI, whatever \
+             unit a table has them in:\n\n| measure | unit | value | first derivative | second derivative |\n\
+             | --- | --- | --- | --- | --- |\n{rows}\n"
         )
     }
 }

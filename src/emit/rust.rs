@@ -7,7 +7,7 @@ use super::names::{Namer, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
-use crate::ir::{Check, Measure, Owner};
+use crate::ir::{Check, Measure, Owner, Units};
 use crate::program::{Column, Register, Rim, STAGES};
 use crate::solver::RowLayout;
 use crate::source::Span;
@@ -234,7 +234,7 @@ impl Writer<'_> {
         let lists = [having(|_| true), having(|m| m.first.is_some()), having(|m| m.second.is_some())];
         let mut text = String::new();
         let kinds = [
-            ("measure", "Where each measure stands among the values.", "MEASURES"),
+            ("measure", "Where each measure stands among the values, all in SI.", "MEASURES"),
             (
                 "measure_rate",
                 "Where the first time derivative of each measure that has one stands among the rates.",
@@ -248,10 +248,11 @@ impl Writer<'_> {
         ];
         for ((module, docs, count), list) in kinds.into_iter().zip(&lists) {
             text += &format!("/// {docs}\npub mod {module} {{\n");
-            let mut namer = Namer::default();
-            for (k, measure) in list.iter().enumerate() {
-                let (name, line) = (namer.constant(&measure.name), self.line(measure.span));
-                text += &format!("    /// `{}`{line}\n    pub const {name}: usize = {k};\n", measure.name);
+            let sources: Vec<&str> = list.iter().map(|measure| measure.name.as_str()).collect();
+            let names = Namer::default().constants(&sources);
+            for (k, (measure, name)) in list.iter().zip(&names).enumerate() {
+                let (line, si) = (self.line(measure.span), in_si(measure));
+                text += &format!("    /// `{}`{si}{line}\n    pub const {name}: usize = {k};\n", measure.name);
             }
             text += &format!("}}\n\n/// How many they are.\npub const {count}: usize = {};\n\n", list.len());
         }
@@ -783,4 +784,11 @@ fn helpers(body: &str) -> String {
         text += "\n}\n";
     }
     text
+}
+
+/// What is said of a measure that tables print in another unit.
+fn in_si(measure: &Measure) -> String {
+    let Units { si, printed: [printed, ..], .. } = &measure.units;
+    let unit = if si == "1" { "as a pure number".to_owned() } else { format!("in {si}") };
+    if si == printed { String::new() } else { format!(", {unit}; tables have it in {printed}") }
 }

@@ -223,6 +223,19 @@ pub struct Measure {
     pub second: Option<ExprId>,
     /// The name's place.
     pub span: Span,
+    /// In what it is printed.
+    pub units: Units,
+}
+
+/// The units of a measure and of its derivatives.
+#[derive(Clone, Debug)]
+pub struct Units {
+    /// The SI unit of its value: `m`, `rad/s`, or `1` for a pure number.
+    pub si: String,
+    /// Those in which it, its first and its second time derivative are printed.
+    pub printed: [String; 3],
+    /// What SI is divided by, multiplied with and divided by to be in these.
+    pub scale: [f64; 3],
 }
 
 /// A formula that must be above zero.

@@ -8,9 +8,9 @@ use crate::model::{AxisId, Joint, Named, PointId, Profile};
 use rustc_hash::FxHashMap;
 
 /// A profile at one argument, in its body's frame.
-struct Local {
-    at: Vector,
-    tangent: Vector,
+pub(super) struct Local {
+    pub at: Vector,
+    pub tangent: Vector,
     /// The tangent's derivative by the argument.
     bend: Vector,
 }
@@ -103,8 +103,22 @@ impl Lowering<'_> {
         self.own_coordinate(joint, k, CoordinateKind::Argument, estimate)
     }
 
-    /// A profile at an argument, with its derivatives by it.
+    /// A profile at an argument, with its derivatives by it; what its formula asks for is asked there.
     fn along(&mut self, profile: Profile, u: ExprId) -> Local {
+        let local = self.local(profile, u);
+        if let Profile::Curve(curve) = profile {
+            let conditions = &self.model[curve].conditions;
+            let roots: Vec<ExprId> = conditions.iter().map(|condition| condition.positive).collect();
+            let carried = self.of_argument(&roots, u);
+            for (condition, &positive) in conditions.iter().zip(&carried) {
+                self.condition(condition, positive);
+            }
+        }
+        local
+    }
+
+    /// A profile at an argument, with its derivatives by it.
+    pub(super) fn local(&mut self, profile: Profile, u: ExprId) -> Local {
         let at = match profile {
             Profile::Circle(circle) => {
                 let center = self.model[self.model[circle].center].at.map(|id| self.formula(id));
@@ -114,13 +128,7 @@ impl Lowering<'_> {
                 [self.graph.add(center[0], x), self.graph.add(center[1], y)]
             }
             Profile::Curve(curve) => {
-                let curve = &self.model[curve];
-                let mut roots = curve.at.to_vec();
-                roots.extend(curve.conditions.iter().map(|condition| condition.positive));
-                let carried = self.of_argument(&roots, u);
-                for (condition, &positive) in curve.conditions.iter().zip(&carried[2..]) {
-                    self.condition(condition, positive);
-                }
+                let carried = self.of_argument(&self.model[curve].at, u);
                 [carried[0], carried[1]]
             }
         };

@@ -10,13 +10,14 @@ mod joints;
 mod quantities;
 mod size;
 mod uses;
+mod velocities;
 
 use crate::expr::{Comparison, ExprId, Graph, Symbol};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
-    Owner, Param, Row, SparseRows, Watch,
+    Owner, Param, Row, SparseRows, Units, Watch,
 };
-use crate::model::{AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
+use crate::model::{self, AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -139,6 +140,7 @@ impl Lowering<'_> {
         for k in 0..self.model.named.len() {
             let id = match self.model.named[k] {
                 Named::Quantity(quantity) => self.quantity(quantity),
+                Named::Exists(quantity) => self.existence(quantity),
                 Named::Derivative(inner) => {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
@@ -277,21 +279,19 @@ impl Lowering<'_> {
     }
 
     fn condition(&mut self, condition: &crate::model::Condition, positive: ExprId) {
+        let kind = match condition.kind {
+            ConditionKind::Distance => ir::ConditionKind::Distance,
+            ConditionKind::Interval => ir::ConditionKind::Interval,
+            // tables keep their numbers
+            ConditionKind::Range(table) => ir::ConditionKind::Range(table),
+            ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
+            // of a measure, in a branch that is never taken
+            ConditionKind::Existence => return,
+        };
         if !self.known_conditions.insert(positive) {
             return;
         }
-        self.conditions.push(Condition {
-            positive,
-            kind: match condition.kind {
-                ConditionKind::Distance => ir::ConditionKind::Distance,
-                ConditionKind::Interval => ir::ConditionKind::Interval,
-                // tables keep their numbers
-                ConditionKind::Range(table) => ir::ConditionKind::Range(table),
-                ConditionKind::Samples(table) => ir::ConditionKind::Samples(table),
-            },
-            span: condition.span,
-            owner: condition.owner.clone(),
-        });
+        self.conditions.push(Condition { positive, kind, span: condition.span, owner: condition.owner.clone() });
     }
 
     fn measures(&mut self) -> Vec<Measure> {
@@ -307,7 +307,8 @@ impl Lowering<'_> {
                 let holds = self.all_hold(&measure.conditions);
                 let value = self.only_where(holds, value);
                 let [first, second] = [first, second].map(|id| id.map(|id| self.only_where(holds, id)));
-                Measure { name, value, first, second, span }
+                let model::Units { si, printed, scale } = measure.units.clone();
+                Measure { name, value, first, second, span, units: Units { si, printed, scale } }
             })
             .collect()
     }
@@ -350,6 +351,12 @@ impl Lowering<'_> {
             Quantity::Distance(p, q) => self.distance(p, q),
             Quantity::Rotation(joint, axes) => self.rotation(joint, axes),
             Quantity::Displacement(_, a, b) => self.displacement(a, b),
+            Quantity::Corner(points) => self.corner(points),
+            Quantity::Curvature(point) => self.path_curvature(point),
+            Quantity::Pole(of, from, part) => self.pole(of, from, part),
+            Quantity::Speed(point) => self.speed(point),
+            Quantity::PressureAngle(joint, frame) => self.pressure_angle(joint, frame),
+            Quantity::Slip(joint) => self.slip(joint),
         }
     }
 }

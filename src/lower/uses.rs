@@ -68,7 +68,7 @@ fn of_formulas(model: &Mechanism, formulas: &[ExprId], points: &mut Vec<PointId>
                 Named::Quantity(quantity) => of_quantity(model, quantity, points),
                 // it speaks only of symbols before it
                 Named::Derivative(inner) => open.push(inner),
-                Named::Argument => {}
+                Named::Argument | Named::Exists(_) => {}
             }
         }
     }
@@ -80,6 +80,7 @@ fn of_quantity(model: &Mechanism, quantity: Quantity, points: &mut Vec<PointId>)
         Quantity::X(from, to) | Quantity::Y(from, to) => points.extend(from.into_iter().chain([to])),
         Quantity::Distance(p, q) => points.extend([p, q]),
         Quantity::Displacement(_, a, b) => points.extend([origin(a), origin(b)]),
-        Quantity::Angle(..) | Quantity::Rotation(..) => {}
+        // the others stand in no equation
+        _ => {}
     }
 }

@@ -5,7 +5,7 @@
 
 mod print;
 
-pub use crate::vocabulary::Dimension;
+pub use crate::vocabulary::{CompoundUnit, Dimension};
 
 use crate::expr::{ExprId, Graph, TableId};
 use crate::source::Span;
@@ -428,6 +428,8 @@ pub enum Named {
     Quantity(Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
+    /// Above zero where a quantity of measures exists.
+    Exists(Quantity),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }
@@ -447,6 +449,54 @@ pub enum Quantity {
     Rotation(JointId, Option<(AxisId, AxisId)>),
     /// Way of a translational joint along its first axis, to its second (m).
     Displacement(JointId, AxisId, AxisId),
+    /// The angle at the second of three points, from the first to the third, in (−π, π] (rad); this and the following stand in measures
+    /// alone.
+    Corner([PointId; 3]),
+    /// Curvature of a point's path, positive to the left (1/m).
+    Curvature(PointId),
+    /// x (part 0) or y (part 1) of the instant centre of a frame relative to another (m).
+    Pole(Frame, Frame, u32),
+    /// Length of a point's velocity (m/s).
+    Speed(PointId),
+    /// Between the common normal at a contact and the velocity of a frame's point there, 0 to π/2 (rad).
+    PressureAngle(JointId, Frame),
+    /// Sliding speed at a contact (m/s).
+    Slip(JointId),
+}
+
+impl Quantity {
+    /// How many time derivatives of the coordinates it holds.
+    #[must_use]
+    pub fn order(self) -> u8 {
+        match self {
+            Quantity::Curvature(_) => 2,
+            Quantity::Pole(..) | Quantity::Speed(_) | Quantity::PressureAngle(..) | Quantity::Slip(_) => 1,
+            _ => 0,
+        }
+    }
+
+    /// Whether there are positions or velocities at which it has no value.
+    #[must_use]
+    pub fn may_not_exist(self) -> bool {
+        matches!(self, Quantity::Corner(_) | Quantity::Curvature(_) | Quantity::Pole(..) | Quantity::PressureAngle(..))
+    }
+
+    /// Its dimension.
+    #[must_use]
+    pub fn dimension(self) -> Dimension {
+        match self {
+            Quantity::Angle(..) | Quantity::Rotation(..) | Quantity::Corner(_) | Quantity::PressureAngle(..) => {
+                Dimension::PURE
+            }
+            Quantity::Curvature(_) => Dimension::PURE.over(Dimension::LENGTH),
+            Quantity::Speed(_) | Quantity::Slip(_) => Dimension::LENGTH.over(Dimension::TIME),
+            Quantity::X(..)
+            | Quantity::Y(..)
+            | Quantity::Distance(..)
+            | Quantity::Displacement(..)
+            | Quantity::Pole(..) => Dimension::LENGTH,
+        }
+    }
 }
 
 /// A body's x axis, or an axis.
@@ -489,6 +539,44 @@ pub struct Measure {
     pub value: ExprId,
     /// What must be positive for it to have a value.
     pub conditions: Vec<Condition>,
+    /// In what it is printed.
+    pub units: Units,
+}
+
+/// The units of a measure and of its derivatives.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Units {
+    /// The SI unit of its value.
+    pub si: String,
+    /// Those in which it, its first and its second time derivative are printed.
+    pub printed: [String; 3],
+    /// What SI is divided by, multiplied with and divided by to be in these.
+    pub scale: [f64; 3],
+}
+
+impl Units {
+    /// SI; angles are told from other pure numbers.
+    #[must_use]
+    pub fn si(dimension: Dimension, is_angle: bool) -> Units {
+        let printed = [0.0, 1.0, 2.0].map(|times| si(dimension.over(Dimension::TIME.to_the(times)), is_angle));
+        Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
+    }
+
+    /// Another unit.
+    #[must_use]
+    pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
+        let printed = [0, 1, 2].map(|times| unit.per_second(times));
+        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.from_si() }
+    }
+}
+
+/// `m/s^2`; `rad/s` for a turning speed.
+fn si(dimension: Dimension, is_angle: bool) -> String {
+    let unit = dimension.unit();
+    match unit.strip_prefix('1') {
+        Some(rest) if is_angle => format!("rad{rest}"),
+        _ => unit,
+    }
 }
 
 /// A formula that must be positive, for others to have a meaning.
@@ -509,6 +597,8 @@ pub struct Condition {
 pub enum ConditionKind {
     /// A prescribed distance.
     Distance,
+    /// A quantity of measures; where it does not exist, they have no value.
+    Existence,
     /// The interval of a motion function.
     Interval,
     /// The range of a table.

@@ -56,6 +56,17 @@ impl Text<'_> {
                 format!("rotation({}, {}, {})", self.model[joint].declared.name, self.axis_text(u), self.axis_text(v))
             }
             Quantity::Displacement(joint, ..) => format!("displacement({})", self.model[joint].declared.name),
+            Quantity::Corner(points) => format!("angle({})", points.map(&point).join(", ")),
+            Quantity::Curvature(p) => format!("curvature({})", point(p)),
+            Quantity::Pole(b, c, part) => {
+                let name = |frame: Frame| self.model.frame_name(frame);
+                format!("pole_{}({}, {})", if part == 0 { "x" } else { "y" }, name(b), name(c))
+            }
+            Quantity::Speed(p) => format!("speed({})", point(p)),
+            Quantity::PressureAngle(joint, b) => {
+                format!("pressure_angle({}, {})", self.model[joint].declared.name, self.model.frame_name(b))
+            }
+            Quantity::Slip(joint) => format!("slip({})", self.model[joint].declared.name),
         }
     }
 
@@ -73,6 +84,7 @@ impl Text<'_> {
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Quantity(quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
+                Named::Exists(quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
                 Named::Argument => "u".to_owned(),
             },
             Symbol::Coordinate { .. } => "q".to_owned(),
@@ -181,7 +193,7 @@ impl Mechanism {
         list.extend(self.measures.iter().map(|measure| measure.value));
         list.extend(self.named.iter().filter_map(|named| match named {
             Named::Derivative(inner) => Some(*inner),
-            Named::Quantity(_) | Named::Argument => None,
+            Named::Quantity(_) | Named::Exists(_) | Named::Argument => None,
         }));
         list
     }
@@ -239,7 +251,9 @@ impl std::fmt::Display for Mechanism {
             writeln!(f, "\nmeasures")?;
         }
         for measure in &self.measures {
-            writeln!(f, "  {} = {}", measure.declared.name, text.formula_text(measure.value))?;
+            let [unit, ..] = &measure.units.printed;
+            let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", measure.declared.name, text.formula_text(measure.value))?;
         }
         if let Some(analysis) = self.analysis {
             let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);

@@ -13,7 +13,7 @@ pub enum TableFormat {
     /// A header, then a row per time.
     #[default]
     Csv,
-    /// `{"columns": […], "rows": [[…], …]}`
+    /// `{"columns": […], "units": […], "rows": [[…], …]}`
     Json,
     /// Apache Parquet, for programs that read tables by columns.
     #[cfg(feature = "parquet")]
@@ -32,16 +32,16 @@ enum Form<W: Write + Send> {
 }
 
 impl<W: Write + Send> TableWriter<W> {
-    /// Begins a table with its columns' names.
+    /// Begins a table with its columns' names and units; CSV has no place for units.
     ///
     /// # Errors
     /// As the writer underneath.
-    pub fn new(out: W, format: TableFormat, columns: &[String]) -> io::Result<TableWriter<W>> {
+    pub fn new(out: W, format: TableFormat, columns: &[String], units: &[&str]) -> io::Result<TableWriter<W>> {
         let form = match format {
-            TableFormat::Csv => Form::Text(TextWriter::new(out, false, columns)?),
-            TableFormat::Json => Form::Text(TextWriter::new(out, true, columns)?),
+            TableFormat::Csv => Form::Text(TextWriter::csv(out, columns)?),
+            TableFormat::Json => Form::Text(TextWriter::json(out, columns, units)?),
             #[cfg(feature = "parquet")]
-            TableFormat::Parquet => Form::Parquet(Box::new(ParquetWriter::new(out, columns)?)),
+            TableFormat::Parquet => Form::Parquet(Box::new(ParquetWriter::new(out, columns, units)?)),
         };
         Ok(TableWriter { form })
     }
@@ -81,15 +81,17 @@ struct TextWriter<W> {
 }
 
 impl<W: Write> TextWriter<W> {
-    fn new(mut out: W, is_json: bool, columns: &[String]) -> io::Result<TextWriter<W>> {
-        if is_json {
-            write!(out, "{{\"columns\": {}, \"rows\": [", serde_json::json!(columns))?;
-        } else {
-            // no name holds a quote, and a comma one of two numbers (RFC 4180)
-            let quoted = |name: &String| if name.contains(',') { format!("\"{name}\"") } else { name.clone() };
-            writeln!(out, "{}", columns.iter().map(quoted).collect::<Vec<_>>().join(","))?;
-        }
-        Ok(TextWriter { out, is_json, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
+    fn csv(mut out: W, columns: &[String]) -> io::Result<TextWriter<W>> {
+        // no name holds a quote, and a comma one of two numbers (RFC 4180)
+        let quoted = |name: &String| if name.contains(',') { format!("\"{name}\"") } else { name.clone() };
+        writeln!(out, "{}", columns.iter().map(quoted).collect::<Vec<_>>().join(","))?;
+        Ok(TextWriter { out, is_json: false, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
+    }
+
+    fn json(mut out: W, columns: &[String], units: &[&str]) -> io::Result<TextWriter<W>> {
+        let [columns, units] = [serde_json::json!(columns), serde_json::json!(units)];
+        write!(out, "{{\"columns\": {columns}, \"units\": {units}, \"rows\": [")?;
+        Ok(TextWriter { out, is_json: true, number: zmij::Buffer::new(), line: Vec::new(), rows: 0 })
     }
 
     fn row(&mut self, values: &[f64]) -> io::Result<()> {
@@ -127,7 +129,7 @@ mod tests {
 
     fn written(format: TableFormat, rows: &[&[f64]]) -> String {
         let columns = ["t".to_owned(), "a.x".to_owned()];
-        let mut writer = TableWriter::new(Vec::new(), format, &columns).unwrap();
+        let mut writer = TableWriter::new(Vec::new(), format, &columns, &["s", "mm"]).unwrap();
         for row in rows {
             writer.row(row).unwrap();
         }
@@ -156,6 +158,7 @@ mod tests {
         let text = written(TableFormat::Json, &[&[0.0, 1.5], &[1.0, -2e30]]);
         let value: serde_json::Value = serde_json::from_str(&text).unwrap();
         assert_eq!(value["columns"][1], "a.x");
+        assert_eq!(value["units"], serde_json::json!(["s", "mm"]));
         assert_eq!(value["rows"][1][1], -2e30);
         let empty: serde_json::Value = serde_json::from_str(&written(TableFormat::Json, &[])).unwrap();
         assert_eq!(empty["rows"].as_array().unwrap().len(), 0);

@@ -1,9 +1,11 @@
-//! A result table as Parquet: a column of 64-bit floating-point numbers for each of its own. All but the first, the time, may
+//! A result table as Parquet: a column of 64-bit floating-point numbers for each of its own, with their units as
+//! the key `units` of its metadata. All but the first, the time, may
 //! miss some.
 
 use parquet::basic::{Repetition, Type as Physical};
 use parquet::data_type::DoubleType;
 use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
 use parquet::file::properties::{EnabledStatistics, WriterProperties};
 use parquet::file::writer::SerializedFileWriter;
 use parquet::schema::types::Type;
@@ -25,7 +27,7 @@ pub(super) struct ParquetWriter<W: Write + Send> {
 }
 
 impl<W: Write + Send> ParquetWriter<W> {
-    pub fn new(out: W, columns: &[String]) -> io::Result<ParquetWriter<W>> {
+    pub fn new(out: W, columns: &[String], units: &[&str]) -> io::Result<ParquetWriter<W>> {
         let field = |(k, name): (usize, &String)| {
             let column = Type::primitive_type_builder(name, Physical::DOUBLE);
             let repetition = if k == 0 { Repetition::REQUIRED } else { Repetition::OPTIONAL };
@@ -36,6 +38,7 @@ impl<W: Write + Send> ParquetWriter<W> {
         let schema = Type::group_type_builder("rows").with_fields(fields).build().map_err(into_io)?;
         let properties = WriterProperties::builder()
             .set_created_by(format!("mechc {}", env!("CARGO_PKG_VERSION")))
+            .set_key_value_metadata(Some(vec![KeyValue::new("units".to_owned(), serde_json::json!(units).to_string())]))
             // hardly any number comes twice
             .set_dictionary_enabled(false)
             .set_statistics_enabled(EnabledStatistics::Chunk)
@@ -108,7 +111,7 @@ mod tests {
     #[test]
     fn what_is_written_reads_back_to_the_same_bits() {
         let columns = ["t".to_owned(), "rod.phi.dd".to_owned()];
-        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
+        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
         let rows = [[0.0, 0.1 + 0.2], [1.0, -5e-324], [2.0, f64::MAX]];
         for row in &rows {
             writer.row(row).unwrap();
@@ -127,9 +130,19 @@ mod tests {
     }
 
     #[test]
+    fn the_units_are_metadata() {
+        let columns = ["t".to_owned(), "lift".to_owned()];
+        let writer = ParquetWriter::new(Vec::new(), &columns, &["s", "mm"]).unwrap();
+        let reader = read(writer.finish().unwrap());
+        let pairs = reader.metadata().file_metadata().key_value_metadata().unwrap();
+        let units = pairs.iter().find(|pair| pair.key == "units").unwrap();
+        assert_eq!(units.value.as_deref(), Some(r#"["s","mm"]"#));
+    }
+
+    #[test]
     fn what_is_missing_is_null() {
         let columns = ["t".to_owned(), "gain".to_owned()];
-        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
+        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
         for row in [[0.0, 1.5], [1.0, f64::NAN], [2.0, f64::INFINITY], [3.0, 2.5]] {
             writer.row(&row).unwrap();
         }
@@ -142,7 +155,7 @@ mod tests {
     #[test]
     fn a_long_table_is_written_in_groups() {
         let columns: Vec<String> = (0..1000).map(|k| format!("c{k}")).collect();
-        let mut writer = ParquetWriter::new(Vec::new(), &columns).unwrap();
+        let mut writer = ParquetWriter::new(Vec::new(), &columns, &[]).unwrap();
         let row: Vec<f64> = (0..1000).map(f64::from).collect();
         let rows = GROUP / 1000 + 10;
         (0..rows).for_each(|_| writer.row(&row).unwrap());
@@ -153,7 +166,7 @@ mod tests {
 
     #[test]
     fn a_table_without_rows_is_a_table() {
-        let reader = read(ParquetWriter::new(Vec::new(), &["t".to_owned()]).unwrap().finish().unwrap());
+        let reader = read(ParquetWriter::new(Vec::new(), &["t".to_owned()], &[]).unwrap().finish().unwrap());
         assert_eq!(reader.metadata().file_metadata().num_rows(), 0);
     }
 }

@@ -1,6 +1,6 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
-use crate::analysis::{self, Times};
+use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::emit;
@@ -92,6 +92,12 @@ impl Compiled {
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
         analysis::columns(self.system())
+    }
+
+    /// The units of those columns, in which their numbers are printed; the rows themselves are in SI.
+    #[must_use]
+    pub fn units(&self) -> Vec<ColumnUnit> {
+        analysis::units(self.system())
     }
 
     /// How many coordinates and equations there are, by body and declaration, as a table.

@@ -1,7 +1,7 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
-use crate::analysis::{self, Motion, Times};
+use crate::analysis::{self, ColumnUnit, Motion, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
@@ -60,6 +60,7 @@ pub struct Assembly {
 pub struct Run {
     motion: Motion,
     columns: Arc<[String]>,
+    units: Arc<[ColumnUnit]>,
     assembly: Assembly,
     times: Times,
     cancel: Cancel,
@@ -90,15 +91,21 @@ impl Run {
         if options.pass_bifurcations {
             motion.pass_bifurcations();
         }
-        let columns = compiled.columns().into();
+        let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
-        (Some(Run { motion, columns, assembly, times, cancel, has_ended: false }), remarks)
+        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), remarks)
     }
 
     /// The names of the numbers of a row.
     #[must_use]
     pub fn columns(&self) -> &[String] {
         &self.columns
+    }
+
+    /// The units in which the numbers of a row are printed; the row itself is in SI.
+    #[must_use]
+    pub fn units(&self) -> &[ColumnUnit] {
+        &self.units
     }
 
     /// The position at the first time.
@@ -113,7 +120,7 @@ impl Run {
         &self.times
     }
 
-    /// The next row, in the order of [`Run::columns`], without a copy; `None` behind the last one, and when it was cancelled.
+    /// The next row, in SI and the order of [`Run::columns`], without a copy; `None` behind the last one, and when it was cancelled.
     ///
     /// # Errors
     /// Why the motion cannot go on; nothing comes behind that.

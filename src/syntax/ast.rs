@@ -128,12 +128,23 @@ pub enum ItemKind {
         /// Right of the `=`.
         right: Expr,
     },
-    /// `measure NAME = EXPR`
+    /// `measure NAME = EXPR in UNIT`
     Measure {
         /// Its name.
         name: Name,
         /// Its formula.
         value: Expr,
+        /// The unit behind `in`.
+        unit: Option<WrittenUnit>,
+    },
+    /// `trace NAME = P in UNIT`
+    Trace {
+        /// Its name.
+        name: Name,
+        /// A point of a body, or a tuple.
+        point: Expr,
+        /// The unit behind `in`.
+        unit: Option<WrittenUnit>,
     },
     /// What does not follow the grammar
     Broken {
@@ -156,12 +167,14 @@ pub enum ItemKind {
 pub enum TableRows {
     /// `[(a, b), …]`
     Listed(Vec<Expr>),
-    /// `"file.csv" (unit, unit)`
+    /// `"file.csv" columns 1, 3 (unit, unit)`
     File {
         /// Path as written, with its place.
         path: Name,
+        /// Which two of its columns; the first two if it has no others.
+        columns: Option<[Column; 2]>,
         /// Units of the two columns.
-        units: Option<[Name; 2]>,
+        units: Option<[WrittenUnit; 2]>,
     },
 }
 
@@ -185,6 +198,46 @@ impl Pose {
     pub fn parts(&self) -> impl Iterator<Item = &Expr> {
         std::iter::once(&self.at).chain(&self.toward)
     }
+}
+
+/// A column of a file, as it is named in a text.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Column {
+    /// Which one.
+    pub kind: ColumnKind,
+    /// Where it is named.
+    pub span: Span,
+}
+
+/// The ways to name a column.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub enum ColumnKind {
+    /// By its number, from 1.
+    Number(u32),
+    /// By its name in the header line.
+    Named(String),
+}
+
+/// Units with powers, joined by `*` and `/`: `mm/s^2`.
+#[derive(Clone, PartialEq, Debug)]
+pub struct WrittenUnit {
+    /// In order, one at least; the first one divides in `1/s`.
+    pub factors: Vec<UnitFactor>,
+    /// All of it.
+    pub span: Span,
+}
+
+/// A unit with its power, in a product.
+#[derive(Clone, PartialEq, Debug)]
+pub struct UnitFactor {
+    /// The unit.
+    pub name: Name,
+    /// Its power as written.
+    pub power: i32,
+    /// Whether it multiplies or divides.
+    pub factor: Factor,
+    /// With its power.
+    pub span: Span,
 }
 
 /// A feature of a body or of the ground.

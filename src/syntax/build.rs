@@ -1,6 +1,9 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
-use super::ast::{Expr, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Range as Repetition, TableRows};
+use super::ast::{
+    Column, ColumnKind, Expr, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Range as Repetition,
+    TableRows, UnitFactor, WrittenUnit,
+};
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
 use crate::diag::Diagnostic;
@@ -185,9 +188,16 @@ impl Reader<'_> {
                 left: self.next_expr(&mut inner)?,
                 right: self.next_expr(&mut inner)?,
             },
-            Rule::measure => {
-                ItemKind::Measure { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? }
-            }
+            Rule::measure => ItemKind::Measure {
+                name: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
+            Rule::trace => ItemKind::Trace {
+                name: self.next_name(&mut inner)?,
+                point: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
             Rule::analysis => ItemKind::Analysis {
                 from: self.next_expr(&mut inner)?,
                 to: self.next_expr(&mut inner)?,
@@ -251,13 +261,62 @@ impl Reader<'_> {
     fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
         let mut inner = pair.into_inner();
         let string = inner.next().ok_or_else(|| self.truncated())?;
-        let path = Name { text: string.as_str().trim_matches('"').to_owned(), span: self.span(&string) };
-        let mut inner = inner.filter(|pair| pair.as_rule() == Rule::word);
-        let units = match (inner.next(), inner.next()) {
-            (Some(first), Some(second)) => Some([self.name(&first)?, self.name(&second)?]),
-            _ => None,
+        let path = Name { text: unquoted(string.as_str()).to_owned(), span: self.span(&string) };
+        let (mut columns, mut units) = (None, Vec::new());
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::columns => columns = Some(self.columns(pair)?),
+                Rule::unit_product => units.push(self.unit_product(pair)?),
+                _ => {}
+            }
+        }
+        Ok(TableRows::File { path, columns, units: units.try_into().ok() })
+    }
+
+    fn columns(&self, pair: Pair<'_, Rule>) -> Built<[Column; 2]> {
+        let columns = pair.into_inner().filter(|pair| pair.as_rule() == Rule::column);
+        let columns = columns.map(|pair| self.column(pair)).collect::<Built<Vec<_>>>()?;
+        columns.try_into().map_err(|_| self.truncated())
+    }
+
+    fn column(&self, pair: Pair<'_, Rule>) -> Built<Column> {
+        let inner = self.only(pair)?;
+        let span = self.span(&inner);
+        let kind = if inner.as_rule() == Rule::string {
+            ColumnKind::Named(unquoted(inner.as_str()).to_owned())
+        } else {
+            let number = inner.as_str().parse().ok().filter(|number| *number > 0);
+            ColumnKind::Number(number.ok_or_else(|| Box::new(errors::column_number(span)))?)
         };
-        Ok(TableRows::File { path, units })
+        Ok(Column { kind, span })
+    }
+
+    /// The unit behind `in`, if there is one.
+    fn printed(&self, pair: Option<Pair<'_, Rule>>) -> Built<Option<WrittenUnit>> {
+        let product = pair.and_then(|pair| pair.into_inner().find(|pair| pair.as_rule() == Rule::unit_product));
+        product.map(|pair| self.unit_product(pair)).transpose()
+    }
+
+    fn unit_product(&self, pair: Pair<'_, Rule>) -> Built<WrittenUnit> {
+        let (mut factors, mut factor): (Vec<UnitFactor>, Factor) = (Vec::new(), Factor::Times);
+        for pair in pair.into_inner() {
+            if pair.as_rule() != Rule::unit_factor {
+                factor = if pair.as_str().ends_with('*') { Factor::Times } else { Factor::Over };
+                continue;
+            }
+            let mut parts = pair.into_inner();
+            let name = self.next_name(&mut parts)?;
+            let (power, end) = match parts.next() {
+                Some(power) => (formula::unit_power(self, &power)?, self.span(&power)),
+                None => (1, name.span),
+            };
+            let span = name.span.to(end);
+            factors.push(UnitFactor { name, power, factor, span });
+        }
+        match (factors.first(), factors.last()) {
+            (Some(first), Some(last)) => Ok(WrittenUnit { span: first.span.to(last.span), factors }),
+            _ => Err(self.truncated()),
+        }
     }
 
     fn joint<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<ItemKind> {
@@ -345,6 +404,11 @@ pub(super) fn docs_above(text: &str, start: usize) -> Vec<String> {
     docs
 }
 
+/// What stands between the quotes of a string.
+fn unquoted(string: &str) -> &str {
+    string.trim_matches('"')
+}
+
 /// The byte behind the last word or bracket of a pair.
 fn end_of_last_token(pair: &Pair<'_, Rule>) -> usize {
     let mut last = pair.clone();
@@ -380,6 +444,12 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::driver
             | Rule::constraint
             | Rule::measure
+            | Rule::trace
+            | Rule::printed
+            | Rule::unit_product
+            | Rule::unit_factor
+            | Rule::columns
+            | Rule::column
             | Rule::analysis
     )
 }
@@ -397,6 +467,7 @@ fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
                 | Rule::periodic
                 | Rule::table_rows
                 | Rule::table_file
+                | Rule::printed
         )
     })
 }

@@ -29,6 +29,11 @@ pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0101, message).at(span, label)
 }
 
+/// A column 0, or one beyond all numbers.
+pub fn column_number(span: Span) -> Diagnostic {
+    misplaced(span, "columns are counted from 1", "there is no such column")
+}
+
 /// A quantity as an exponent: `2 ^ 3 s`.
 pub fn quantity_as_exponent(span: Span) -> Diagnostic {
     misplaced(span, "a number with a unit cannot be an exponent", "this has a unit")
@@ -320,6 +325,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::driver
         | Rule::constraint
         | Rule::measure
+        | Rule::trace
         | Rule::analysis
         | Rule::kw_param
         | Rule::kw_fn
@@ -330,6 +336,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_driver
         | Rule::kw_constraint
         | Rule::kw_measure
+        | Rule::kw_trace
         | Rule::kw_analysis => "a declaration",
         Rule::point
         | Rule::axis
@@ -371,6 +378,8 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::table_rows => "`[`",
         Rule::table_file | Rule::string => "a file name in quotes",
         Rule::exponent => "a whole number",
+        Rule::unit_name | Rule::unit_factor | Rule::unit_product | Rule::one_over => "a unit",
+        Rule::column | Rule::column_number => "a number or name of a column",
         _ => "",
     }
 }

@@ -9,7 +9,10 @@
 mod comments;
 mod expression;
 
-use super::ast::{Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose, Range, TableRows};
+use super::ast::{
+    Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose,
+    Range, TableRows, WrittenUnit,
+};
 use super::trivia::Trivia;
 use comments::{Comments, lines};
 pub use expression::expression;
@@ -82,7 +85,7 @@ impl Group {
             ItemKind::Joint { .. } => Group::Joints,
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
             ItemKind::Equation { driver: true, .. } => Group::Drivers,
-            ItemKind::Measure { .. } => Group::Measures,
+            ItemKind::Measure { .. } | ItemKind::Trace { .. } => Group::Measures,
             ItemKind::Analysis { .. } => Group::Analysis,
             ItemKind::Broken { .. } => Group::Broken,
         }
@@ -140,7 +143,12 @@ fn item_cells(item: &Item, block: &str) -> Vec<String> {
             let keyword = if *driver { "driver" } else { "constraint" };
             cells([keyword, &(named(name) + ":"), &expression(left), &defined(right)])
         }
-        ItemKind::Measure { name, value } => cells(["measure", &named(name), &defined(value)]),
+        ItemKind::Measure { name, value, unit: printed } => {
+            cells(["measure", &named(name), &(defined(value) + &in_unit(printed.as_ref()))])
+        }
+        ItemKind::Trace { name, point, unit: printed } => {
+            cells(["trace", &named(name), &(defined(point) + &in_unit(printed.as_ref()))])
+        }
         ItemKind::Analysis { from, to, every } => {
             vec![format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))]
         }
@@ -165,6 +173,35 @@ fn ranges(ranges: &[Range]) -> String {
     if list.is_empty() { String::new() } else { format!("[{}]", list.join(", ")) }
 }
 
+/// ` in mm/s^2`, or nothing.
+fn in_unit(written: Option<&WrittenUnit>) -> String {
+    written.map_or_else(String::new, |written| format!(" in {}", unit(written)))
+}
+
+fn unit(written: &WrittenUnit) -> String {
+    let mut text = String::new();
+    for (k, of) in written.factors.iter().enumerate() {
+        match of.factor {
+            Factor::Times if k == 0 => {}
+            Factor::Times => text += "*",
+            Factor::Over if k == 0 => text += "1/",
+            Factor::Over => text += "/",
+        }
+        text += &of.name.text;
+        if of.power != 1 {
+            text += &format!("^{}", of.power);
+        }
+    }
+    text
+}
+
+fn column(column: &Column) -> String {
+    match &column.kind {
+        ColumnKind::Number(number) => number.to_string(),
+        ColumnKind::Named(name) => format!("\"{name}\""),
+    }
+}
+
 fn list(list: &[Expr]) -> String {
     let texts: Vec<String> = list.iter().map(expression).collect();
     texts.join(", ")
@@ -173,9 +210,10 @@ fn list(list: &[Expr]) -> String {
 fn table(periodic: bool, rows: &TableRows) -> String {
     let spline = if periodic { "= periodic spline" } else { "= spline" };
     match rows {
-        TableRows::File { path, units: None } => format!("{spline} \"{}\"", path.text),
-        TableRows::File { path, units: Some([first, second]) } => {
-            format!("{spline} \"{}\" ({}, {})", path.text, first.text, second.text)
+        TableRows::File { path, columns, units } => {
+            let columns = columns.as_ref().map(|[a, b]| format!(" columns {}, {}", column(a), column(b)));
+            let units = units.as_ref().map(|[a, b]| format!(" ({}, {})", unit(a), unit(b)));
+            format!("{spline} \"{}\"{}{}", path.text, columns.unwrap_or_default(), units.unwrap_or_default())
         }
         TableRows::Listed(rows) => {
             let on_one_line = list(rows);

@@ -89,19 +89,19 @@ fn literal(reader: &Reader<'_>, pair: Pair<'_, Rule>) -> Built<ExprKind> {
     let name = reader.name(&unit)?;
     let power = match parts.next() {
         None => 1,
-        Some(power) => {
-            let digits = power.as_str().trim_start_matches('^').trim();
-            let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| p.abs() <= 100);
-            whole.ok_or_else(|| {
-                Box::new(errors::misplaced(
-                    reader.span(&power),
-                    "the power of a unit is between -100 and 100",
-                    "too large",
-                ))
-            })?
-        }
+        Some(power) => unit_power(reader, &power)?,
     };
     Ok(ExprKind::Literal { value, unit: Some((name, power)) })
+}
+
+/// The power of a unit, from its `^` on.
+pub(super) fn unit_power(reader: &Reader<'_>, pair: &Pair<'_, Rule>) -> Built<i32> {
+    let digits = pair.as_str().trim_start_matches('^').trim();
+    let whole: Option<i32> = digits.parse().ok().filter(|p: &i32| p.abs() <= 100);
+    whole.ok_or_else(|| {
+        let (message, label) = ("the power of a unit is between -100 and 100", "too large");
+        Box::new(errors::misplaced(reader.span(pair), message, label))
+    })
 }
 
 fn conditional(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<Expr> {

@@ -10,7 +10,7 @@ use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, tokens};
 use crate::diag::{Applies, Edit, Fix};
 use crate::source::{FileId, Span};
-use crate::vocabulary::{Dimension, Place, QuantityWord, Synonym, Unit};
+use crate::vocabulary::{Dimension, Keyword, Place, QuantityWord, Role, Synonym, Unit};
 use heads::is_dash;
 use std::ops::Range;
 
@@ -46,7 +46,9 @@ impl<'a> Intent<'a> {
     /// Of a word or character at a byte, in the place of what was expected.
     pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Intent<'a> {
         let all = tokens(&text[..at]);
-        let is_keyword = |k: usize| begins_declaration(text, all[k]);
+        let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
+        let is_opener = |k: usize| opens(all[k].text) && all.get(k + 2).is_some_and(|token| token.text == "=");
+        let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
         let bodies = all.windows(2).filter(|pair| pair[0].text == "body").map(|pair| pair[1].text).collect();
         let line = text[at..].split('\n').next().unwrap_or_default();
@@ -170,10 +172,10 @@ impl<'a> Intent<'a> {
         })
     }
 
-    /// `angle(rod) in deg`, `displacement(guide) mm`
+    /// `angle(rod) as deg`, `displacement(guide) mm`
     fn of_a_unit_behind(&self, keyword: &str, last: &Token<'_>) -> Option<Intended> {
         let is_number = last.text.starts_with(|c: char| c.is_ascii_digit());
-        if !self.expects(Rule::infix) || is_number {
+        if !self.expects(Rule::infix) || is_number && self.found != "in" {
             return None;
         }
         let named = |k: usize| {
@@ -182,28 +184,32 @@ impl<'a> Intent<'a> {
             Unit::named(word).map(|unit| unit.word.name).or_else(meant)
         };
         let is_joined = ["in", "as"].contains(&self.found) && named(1).is_some();
+        if is_number {
+            let unit = named(1)?;
+            let message = format!("a unit follows its number without `in`: `{} {unit}`", last.text);
+            return Some(Intent::change(message, vec![self.edit(self.at..self.rest.get(1)?.start, "")]));
+        }
         let from = usize::from(is_joined);
         let unit = named(from)?;
         if !is_joined && Unit::named(last.text).is_some() {
             return Some(Intent::both_ways(unit));
         }
         let behind: Vec<&str> = self.rest[from + 1..].iter().map(|token| token.text).collect();
-        let unit = match behind[..] {
-            [] => format!("1 {unit}"),
-            ["/", "s"] => format!("(1 {unit}/s)"),
-            _ => return Some(Intent::both_ways(unit)),
-        };
+        let is_power = |word: &str| word.parse::<u32>().is_ok() || ["/", "*", "^", "-"].contains(&word);
+        let is_unit = behind.iter().all(|word| is_power(word) || Unit::named(word).is_some());
         let start = self.before.iter().position(|token| token.text == "=").map(|k| &self.before[k + 1..]);
-        let formula = start.filter(|formula| keyword == "measure" && holds_quantity(formula));
-        let Some([first, ..]) = formula else { return Some(Intent::both_ways(unit.trim_start_matches("1 "))) };
-        let is_sum = formula.is_some_and(|formula| is_a_sum(formula));
-        let written = &self.text[first.start..last.end()];
-        let written = if is_sum { format!("({written})") } else { written.to_owned() };
-        let name = unit.trim_matches(['(', ')']).trim_start_matches("1 ");
-        let message =
-            format!("a formula has no unit of its own behind it; its number in `{name}` is `{written} / {unit}`");
-        let replaced = self.edit(first.start..self.end(), &format!("{written} / {unit}"));
-        Some(Intent::change(message, vec![replaced]))
+        let is_printed = keyword == "trace" || keyword == "measure" && start.is_some_and(holds_quantity);
+        if is_printed && is_unit {
+            let unit = unit.to_owned() + &behind.concat();
+            let words = format!("the unit in which it is printed stands behind `in`: `in {unit}`");
+            let end = if behind.is_empty() { self.rest[from].end() } else { self.end() };
+            return Some(Intent::change(words, vec![self.edit(self.at..end, &format!("in {unit}"))]));
+        }
+        let unit = match behind[..] {
+            ["/", "s"] => format!("({unit}/s)"),
+            _ => unit.to_owned(),
+        };
+        Some(Intent::both_ways(&unit))
     }
 
     fn both_ways(unit: &str) -> Intended {
@@ -251,15 +257,6 @@ fn is_name(word: &str) -> bool {
 fn holds_quantity(formula: &[Token<'_>]) -> bool {
     let is_quantity = |word: &str| word == "der" || QuantityWord::named(word).is_some();
     formula.windows(2).any(|pair| is_quantity(pair[0].text) && pair[1].text == "(")
-}
-
-/// Whether a formula has a sum that no parentheses are around.
-fn is_a_sum(formula: &[Token<'_>]) -> bool {
-    let mut depth = 0;
-    formula.iter().any(|token| {
-        depth += i32::from(token.text == "(") - i32::from(token.text == ")");
-        depth == 0 && ["+", "-", "if"].contains(&token.text)
-    })
 }
 
 /// `600 rpm`, `10 mm/s`

@@ -185,7 +185,9 @@ impl Fault<'_> {
     /// The words that would have gone on.
     fn connecting_words(&self) -> Vec<&'static str> {
         let expected = |word: &&Keyword| self.expected.iter().any(|rule| is_rule_of(*rule, word.word.name));
-        KEYWORDS.iter().filter(|word| word.is_joining()).filter(expected).map(|word| word.word.name).collect()
+        // behind any formula of a measure an `in` may stand, but seldom is what is missing
+        let joining = KEYWORDS.iter().filter(|word| word.is_joining() && word.word.name != "in");
+        joining.filter(expected).map(|word| word.word.name).collect()
     }
 }
 

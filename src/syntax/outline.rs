@@ -18,24 +18,20 @@ pub(super) struct Outline<'a> {
     hyphenated: FxHashSet<&'a str>,
 }
 
-/// What the first of some tokens is, if it is a keyword there.
-fn role_in(tokens: &[Token<'_>]) -> Option<Role> {
-    let role = Keyword::named(tokens.first()?.text)?.role;
-    let is_word = |token: &Token<'_>| token.text.starts_with(|c: char| c.is_alphabetic() || c == '_');
-    match (role, tokens) {
-        (Role::Opening, [_, name, equals, ..]) if is_word(name) && equals.text == "=" => Some(Role::Declaration),
-        (Role::Opening, _) => None,
-        _ => Some(role),
-    }
-}
-
 /// How many tokens the head of a block has at most, as far as it matters: `body NAME at (x, y, phi) {` with formulas.
 const LONGEST_HEAD: usize = 100;
 
 impl<'a> Outline<'a> {
     pub fn new(text: &'a str) -> Outline<'a> {
         let tokens = tokens(text);
-        let roles: Vec<Option<Role>> = (0..tokens.len()).map(|k| role_in(&tokens[k..])).collect();
+        let role = |token: &Token<'_>| Keyword::named(token.text).map(|keyword| keyword.role);
+        let mut roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
+        for k in 0..tokens.len() {
+            // elsewhere it is a name
+            if roles[k] == Some(Role::Opener) && !opens(text, &tokens, &roles, k) {
+                roles[k] = None;
+            }
+        }
         let (mut names, mut is_name, mut takes_name) = (Vec::with_capacity(tokens.len()), false, false);
         for (token, role) in tokens.iter().zip(&roles) {
             is_name = takes_name && !is_name;
@@ -222,7 +218,7 @@ impl<'a> Outline<'a> {
 
     /// Whether a declaration of the mechanism, rather than of a body, begins at a token.
     pub fn begins_large_declaration(&self, k: usize) -> bool {
-        self.begins_declaration(k) && self.role(k) == Some(Role::Declaration)
+        self.begins_declaration(k) && matches!(self.role(k), Some(Role::Declaration | Role::Opener))
     }
 
     /// Whether a token is one of the keywords that were taken for names, or stands right behind one.
@@ -258,5 +254,16 @@ impl<'a> Outline<'a> {
 }
 
 fn begins(role: Role) -> bool {
-    matches!(role, Role::Declaration | Role::Feature)
+    matches!(role, Role::Declaration | Role::Opener | Role::Feature)
+}
+
+/// Whether a word that may open a declaration does so at a token: a name stands behind it, and that is defined, or the line begins
+/// here.
+fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+    let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
+    let is_word = word(k + 1).starts_with(|c: char| c.is_alphabetic() || c == '_');
+    let is_defined = ["=", "["].contains(&word(k + 2));
+    let behind = k.checked_sub(1).map_or(0, |before| tokens[before].end());
+    let begins_line = text[behind..tokens[k].start].contains('\n');
+    is_word && (is_defined || begins_line && roles.get(k + 1).is_some_and(Option::is_none))
 }

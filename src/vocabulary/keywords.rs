@@ -25,8 +25,8 @@ pub struct Keyword {
 pub enum Role {
     /// Begins a declaration of a file or mechanism; cannot be a name.
     Declaration,
-    /// Begins a declaration of a mechanism where a name and `=` follow; a name elsewhere.
-    Opening,
+    /// Begins a declaration of a mechanism, where one can begin; a name elsewhere.
+    Opener,
     /// Begins a declaration in a body or the ground; cannot be a name.
     Feature,
     /// Joins parts of a formula; cannot be a name.
@@ -62,7 +62,7 @@ impl Keyword {
         matches!(self.role, Role::Formula | Role::Separator | Role::Place)
     }
 
-    /// Whether it begins a declaration, where every formula before it has ended.
+    /// Whether it begins a declaration wherever it stands, so that every formula before it has ended.
     #[must_use]
     pub fn begins_declaration(&self) -> bool {
         matches!(self.role, Role::Declaration | Role::Feature)
@@ -167,6 +167,7 @@ pub static KEYWORDS: &[Keyword] = &[
             "table NAME = spline [(u0, v0), (u1, v1), …]",
             "table NAME = periodic spline […]",
             "table NAME = spline \"FILE.csv\" (UNIT, UNIT)",
+            "table NAME = spline \"FILE.csv\" columns 1, 3 (UNIT, UNIT)",
         ],
         "a curve through points, called as a function is",
         "The natural cubic spline; its arguments rise, and what lies outside of them is an error at the time when it happens. With \
@@ -262,13 +263,23 @@ pub static KEYWORDS: &[Keyword] = &[
     keyword(
         Role::Declaration,
         "measure",
-        &["measure NAME = FORMULA"],
+        &["measure NAME = FORMULA", "measure NAME = FORMULA in UNIT"],
         "a number that is printed for every time, with its first two derivatives",
-        "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`.",
-        Example::Arm("measure height = y(arm.tip)\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))"),
+        "Over kinematic quantities, params, functions, tables, other measures, `t` and `der(…)`. It is printed in SI, or in the unit \
+         behind `in`; formulas that use it see SI.",
+        Example::Arm("measure height = y(arm.tip) in mm\nmeasure speed  = hypot(der(x(arm.tip)), der(y(arm.tip)))"),
     ),
     keyword(
-        Role::Opening,
+        Role::Opener,
+        "trace",
+        &["trace NAME = P", "trace NAME = P in UNIT"],
+        "the path of a point: the columns `NAME.x` and `NAME.y`, with their first two derivatives",
+        "P is a point of a body or the ground, `body.P`, or two lengths `(x, y)` as formulas of a measure. The word begins a \
+         declaration only where one begins, and is a name elsewhere.",
+        Example::Arm("trace path = arm.tip in mm"),
+    ),
+    keyword(
+        Role::Opener,
         "input",
         &["input NAME = FORMULA"],
         "a signal that comes from outside, as from an encoder",
@@ -419,6 +430,26 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "",
         Example::Arm(
             "table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
+        ),
+    ),
+    keyword(
+        Role::Place,
+        "in",
+        &["measure NAME = FORMULA in UNIT", "trace NAME = P in UNIT"],
+        "stands before the unit in which a measure or trace is printed",
+        "Units with powers, joined by `*` and `/`: `in mm/s^2`. The columns of the derivatives are in that unit per second. Formulas \
+         and emitted code see SI. Behind a number `in` is the inch, unless a unit follows it.",
+        Example::Arm("measure height = y(arm.tip) / 2 in mm\nmeasure tilt   = rotation(main) in deg"),
+    ),
+    keyword(
+        Role::Place,
+        "columns",
+        &["spline \"FILE.csv\" columns 1, 3 (UNIT, UNIT)", "spline \"FILE.csv\" columns \"NAME\", \"NAME\""],
+        "stands before the two columns of a file that a table takes",
+        "By their numbers, from 1, or by the names that the file's header line gives them; a file may have others beside them.",
+        Example::Arm(
+            "// with a file: table swing = spline \"log.csv\" columns 1, 3 (s, deg)\n\
+             table swing = spline [(0 s, 0 deg), (1 s, 30 deg), (2 s, 20 deg)]\ndriver motor: rotation(main) = swing(t)",
         ),
     ),
     keyword(

@@ -23,7 +23,7 @@ pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
-pub use units::{UNITS, Unit};
+pub use units::{CompoundUnit, UNITS, Unit};
 
 /// A word, as a reader is told of it.
 #[derive(Debug)]
@@ -100,10 +100,10 @@ pub fn words() -> impl Iterator<Item = &'static Word> {
     keywords.chain(joints).chain(quantities).chain(functions).chain(constants).chain(units)
 }
 
-/// Whether a name is that of a function or quantity, and so cannot be that of the user's unless it gives way.
+/// Whether a name is that of a function or quantity, and so cannot be that of the user's unless it gives way; some quantities give way.
 #[must_use]
 pub fn is_called(name: &str) -> bool {
-    Function::named(name).is_some() || QuantityWord::named(name).is_some()
+    Function::named(name).is_some() || QuantityWord::named(name).is_some_and(|quantity| !quantity.gives_way)
 }
 
 /// Whether a function or table of the file may have the name of this function, and then means itself.
@@ -122,7 +122,8 @@ pub fn is_taken(name: &str) -> bool {
 #[must_use]
 pub fn is_one_argument_function(name: &str) -> bool {
     let function = Function::named(name).is_some_and(|function| (function.least, function.most) == (1, 1));
-    let quantity = QuantityWord::named(name)
-        .is_some_and(|quantity| quantity.word.forms.first().is_some_and(|form| !form.contains(',')));
+    let quantity = QuantityWord::named(name).is_some_and(|quantity| {
+        !quantity.gives_way && quantity.word.forms.first().is_some_and(|form| !form.contains(','))
+    });
     name.len() > 1 && (function || quantity)
 }

@@ -3,8 +3,8 @@
 use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
 use super::{
-    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, Role, Synonym, UNITS,
-    Unit, Word, words,
+    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, Role,
+    Synonym, UNITS, Unit, Word, words,
 };
 
 /// Lines of prose are not longer (in characters).
@@ -13,10 +13,11 @@ const WIDTH: usize = 100;
 /// The kinds of words that have a page, by their names.
 pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "joints", "units", "keywords", "constants"];
 
-/// The page of a word, or of a kind of words.
+/// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
-    overview(name).or_else(|| words().find(|word| word.name == name).map(of_word))
+    let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
+    overview(name).or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
 }
 
 impl Category {
@@ -107,6 +108,11 @@ fn details(word: &Word) -> Vec<String> {
     if Function::named(word.name).is_some_and(|function| function.gives_way) {
         details.push("A function or table of the file that is called so hides it.".to_owned());
     }
+    let quantity = QuantityWord::named(word.name).filter(|_| word.category == Category::Quantity);
+    if quantity.is_some_and(|quantity| quantity.gives_way) {
+        let words = "It stands in measures and traces alone. A `fn` or `table` of the mechanism that is called so is meant where it is called.";
+        details.push(words.to_owned());
+    }
     if Function::named(word.name).is_some_and(|function| function.group == super::Group::Motion) {
         details.push(OF_MOTIONS.to_owned());
     }
@@ -175,7 +181,8 @@ fn list(title: &str, intro: &str, words: &[&Word]) -> String {
 
 fn units() -> String {
     let intro = "A unit follows a literal number, with its power if it has one: `50 mm`, `50 mm^2`. Elsewhere it is a constant: \
-                 `9.81 m/s^2`. Inside, all is in m, rad and s, and so are the tables of results. Angles are pure numbers.";
+                 `9.81 m/s^2`. Inside, all is in m, rad and s, and so are the tables of results, but for measures and traces with \
+                 another unit behind `in`: units with powers, joined by `*` and `/`. Angles are pure numbers.";
     let rows: Vec<[String; 2]> = UNITS
         .iter()
         .map(|unit| [unit.word.name.to_owned(), format!("{:24}  {}", in_si(unit), unit.word.meaning)])
@@ -185,10 +192,10 @@ fn units() -> String {
 
 fn keywords() -> String {
     let parts: [(&str, &[Role]); 4] = [
-        ("Declarations", &[Role::Declaration, Role::Opening]),
+        ("Declarations", &[Role::Declaration, Role::Opener]),
         ("In a body or the ground", &[Role::Feature]),
         ("In formulas", &[Role::Formula]),
-        ("Words in their places, and names elsewhere", &[Role::Separator, Role::Place, Role::Side]),
+        ("Words in their places, and names elsewhere", &[Role::Opener, Role::Separator, Role::Place, Role::Side]),
     ];
     let mut text = "# Keywords\n".to_owned();
     for (title, roles) in parts {

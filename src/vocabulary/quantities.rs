@@ -9,6 +9,9 @@ pub struct QuantityWord {
     pub word: Word,
     /// What it is called with, in words.
     pub takes: &'static str,
+    /// Whether a function or table of the mechanism that is called so means itself, as in texts that were written before there was
+    /// this quantity. All of these stand in measures and traces alone.
+    pub gives_way: bool,
 }
 
 impl QuantityWord {
@@ -18,6 +21,27 @@ impl QuantityWord {
         QUANTITIES.iter().find(|quantity| quantity.word.name == name)
     }
 }
+
+/// An eccentric that lifts a tappet.
+const CAM: &str = "\
+ground {
+    point O   = (0, 0)
+    axis  way = (0, 0) along (0, 1)
+}
+body disc {
+    point  O   = (0, 0)
+    circle rim = (10 mm, 0) radius 30 mm
+}
+body tappet at (0, 40 mm, 0) {
+    point tip = (0, 0)
+    axis  way = (0, 0) along (0, 1)
+}
+joint axle:  revolute(ground.O, disc.O)
+joint guide: translational(ground.way, tappet.way)
+joint touch: point_follower(tappet.tip, disc.rim)
+driver motor: rotation(axle) = 60 rpm * t + 40 deg
+measure steep = pressure_angle(touch, tappet) in deg
+measure rub   = slip(touch) in mm/s";
 
 /// All of them.
 pub static QUANTITIES: &[QuantityWord] = &[
@@ -32,6 +56,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure reach = x(arm.tip)"),
         },
         takes: "one point, or two",
+        gives_way: false,
     },
     QuantityWord {
         word: Word {
@@ -44,19 +69,24 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure height = y(ground.O, arm.tip)"),
         },
         takes: "one point, or two",
+        gives_way: false,
     },
     QuantityWord {
         word: Word {
             name: "angle",
             category: Category::Quantity,
-            forms: &["angle(b)", "angle(b, c)", "angle(b.u)", "angle(b.u, c.v)"],
+            forms: &["angle(b)", "angle(b, c)", "angle(b.u)", "angle(b.u, c.v)", "angle(P, Q, R)"],
             letters: "",
             meaning: "the angle of a body or axis, or that from the first to the second",
             more: "In radians, counted over whole turns: `φ_b`, or `φ_c − φ_b`. That of an axis adds the axis' angle in its body, \
-                   in (−π, π].",
-            example: Example::Arm("measure turned = angle(arm)"),
+                   in (−π, π]. In measures and traces alone, `angle(P, Q, R)` is the angle at the point Q, from P to R, in (−π, π]: a \
+                   transmission angle. Where Q coincides with P or R it has no value.",
+            example: Example::Arm(
+                "measure turned = angle(arm)\nmeasure seen   = angle((100 mm, 0), ground.O, arm.tip)",
+            ),
         },
-        takes: "one body or axis, or two",
+        takes: "one body or axis, or two; in a measure three points too",
+        gives_way: false,
     },
     QuantityWord {
         word: Word {
@@ -70,6 +100,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("measure reach = distance((200 mm, 50 mm), arm.tip)"),
         },
         takes: "two points",
+        gives_way: false,
     },
     QuantityWord {
         word: Word {
@@ -83,6 +114,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
             example: Example::Arm("driver motor: rotation(main) = 60 rpm * t"),
         },
         takes: "a joint, or a joint and two axes",
+        gives_way: false,
     },
     QuantityWord {
         word: Word {
@@ -105,5 +137,88 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
             ),
         },
         takes: "one argument, a joint",
+        gives_way: false,
+    },
+    QuantityWord {
+        word: Word {
+            name: "curvature",
+            category: Category::Quantity,
+            forms: &["curvature(P)"],
+            letters: "",
+            meaning: "the curvature of the path of a point, in a measure",
+            more: "In 1/m, positive where the path bends to the left: `(v^⊥)ᵀ a / |v|³`. Where the point is slower than 1e-9·L/T, L the mechanism's \
+                   size and T the length of the analysis, it has no value.",
+            example: Example::Arm("measure bend = curvature(arm.tip)"),
+        },
+        takes: "one point",
+        gives_way: true,
+    },
+    QuantityWord {
+        word: Word {
+            name: "pole_x",
+            category: Category::Quantity,
+            forms: &["pole_x(b)", "pole_x(b, c)"],
+            letters: "b and c bodies",
+            meaning: "x of the instant centre of b relative to c, or to the ground, in a measure",
+            more: "In the ground's frame: where the points of both have the same velocity. Where the bodies do not turn against each other \
+                   it has no value.",
+            example: Example::Arm("measure centre = pole_x(arm)"),
+        },
+        takes: "one body, or two",
+        gives_way: true,
+    },
+    QuantityWord {
+        word: Word {
+            name: "pole_y",
+            category: Category::Quantity,
+            forms: &["pole_y(b)", "pole_y(b, c)"],
+            letters: "b and c bodies",
+            meaning: "y of the instant centre of b relative to c, or to the ground, in a measure",
+            more: "In the ground's frame: where the points of both have the same velocity. Where the bodies do not turn against each other \
+                   it has no value.",
+            example: Example::Arm("measure centre = pole_y(arm)"),
+        },
+        takes: "one body, or two",
+        gives_way: true,
+    },
+    QuantityWord {
+        word: Word {
+            name: "speed",
+            category: Category::Quantity,
+            forms: &["speed(P)"],
+            letters: "",
+            meaning: "the length of the velocity of a point, in a measure",
+            more: "In m/s, never negative.",
+            example: Example::Arm("measure fast = speed(arm.tip) in mm/s"),
+        },
+        takes: "one point",
+        gives_way: true,
+    },
+    QuantityWord {
+        word: Word {
+            name: "pressure_angle",
+            category: Category::Quantity,
+            forms: &["pressure_angle(J, b)"],
+            letters: "J a `point_follower`, `cam` or `flat_follower`, b a body",
+            meaning: "the angle between the common normal at a contact and the velocity of a body's point there, in a measure",
+            more: "In radians, 0 to 90 deg. Where that point is slower than 1e-9·L/T, L the mechanism's size and T the length of the \
+                   analysis, it has no value.",
+            example: Example::Whole(CAM),
+        },
+        takes: "a joint and a body",
+        gives_way: true,
+    },
+    QuantityWord {
+        word: Word {
+            name: "slip",
+            category: Category::Quantity,
+            forms: &["slip(J)"],
+            letters: "J a `point_follower`, `cam` or `flat_follower`",
+            meaning: "the speed at which the two bodies of a contact slide on each other, in a measure",
+            more: "In m/s, never negative.",
+            example: Example::Whole(CAM),
+        },
+        takes: "one argument, a joint",
+        gives_way: true,
     },
 ];

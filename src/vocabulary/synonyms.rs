@@ -233,11 +233,6 @@ pub static SYNONYMS: &[Synonym] = &[
         "a velocity is the time derivative of a place, in a measure: `der(x({0 P}))`, `der(y({0 P}))`",
     ).takes_a_formula(),
     call(
-        &["speed"],
-        &["der", "hypot"],
-        "a speed is made of the time derivatives of a place, in a measure: `hypot(der(x({0 P})), der(y({0 P})))`",
-    ).takes_a_formula(),
-    call(
         &["acceleration", "acc", "accel"],
         &["der"],
         "an acceleration is the second time derivative of a place, in a measure: `der(der(x({0 P})))`, `der(der(y({0 P})))`",

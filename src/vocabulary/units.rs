@@ -166,6 +166,12 @@ impl Unit {
         UNITS.iter().map(|unit| unit.word.name)
     }
 
+    /// Whether it measures angles or turning speeds, which are pure numbers and rates to the dimensions.
+    #[must_use]
+    pub fn is_of_angle(&self) -> bool {
+        self.dimension.is(Dimension::PURE) || self.word.name == "rpm"
+    }
+
     /// `value` in this unit to a power, in SI.
     #[must_use]
     pub fn to_si(&self, value: f64, power: i32) -> f64 {
@@ -179,9 +185,117 @@ impl Unit {
     }
 }
 
+/// Units with powers, joined by `*` and `/`: `mm/s^2`.
+#[derive(Clone, Debug)]
+pub struct CompoundUnit {
+    /// In the order in which they are written; those behind a `/` have negative powers.
+    factors: Vec<(&'static Unit, i32)>,
+}
+
+impl CompoundUnit {
+    /// The product of some units with their powers.
+    #[must_use]
+    pub fn new(factors: Vec<(&'static Unit, i32)>) -> CompoundUnit {
+        CompoundUnit { factors }
+    }
+
+    /// The units with their powers, in order.
+    pub fn factors(&self) -> impl Iterator<Item = (&'static Unit, i32)> {
+        self.factors.iter().copied()
+    }
+
+    /// Of a quantity in this unit.
+    #[must_use]
+    pub fn dimension(&self) -> Dimension {
+        let powers = self.factors.iter().map(|(unit, power)| unit.dimension.to_the(f64::from(*power)));
+        powers.fold(Dimension::PURE, Dimension::times)
+    }
+
+    /// `value` in this unit, in SI.
+    #[must_use]
+    pub fn to_si(&self, value: f64) -> f64 {
+        self.factors.iter().fold(value, |value, (unit, power)| unit.to_si(value, *power))
+    }
+
+    /// What a value in SI is divided by, multiplied with and divided by, one after the other, to be in this unit: so 2π per second is
+    /// 60 rpm to the bit, and 25.4 mm one inch.
+    #[must_use]
+    pub fn from_si(&self) -> [f64; 3] {
+        let mut scale = [1.0; 3];
+        for (unit, power) in &self.factors {
+            let numerator = unit.numerator * unit.factor;
+            // what is no whole number comes first
+            let divides = if numerator.fract() == 0.0 { 2 } else { 0 };
+            for _ in 0..power.abs() {
+                if *power > 0 {
+                    scale[divides] *= numerator;
+                    scale[1] *= unit.denominator;
+                } else {
+                    scale[1] *= numerator;
+                    scale[2] *= unit.denominator;
+                }
+            }
+        }
+        scale
+    }
+
+    /// The text of this unit per second, so many times: `mm/s^2` for `mm/s`.
+    #[must_use]
+    pub fn per_second(&self, times: i32) -> String {
+        let mut factors: Vec<(&str, i32)> = self.factors.iter().map(|(unit, power)| (unit.word.name, *power)).collect();
+        match factors.iter_mut().find(|(unit, _)| *unit == "s") {
+            Some((_, power)) => *power -= times,
+            None => factors.push(("s", -times)),
+        }
+        factors.retain(|(_, power)| *power != 0);
+        product(&factors)
+    }
+}
+
+/// `mm/s^2`; `1` for no unit at all.
+fn product(factors: &[(&str, i32)]) -> String {
+    let to_the = |(unit, power): (&str, i32)| if power == 1 { unit.to_owned() } else { format!("{unit}^{power}") };
+    let above: Vec<String> = factors.iter().filter(|(_, power)| *power > 0).map(|factor| to_the(*factor)).collect();
+    let below = factors.iter().filter(|(_, power)| *power < 0);
+    let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
+    below.fold(above, |text, (unit, power)| text + "/" + &to_the((unit, -power)))
+}
+
 #[cfg(test)]
 mod tests {
-    use super::Unit;
+    use super::{CompoundUnit, Unit};
+
+    fn compound(factors: &[(&str, i32)]) -> CompoundUnit {
+        CompoundUnit::new(factors.iter().map(|(name, power)| (Unit::named(name).unwrap(), *power)).collect())
+    }
+
+    #[test]
+    #[allow(clippy::float_cmp)] // to the bit
+    fn what_is_printed_in_a_unit_is_rounded_once() {
+        let printed = |si: f64, factors: &[(&str, i32)]| {
+            let [first, multiply, last] = compound(factors).from_si();
+            si / first * multiply / last
+        };
+        assert_eq!(printed(0.05, &[("mm", 1)]), 50.0);
+        assert_eq!(printed(0.05, &[("mm", 1), ("s", -1)]), 50.0);
+        assert_eq!(printed(std::f64::consts::PI, &[("deg", 1)]), 180.0);
+        assert_eq!(printed(std::f64::consts::TAU, &[("rpm", 1)]), 60.0);
+        assert_eq!(printed(50e-6, &[("mm", 2)]), 50.0);
+        assert_eq!(printed(20.0, &[("m", -1)]), 20.0);
+        assert_eq!(printed(20.0, &[("mm", -1)]), 0.02);
+        assert_eq!(printed(0.0254, &[("in", 1)]), 1.0);
+    }
+
+    #[test]
+    fn the_unit_of_a_derivative_is_per_second() {
+        let texts = |factors: &[(&str, i32)]| [0, 1, 2].map(|times| compound(factors).per_second(times));
+        assert_eq!(texts(&[("mm", 1)]), ["mm", "mm/s", "mm/s^2"]);
+        assert_eq!(texts(&[("mm", 1), ("s", -1)]), ["mm/s", "mm/s^2", "mm/s^3"]);
+        assert_eq!(texts(&[("ms", 1)]), ["ms", "ms/s", "ms/s^2"]);
+        assert_eq!(texts(&[("s", 1)]), ["s", "1", "1/s"]);
+        assert_eq!(texts(&[("rpm", 1)]), ["rpm", "rpm/s", "rpm/s^2"]);
+        assert_eq!(texts(&[("s", -2), ("m", 2)]), ["m^2/s^2", "m^2/s^3", "m^2/s^4"]);
+    }
 
     #[test]
     #[allow(clippy::float_cmp)] // to the bit

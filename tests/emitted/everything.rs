@@ -273,7 +273,7 @@ impl Pose {
     }
 }
 
-/// Where each measure stands among the values.
+/// Where each measure stands among the values, all in SI.
 pub mod measure {
     /// `stroke`, line 61
     pub const STROKE: usize = 0;

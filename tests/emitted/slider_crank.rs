@@ -170,7 +170,7 @@ impl Pose {
     }
 }
 
-/// Where each measure stands among the values.
+/// Where each measure stands among the values, all in SI.
 pub mod measure {
     /// `travel`, line 39
     pub const TRAVEL: usize = 0;

@@ -152,7 +152,7 @@ pub fn table(compiled: &Compiled) -> Result<String, Diagnostics> {
     let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| Diagnostics::from(*why))?;
     // a list takes everything
     let mut text = Vec::new();
-    let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns()).and_then(|mut writer| {
+    let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns(), &[]).and_then(|mut writer| {
         rows.iter().try_for_each(|row| writer.row(row))?;
         writer.finish().map(|_| ())
     });

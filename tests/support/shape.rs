@@ -1,7 +1,7 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Range, Segment, TableRows,
+    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Range, Segment, TableRows, WrittenUnit,
 };
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
@@ -86,9 +86,10 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Function { name, argument, value } => format!("fn {} {} {}", name.text, argument.text, shape(value)),
         ItemKind::Table { name, periodic, rows } => match rows {
             TableRows::Listed(rows) => format!("table {} {periodic} {}", name.text, shapes(rows)),
-            TableRows::File { path, units } => {
-                let units = units.as_ref().map(|[a, b]| [&a.text, &b.text]);
-                format!("table {} {periodic} {:?} {units:?}", name.text, path.text)
+            TableRows::File { path, columns, units } => {
+                let units: Vec<String> = units.iter().flatten().map(|unit| unit_shape(Some(unit))).collect();
+                let columns: Vec<_> = columns.iter().flatten().map(|column| &column.kind).collect();
+                format!("table {} {periodic} {:?} {columns:?} {units:?}", name.text, path.text)
             }
         },
         ItemKind::Ground { .. } => "ground".to_owned(),
@@ -102,7 +103,12 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Equation { driver, name, left, right } => {
             format!("equation {driver} {} {} {}", name.text, shape(left), shape(right))
         }
-        ItemKind::Measure { name, value } => format!("measure {} {}", name.text, shape(value)),
+        ItemKind::Measure { name, value, unit } => {
+            format!("measure {} {} {}", name.text, shape(value), unit_shape(unit.as_ref()))
+        }
+        ItemKind::Trace { name, point, unit } => {
+            format!("trace {} {} {}", name.text, shape(point), unit_shape(unit.as_ref()))
+        }
         ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }
@@ -120,4 +126,10 @@ fn feature_shape(feature: &Feature) -> String {
         }
     };
     format!("    {:?} {} {text}", feature.docs, feature.name.text)
+}
+
+fn unit_shape(unit: Option<&WrittenUnit>) -> String {
+    let factors = unit.iter().flat_map(|unit| &unit.factors);
+    let texts: Vec<String> = factors.map(|of| format!("{:?} {}^{}", of.factor, of.name.text, of.power)).collect();
+    texts.join(" ")
 }

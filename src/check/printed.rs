@@ -1,0 +1,153 @@
+//! Units with powers, and the units in which measures and traces are printed.
+
+use super::Checker;
+use super::errors;
+use super::formula::{Context, Dim, Value};
+use super::names::Entity;
+use crate::diag::Diagnostic;
+use crate::model::{Dimension, Units};
+use crate::syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
+use crate::vocabulary::{CompoundUnit, Constant, StandsFor, Unit};
+
+impl Checker<'_> {
+    /// The units of a product; one that is none is told.
+    pub(super) fn compound(
+        &mut self,
+        written: &WrittenUnit,
+        told: impl Fn(&Name) -> Diagnostic,
+    ) -> Option<CompoundUnit> {
+        let mut factors = Vec::new();
+        for of in &written.factors {
+            let power = if of.factor == Factor::Over { -of.power } else { of.power };
+            match Unit::named(&of.name.text) {
+                Some(unit) => factors.push((unit, power)),
+                None => self.report(told(&of.name)),
+            }
+        }
+        (factors.len() == written.factors.len()).then(|| CompoundUnit::new(factors))
+    }
+
+    /// The units in which a formula of a dimension is printed; none where the one behind `in` does not fit, which has been said.
+    pub(super) fn units(
+        &mut self,
+        formula: &Expr,
+        dimension: Option<Dimension>,
+        angle: i32,
+        written: Option<&WrittenUnit>,
+    ) -> Option<Units> {
+        let Some(written) = written else {
+            return Some(Units::si(dimension.unwrap_or(Dimension::PURE), angle == 1));
+        };
+        let unit = self.compound(written, errors::not_a_unit_to_print_in)?;
+        let own = unit.dimension();
+        if let Some(dimension) = dimension.filter(|dimension| !dimension.is(own)) {
+            let text = self.sources.text(written.span);
+            self.report(errors::not_printed_in(text, [written.span, formula.span], [own, dimension]));
+            return None;
+        }
+        let hertz = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "Hz");
+        if let Some((_, written)) = hertz.filter(|_| angle == 1) {
+            self.report(errors::turning_in_hertz(written.name.span, formula.span));
+            return None;
+        }
+        Some(Units::of(&unit, angle == 1))
+    }
+
+    /// The dimension that a measure's formula is known to have; none where it may have any: a plain number is taken in the unit that
+    /// is asked for.
+    pub(super) fn known_dimension(&mut self, formula: &Expr, value: Value, context: &Context<'_>) -> Option<Dimension> {
+        let dim = if context.judged { Some(value.dim) } else { self.dimension_if_judged(formula, context) };
+        match dim {
+            Some(Dim::Of(dimension)) if context.judged || !dimension.is(Dimension::PURE) => Some(dimension),
+            Some(Dim::Of(dimension)) => (!self.holds_plain_number(formula)).then_some(dimension),
+            Some(Dim::Any) | None => None,
+        }
+    }
+
+    /// The dimension of a plain formula, if its parts fit together as they stand.
+    fn dimension_if_judged(&mut self, formula: &Expr, context: &Context<'_>) -> Option<Dim> {
+        let said = std::mem::take(&mut self.diagnostics);
+        let known = std::mem::take(&mut self.known_calls);
+        let asked = std::mem::take(&mut self.conditions_of_calls);
+        let conditions = self.model.conditions.len();
+        let value = self.formula(formula, &Context { judged: true, ..*context });
+        self.model.conditions.truncate(conditions);
+        (self.known_calls, self.conditions_of_calls) = (known, asked);
+        let faults = std::mem::replace(&mut self.diagnostics, said);
+        value.map(|value| value.dim).filter(|_| !faults.has_errors())
+    }
+
+    /// Whether a formula holds a number that may stand for anything: one without a unit, or a name that stands for such.
+    pub(super) fn holds_plain_number(&self, formula: &Expr) -> bool {
+        let mut open = vec![formula];
+        while let Some(e) = open.pop() {
+            match &e.kind {
+                ExprKind::Literal { value, unit: None } if *value != 0.0 => return true,
+                ExprKind::Call { name, .. } if self.quantity_word(name).is_some() => {}
+                ExprKind::Name(name) | ExprKind::Call { name, .. } => match self.entity(name) {
+                    Some(Entity::Param(k)) if !self.angle_params.contains_key(&k) => return true,
+                    Some(Entity::Function(_) | Entity::Table(_)) => return true,
+                    Some(Entity::Measure(k)) if self.measures[k].holds_plain_number => return true,
+                    _ => {}
+                },
+                _ => {}
+            }
+            match &e.kind {
+                // an exponent is a number whatever its base is
+                ExprKind::Power(base, _) => open.push(base),
+                _ => open.extend(e.children()),
+            }
+        }
+        false
+    }
+
+    /// How often an angle is a factor of a formula, as far as its words tell: 1 for an angle or a turning speed.
+    pub(super) fn angle_power(&self, e: &Expr) -> i32 {
+        let most = |list: &[Expr]| list.iter().map(|part| self.angle_power(part)).max().unwrap_or(0);
+        match &e.kind {
+            ExprKind::Paren(inner) | ExprKind::Negate(inner) => self.angle_power(inner),
+            ExprKind::Literal { unit: Some((unit, power)), .. } => {
+                Unit::named(&unit.text).map_or(0, |unit| angle_power_of(unit).saturating_mul(*power))
+            }
+            ExprKind::Name(name) => self.angle_power_of_name(name),
+            ExprKind::Call { name, arguments } => match name.text.as_str() {
+                "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
+                "der" | "abs" | "min" | "max" | "mod" => most(arguments),
+                _ => 0,
+            },
+            ExprKind::Sum(first, rest) => {
+                rest.iter().map(|(_, term)| self.angle_power(term)).fold(self.angle_power(first), i32::max)
+            }
+            ExprKind::Product(first, rest) => rest.iter().fold(self.angle_power(first), |power, (factor, term)| {
+                let own = self.angle_power(term);
+                if *factor == Factor::Over { power.saturating_sub(own) } else { power.saturating_add(own) }
+            }),
+            ExprKind::Power(base, exponent) => match exponent.bare_number() {
+                // what is no whole number makes no angle of anything
+                Some(exponent) => self.angle_power(base).saturating_mul(exponent as i32),
+                None => 0,
+            },
+            ExprKind::If { arms, otherwise } => {
+                arms.iter().map(|(_, value)| self.angle_power(value)).fold(self.angle_power(otherwise), i32::max)
+            }
+            _ => 0,
+        }
+    }
+
+    fn angle_power_of_name(&self, name: &Name) -> i32 {
+        match self.entity(name) {
+            Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
+            Some(Entity::Measure(k)) => self.measures[k].angle,
+            Some(_) => 0,
+            None => match Constant::named(&name.text) {
+                Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,
+                Some(_) => 0,
+                None => Unit::named(&name.text).map_or(0, angle_power_of),
+            },
+        }
+    }
+}
+
+fn angle_power_of(unit: &Unit) -> i32 {
+    i32::from(unit.is_of_angle())
+}
