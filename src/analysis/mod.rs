@@ -174,7 +174,7 @@ impl ColumnUnit {
 
     /// A value in SI, in this unit.
     #[must_use]
-    pub fn from_si(&self, value: f64) -> f64 {
+    pub fn printed(&self, value: f64) -> f64 {
         value / self.scale[0] * self.scale[1] / self.scale[2]
     }
 }

@@ -25,6 +25,15 @@ pub fn unknown(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
 /// A name in a formula that stands for no number; one letter is rather a name that was forgotten than a unit.
 pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
     let diagnostic = unknown(what, name, known);
+    // the middle dot is a letter of names
+    if let [a, b] = name.text.split('·').collect::<Vec<_>>().as_slice()
+        && !a.is_empty()
+        && !b.is_empty()
+    {
+        let written = format!("{a} * {b}");
+        let message = format!("a product is written with `*`: `{written}`");
+        return diagnostic.instead(Fix::replace(name.span, written, message, Applies::Probably));
+    }
     if let Some([only]) = Synonym::of(Place::Number, &name.text).map(|synonym| synonym.means) {
         return diagnostic.instead(Fix::meant(name.span, only));
     }

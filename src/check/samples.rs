@@ -3,7 +3,7 @@
 use super::table_file::number;
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
-use crate::vocabulary::{Dimension, Unit};
+use crate::vocabulary::{CompoundUnit, Dimension, Unit};
 
 /// What a file of samples holds.
 pub(super) struct Samples {
@@ -35,38 +35,24 @@ struct Cell<'a> {
 struct Head<'a> {
     name: &'a str,
     span: Span,
-    unit: Option<ColumnUnit>,
+    unit: Option<CompoundUnit>,
 }
 
-/// Units with their powers, whose product a column is in.
-struct ColumnUnit(Vec<(&'static Unit, i32)>);
-
-impl ColumnUnit {
-    /// Units joined by `*` and `/`, each with its power.
-    fn named(text: &str) -> Option<ColumnUnit> {
-        let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
-        loop {
-            let end = rest.find(['*', '/']).unwrap_or(rest.len());
-            let (name, power) = match rest[..end].split_once('^') {
-                None => (rest[..end].trim(), 1),
-                Some((name, power)) => (name.trim(), power.trim().parse().ok().filter(|power: &i32| power.abs() < 10)?),
-            };
-            units.push((Unit::named(name)?, sign * power));
-            if end == rest.len() {
-                return Some(ColumnUnit(units));
-            }
-            sign = if rest[end..].starts_with('/') { -1 } else { 1 };
-            rest = &rest[end + 1..];
+/// Units joined by `*` and `/`, each with its power.
+fn unit_named(text: &str) -> Option<CompoundUnit> {
+    let (mut units, mut rest, mut sign) = (Vec::new(), text, 1);
+    loop {
+        let end = rest.find(['*', '/']).unwrap_or(rest.len());
+        let (name, power) = match rest[..end].split_once('^') {
+            None => (rest[..end].trim(), 1),
+            Some((name, power)) => (name.trim(), power.trim().parse().ok().filter(|power: &i32| power.abs() < 10)?),
+        };
+        units.push((Unit::named(name)?, sign * power));
+        if end == rest.len() {
+            return Some(CompoundUnit::new(units));
         }
-    }
-
-    fn to_si(&self, value: f64) -> f64 {
-        self.0.iter().fold(value, |value, (unit, power)| unit.to_si(value, *power))
-    }
-
-    fn dimension(&self) -> Dimension {
-        let powers = self.0.iter().map(|(unit, power)| unit.dimension.to_the(f64::from(*power)));
-        powers.fold(Dimension::PURE, Dimension::times)
+        sign = if rest[end..].starts_with('/') { -1 } else { 1 };
+        rest = &rest[end + 1..];
     }
 }
 
@@ -97,7 +83,7 @@ pub(super) fn read(source: &Source, file: FileId) -> Result<Samples, Vec<Diagnos
     let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
         name: super::normalized(head.name),
         span: head.span,
-        dimension: head.unit.as_ref().map(ColumnUnit::dimension),
+        dimension: head.unit.as_ref().map(CompoundUnit::dimension),
         values,
     };
     Ok(Samples { times, columns: others.zip(columns).map(column).collect() })
@@ -137,7 +123,7 @@ fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
     let Some((name, unit)) = cell.text.strip_suffix(']').and_then(|text| text.rsplit_once(" [")) else {
         return Ok(Head { name: cell.text, span: cell.span, unit: None });
     };
-    if let Some(unit) = ColumnUnit::named(unit) {
+    if let Some(unit) = unit_named(unit) {
         return Ok(Head { name: name.trim(), span: cell.span, unit: Some(unit) });
     }
     let message = format!("`{unit}` is not a unit");
@@ -159,7 +145,7 @@ fn time_column(heads: &[Head<'_>], header: &[Cell<'_>]) -> Result<usize, Vec<Dia
         let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs";
         return Err(vec![fault(Code::E0416, "the samples have no column `t`", whole, "the first line").help(help)]);
     };
-    match heads[at].unit.as_ref().map(ColumnUnit::dimension) {
+    match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
         Some(dimension) if !dimension.is(Dimension::TIME) => {
             let message = format!("the times of samples are a time, found {}", dimension.in_words());
             Err(vec![fault(Code::E0402, &message, heads[at].span, "the times")])

@@ -75,7 +75,7 @@ impl Table {
                 match row {
                     Ok(row) => {
                         printed.clear();
-                        printed.extend(units.iter().zip(row).map(|(unit, &value)| unit.from_si(value)));
+                        printed.extend(units.iter().zip(row).map(|(unit, &value)| unit.printed(value)));
                         table.row(&printed)?;
                     }
                     Err(diagnostic) => {

@@ -566,7 +566,7 @@ impl Units {
     #[must_use]
     pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
         let printed = [0, 1, 2].map(|times| unit.per_second(times));
-        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.from_si() }
+        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.scale() }
     }
 }
 

@@ -220,7 +220,7 @@ impl CompoundUnit {
     /// What a value in SI is divided by, multiplied with and divided by, one after the other, to be in this unit: so 2π per second is
     /// 60 rpm to the bit, and 25.4 mm one inch.
     #[must_use]
-    pub fn from_si(&self) -> [f64; 3] {
+    pub fn scale(&self) -> [f64; 3] {
         let mut scale = [1.0; 3];
         for (unit, power) in &self.factors {
             let numerator = unit.numerator * unit.factor;
@@ -273,7 +273,7 @@ mod tests {
     #[allow(clippy::float_cmp)] // to the bit
     fn what_is_printed_in_a_unit_is_rounded_once() {
         let printed = |si: f64, factors: &[(&str, i32)]| {
-            let [first, multiply, last] = compound(factors).from_si();
+            let [first, multiply, last] = compound(factors).scale();
             si / first * multiply / last
         };
         assert_eq!(printed(0.05, &[("mm", 1)]), 50.0);

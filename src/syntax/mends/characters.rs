@@ -51,6 +51,7 @@ impl Fault<'_> {
             "√" => Mend::words("a square root is written `sqrt(a)`"),
             "|" => Mend::words("an absolute value is written `abs(a)`"),
             "°" => self.of_degrees(),
+            "²" if behind.trim_start().starts_with('(') => Mend::words("the square of a function is `f(x)^2`"),
             "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
             "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),
             "\"" if behind.lines().next().is_some_and(|line| line.contains('"')) => {
@@ -102,7 +103,10 @@ impl Fault<'_> {
         let is_apart = self.text[..self.at].ends_with(char::is_whitespace);
         // what has begun and is not complete would go on in the comment
         let is_complete = self.expects(Rule::infix) || self.expects(Rule::close);
+        // a block that was commented out needs a mark on each of its lines
+        let opens_a_block = self.behind().lines().next().is_some_and(|line| line.contains(['{', '}']));
         match (is_at_line_start, is_apart, is_complete) {
+            _ if opens_a_block && is_apart => self.replaced(range, "//", words, Applies::Probably),
             (true, ..) | (_, true, true) => self.replaced(range, "//", words, Applies::Always),
             (_, false, true) => self.replaced(range, " //", words, Applies::Probably),
             _ => Mend::words("a name is made of letters, digits and `_`; a comment begins with `//`"),
