@@ -151,9 +151,12 @@ pub fn table(compiled: &Compiled) -> Result<String, Diagnostics> {
     let (run, said) = compiled.run(&times, &RunOptions::default());
     let rows = run.ok_or(said)?.collect::<Result<Vec<Vec<f64>>, _>>().map_err(|why| Diagnostics::from(*why))?;
     // a list takes everything
-    let mut text = Vec::new();
+    let (mut text, units) = (Vec::new(), compiled.units());
     let writer = TableWriter::new(&mut text, TableFormat::Csv, &compiled.columns(), &[]).and_then(|mut writer| {
-        rows.iter().try_for_each(|row| writer.row(row))?;
+        rows.iter().try_for_each(|row| {
+            let printed: Vec<f64> = units.iter().zip(row).map(|(unit, value)| unit.printed(*value)).collect();
+            writer.row(&printed)
+        })?;
         writer.finish().map(|_| ())
     });
     debug_assert!(writer.is_ok());
