@@ -243,7 +243,12 @@ fn formula(
     let (mut plain, mut words) = (String::new(), Vec::new());
     let mut rest = text;
     while let Some(first) = rest.chars().next() {
-        let is_name = |c: char| c.is_alphanumeric() || !c.is_ascii() || matches!(c, '_' | '.' | '\'');
+        // the numbers of a copy are part of its name: `up[0].phi`
+        let mut is_inside = false;
+        let mut is_name = |c: char| {
+            is_inside = c == '[' || is_inside && c != ']';
+            is_inside || c == ']' || c.is_alphanumeric() || !c.is_ascii() || matches!(c, '_' | '.' | '\'')
+        };
         let end = rest.find(|c| !is_name(c)).unwrap_or(rest.len()).max(first.len_utf8());
         let word = &rest[..end];
         if !first.is_ascii_digit() && word.contains(['.', '\'']) {
