@@ -133,3 +133,45 @@ fn inputs_stand_where_time_may() {
     assert_eq!(codes(through), Some(vec!["E0306"]));
     assert_eq!(codes(("1 rev/s * t", "1 rev/s * t + turn")), Some(vec!["E0206"]));
 }
+
+const CRANKS: &str = "mechanism cranks {
+    param n = 2
+    input turn[k in 0..n] = 1 rad/s * t
+    body b[k in 0..n] { point O = (0, 0) }
+    joint p[k in 0..n]: revolute((0, 0), b[k].O)
+    driver d[k in 0..n]: angle(b[k]) = turn[k]
+    analysis from 0 s to 1 s every 0.5 s
+}";
+
+/// The last angles of the cranks.
+fn last_angles(inputs: &[&str], samples: Option<&str>) -> Result<[f64; 2], Vec<&'static str>> {
+    let (choice, world) = told(inputs, samples);
+    let rows = rows(CRANKS, &choice, &world)?;
+    let row = rows.last().expect("a row");
+    Ok([row[3], row[6]].map(f64::from_bits))
+}
+
+#[test]
+fn repeated_inputs_are_told_all_or_one() {
+    assert_eq!(last_angles(&[], None), Ok([1.0, 1.0]));
+    assert_eq!(last_angles(&["turn=5*t"], None), Ok([5.0, 5.0]));
+    assert_eq!(last_angles(&["turn[1]=5*t"], None), Ok([1.0, 5.0]));
+    assert_eq!(last_angles(&["turn[ 0 ]=5*t"], Some("t,turn[1]\n0,0\n1,3\n")), Ok([5.0, 3.0]));
+    assert_eq!(last_angles(&["turn[2]=5*t"], None), Err(vec!["E0703"]));
+    assert_eq!(last_angles(&["turn=5*t", "turn[1]=t"], None), Err(vec!["E0706"]));
+    assert_eq!(last_angles(&["turn=5 mm"], None), Err(vec!["E0402"]));
+    assert_eq!(last_angles(&["turn=5*t"], Some("t,turn[1]\n0,0\n1,3\n")), Err(vec!["E0706"]));
+}
+
+#[test]
+fn what_decides_how_many_there_are_is_no_parameter_of_emitted_code() {
+    let parsed = Parsed::of("cranks.mech", CRANKS);
+    let (compiled, _) = parsed
+        .check(&Choice { set: vec!["n=3".to_owned()], ..Choice::default() }, &Memory::default())
+        .compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.expect("a mechanism");
+    let is_a_body = |column: &&String| column.starts_with("b[") && column.split('.').count() == 2;
+    assert_eq!(compiled.columns().iter().filter(is_a_body).count(), 9);
+    let (rust, _) = compiled.rust(&mechc::RustOptions::of("cranks"));
+    assert!(!rust.expect("code").contains("pub n: f64"), "`n` is a field of the parameters");
+}

@@ -400,8 +400,8 @@ pub fn no_such_input(mechanism: &str, name: &str, inputs: &[&str], meant: Option
 
 pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0706, format!("the input `{name}` is told twice"))
-        .at(places[0], "by samples")
-        .also(places[1], "by a formula")
+        .at(places[0], "told here")
+        .also(places[1], "and here")
         .help("an input is what one of `--input` and `--samples` says")
 }
 

@@ -20,6 +20,27 @@ pub struct Given {
 }
 
 impl Checker<'_> {
+    /// Says which of the formulas given are of no input, or of one that another one is of too.
+    pub(super) fn look_over_given(&mut self) {
+        let given = self.given;
+        let inputs: Vec<&str> = self.inputs.iter().map(|input| input.name.text.as_str()).collect();
+        for (told, formula) in &given.formulas {
+            if !inputs.iter().any(|input| is_told_by(input, told)) {
+                let meant = nearest(told, inputs.iter().copied());
+                let diagnostic = errors::no_such_input(&self.tree.name.text, told, &inputs, meant);
+                self.report(diagnostic.at(formula.span, format!("for `{told}`")));
+            }
+        }
+        let twice = inputs.iter().find_map(|input| {
+            let mut formulas = given.formulas.iter().filter(|(told, _)| is_told_by(input, told));
+            let (first, second) = (formulas.next()?, formulas.next()?);
+            Some((*input, [second.1.span, first.1.span]))
+        });
+        if let Some((input, places)) = twice {
+            self.report(errors::input_told_twice(input, places));
+        }
+    }
+
     /// The samples given, if they can be used.
     pub(super) fn samples(&mut self) -> Option<Samples> {
         let file = self.given.samples?;
@@ -45,7 +66,7 @@ impl Checker<'_> {
             let meant = nearest(&column.name, inputs.iter().copied());
             let diagnostic = errors::no_such_input(&self.tree.name.text, &column.name, &inputs, meant);
             self.report(diagnostic.at(column.span, "this column"));
-        } else if let Some((_, formula)) = self.given.formulas.iter().find(|(name, _)| *name == column.name) {
+        } else if let Some((_, formula)) = self.given.formulas.iter().find(|(told, _)| is_told_by(&column.name, told)) {
             self.report(errors::input_told_twice(&column.name, [column.span, formula.span]));
         }
     }
@@ -56,7 +77,7 @@ impl Checker<'_> {
         let Some(in_file) = self.input_value(formula) else { return };
         let column = samples.and_then(|samples| samples.columns.iter().find(|column| column.name == name.text));
         let formulas = &self.given.formulas;
-        let told = formulas.iter().rev().find(|(told, _)| *told == name.text).map(|(_, formula)| formula);
+        let told = formulas.iter().rev().find(|(told, _)| is_told_by(&name.text, told)).map(|(_, formula)| formula);
         let value = match (column, told) {
             (Some(column), _) => samples.and_then(|samples| self.sampled(&samples.times, column, in_file.dim)),
             (None, Some(formula)) => self.told(name, formula, in_file.dim),
@@ -127,4 +148,10 @@ impl Checker<'_> {
         let diagnostic = errors::input_in(context.place, name, context.time);
         self.report(diagnostic);
     }
+}
+
+/// Whether what is told of a name is told of an input: of its own name, or of all copies of a repeated one; spaces count nothing.
+pub(super) fn is_told_by(input: &str, told: &str) -> bool {
+    let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
+    told == input || input.split_once('[').is_some_and(|(base, _)| base == told)
 }

@@ -101,12 +101,14 @@ pub fn check(
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
+    let deciding = repetition::deciding(tree);
     let (written_out, told) = match repetition::written_out(tree, surroundings, sources) {
         Some((written_out, told)) => (Some(written_out), told),
         None => (None, Diagnostics::default()),
     };
     let tree = written_out.as_ref().unwrap_or(tree);
     let mut checker = Checker::new(tree, surroundings, sources);
+    checker.deciding = deciding;
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);
@@ -239,6 +241,8 @@ struct Checker<'a> {
     diagnostics: Diagnostics,
     model: Mechanism,
     space: Space<Entity>,
+    /// The params that decide what is repeated.
+    deciding: FxHashSet<String>,
     /// By the parameter's position; `None` where it is broken.
     params: Vec<Option<Value>>,
     /// Those of them that are points, by the same position.
@@ -300,6 +304,7 @@ impl<'a> Checker<'a> {
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
             space: Space::new(),
+            deciding: FxHashSet::default(),
             params: Vec::new(),
             drawn: Vec::new(),
             point_params: kinds::point_params(tree),
@@ -388,7 +393,8 @@ impl<'a> Checker<'a> {
                 }
                 ItemKind::Input { name, value } => {
                     entities.push(Entity::Input(self.inputs.len()));
-                    let told = self.given.formulas.iter().filter(|(told, _)| *told == name.text).map(|(_, told)| told);
+                    let given = self.given.formulas.iter();
+                    let told = given.filter(|(told, _)| inputs::is_told_by(&name.text, told)).map(|(_, told)| told);
                     definitions.push((name, std::iter::once(value).chain(told).collect()));
                     self.inputs.push(InputState { name, formula: value, value: None });
                 }
@@ -414,6 +420,7 @@ impl<'a> Checker<'a> {
             docs.push(&item.docs);
         }
         let uses = self.uses(&definitions, &entities);
+        self.look_over_given();
         let samples = self.samples();
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
@@ -525,6 +532,10 @@ impl<'a> Checker<'a> {
             return Some(value);
         }
         let number = self.constant_value(value.id)?;
+        // what decides how many declarations there are is not to be changed afterwards
+        if self.deciding.contains(declared.name.split('.').next().unwrap_or_default()) {
+            return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
+        }
         let index = self.model.params.len() as u32;
         self.model.params.push(Param {
             declared,

@@ -1,6 +1,7 @@
 //! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
 //! names that the copies have. All else of `check` knows plain declarations alone.
 
+use super::mentions::{formulas, mentioned};
 use super::{Checker, Surroundings, errors};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
@@ -34,7 +35,13 @@ pub(super) fn written_out(
     checker.diagnostics = Diagnostics::default();
     let names = tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect();
     let mut writer = Writer { checker, names, numbers: FxHashMap::default(), count: 0, told: FxHashSet::default() };
-    let copies: Vec<Option<Vec<Numbers>>> = tree.items.iter().map(|item| writer.copies(item)).collect();
+    let named: Vec<bool> = writer.have_names_of_their_own(tree);
+    let copies: Vec<Option<Vec<Numbers>>> = tree
+        .items
+        .iter()
+        .zip(named)
+        .map(|(item, is_named)| if is_named { writer.copies(item) } else { None })
+        .collect();
     for (item, copies) in tree.items.iter().zip(&copies) {
         if let (Some(name), Some(copies)) = (name_of(item).filter(|_| !item.ranges.is_empty()), copies) {
             let numbers = copies.iter().map(|numbers| numbers.iter().map(|(_, k)| *k).collect()).collect();
@@ -50,6 +57,41 @@ pub(super) fn written_out(
     }
     let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
     Some((written, writer.checker.diagnostics))
+}
+
+/// The params that the bounds of ranges and the numbers of copies are made of, through other params and functions too.
+pub(super) fn deciding(tree: &Mechanism) -> FxHashSet<String> {
+    let mut deciding = FxHashSet::default();
+    if tree.items.iter().all(|item| item.ranges.is_empty()) {
+        return deciding;
+    }
+    let bounds = tree.items.iter().flat_map(|item| &item.ranges).flat_map(|range| [&range.from, &range.to]);
+    let mut open: Vec<&Expr> = bounds.chain(tree.items.iter().flat_map(formulas).flat_map(indices)).collect();
+    while let Some(e) = open.pop() {
+        mentioned(
+            e,
+            |_| false,
+            |name, _| {
+                if deciding.insert(name.text.clone()) {
+                    let is_it = |item: &&Item| name_of(item).is_some_and(|other| other.text == name.text);
+                    open.extend(tree.items.iter().filter(is_it).flat_map(formulas));
+                }
+            },
+        );
+    }
+    deciding
+}
+
+/// The numbers in brackets anywhere in a formula.
+fn indices(formula: &Expr) -> Vec<&Expr> {
+    let (mut found, mut open) = (Vec::new(), vec![formula]);
+    while let Some(e) = open.pop() {
+        if let ExprKind::Path(segments) = &e.kind {
+            found.extend(segments.iter().flat_map(|segment| &segment.indices));
+        }
+        open.extend(e.children());
+    }
+    found
 }
 
 /// What the bounds of ranges may speak of.
@@ -87,6 +129,26 @@ impl<'t> Writer<'t, '_> {
         if span.is_none_or(|span| self.told.insert(span)) {
             self.checker.report(diagnostic);
         }
+    }
+
+    /// Which declarations have a name that is free; of those that are not repeated the rest of `check` says it.
+    fn have_names_of_their_own(&mut self, tree: &'t Mechanism) -> Vec<bool> {
+        let mut first: FxHashMap<&str, (Span, bool)> = FxHashMap::default();
+        let mut is_free = |item: &'t Item| {
+            let Some(name) = name_of(item) else { return true };
+            let is_repeated = !item.ranges.is_empty();
+            if is_repeated && is_taken(&name.text) {
+                self.tell(errors::reserved(name, None, &[]));
+                return false;
+            }
+            let (span, other) = *first.entry(&name.text).or_insert((name.span, is_repeated));
+            let is_twice = span != name.span && (is_repeated || other);
+            if is_twice {
+                self.tell(errors::declared_twice(name, span));
+            }
+            !is_twice
+        };
+        tree.items.iter().map(&mut is_free).collect()
     }
 
     /// The numbers of each copy of a declaration; of one that is not repeated there is one, without numbers. None where that cannot

@@ -81,7 +81,8 @@ pub(super) fn read(source: &Source, file: FileId) -> Result<Samples, Vec<Diagnos
     rising(&times, &rows, heads[at].span)?;
     let others = heads.iter().enumerate().filter(|(k, _)| *k != at).map(|(_, head)| head);
     let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
-        name: super::normalized(head.name),
+        // the numbers of a copy may be written with spaces
+        name: super::normalized(head.name).chars().filter(|c| !c.is_whitespace()).collect(),
         span: head.span,
         dimension: head.unit.as_ref().map(CompoundUnit::dimension),
         values,

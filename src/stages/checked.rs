@@ -212,7 +212,8 @@ fn settings(given: &[String], tree: &ast::Mechanism, sources: &mut Sources) -> R
             _ => None,
         })
         .collect();
-    let option = NamedFormulas { option: "--set", noun: "parameter", example: "crank_length=60mm", names: &params };
+    let option =
+        NamedFormulas { option: "--set", noun: "parameter", example: "crank_length=60mm", names: Some(&params) };
     let formulas = option.read(given, tree, sources)?;
     let setting = |(path, value): (String, ast::Expr)| {
         let (name, coordinate) = name_and_coordinate(&path);
@@ -238,22 +239,8 @@ fn given(
     world: &dyn World,
     sources: &mut Sources,
 ) -> Result<Given, Diagnostics> {
-    let inputs: Vec<&str> = tree
-        .items
-        .iter()
-        .filter_map(|item| match &item.kind {
-            ast::ItemKind::Input { name, .. } => Some(name.text.as_str()),
-            _ => None,
-        })
-        .collect();
-    let option = NamedFormulas { option: "--input", noun: "input", example: "turn='90 deg * t'", names: &inputs };
+    let option = NamedFormulas { option: "--input", noun: "input", example: "turn='90 deg * t'", names: None };
     let formulas = option.read(&choice.inputs, tree, sources)?;
-    for (k, (name, _)) in formulas.iter().enumerate() {
-        if formulas[..k].iter().any(|(other, _)| other == name) {
-            let twice = Diagnostic::new(Code::E0706, format!("`--input {name}=…` stands there twice"));
-            return Err(twice.help("an input is what one of them says").into());
-        }
-    }
     let samples = match &choice.samples {
         None => None,
         Some(path) => Some(world::text_of(world, path, sources).map_err(|why| *why)?),
@@ -267,7 +254,8 @@ struct NamedFormulas<'n> {
     /// What the names are of.
     noun: &'n str,
     example: &'n str,
-    names: &'n [&'n str],
+    /// Those that there are, unless `check` asks for them.
+    names: Option<&'n [&'n str]>,
 }
 
 impl NamedFormulas<'_> {
@@ -288,8 +276,8 @@ impl NamedFormulas<'_> {
                 continue;
             };
             let name = syntax::normalized(name.trim());
-            if !self.names.contains(&name_and_coordinate(&name).0) {
-                diagnostics.push(self.no_such_name(&tree.name.text, &name));
+            if let Some(names) = self.names.filter(|names| !names.contains(&name_and_coordinate(&name).0)) {
+                diagnostics.push(self.no_such_name(names, &tree.name.text, &name));
                 continue;
             }
             let file = sources.add_option(format!("{} {name}", self.option), value);
@@ -301,8 +289,8 @@ impl NamedFormulas<'_> {
         if diagnostics.is_empty() { Ok(formulas) } else { Err(diagnostics) }
     }
 
-    fn no_such_name(&self, mechanism: &str, name: &str) -> Diagnostic {
-        let &NamedFormulas { noun, names, .. } = self;
+    fn no_such_name(&self, names: &[&str], mechanism: &str, name: &str) -> Diagnostic {
+        let noun = self.noun;
         let meant = nearest(name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
         let listed = match names {
             [] => format!("it has no {noun}s"),
