@@ -8,6 +8,7 @@ use super::timings::{Phase, Timings};
 use crate::cancel::Cancel;
 use crate::source::Sources;
 use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
+use std::mem::ManuallyDrop;
 use std::path::Path;
 
 /// Checks and proves the mechanism of a command; prints its warnings.
@@ -18,7 +19,8 @@ pub(super) fn compiled(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
-    let checked = checked(parsed, input, reporter)?;
+    // see `run`: nothing is taken apart before the process ends
+    let checked = ManuallyDrop::new(checked(parsed, input, reporter)?);
     timings.end(Phase::Check);
     let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let (compiled, said) = checked.compile(redundant, &Cancel::default());

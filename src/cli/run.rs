@@ -14,13 +14,16 @@ use crate::output::{TableFormat, TableWriter};
 use crate::source::Sources;
 use crate::stages::{Run, RunOptions};
 use std::io::IsTerminal;
+use std::mem::ManuallyDrop;
 
 pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let format = format(arguments)?;
     let mut timings = Timings::new(arguments.timings);
-    let parsed = input::parsed(&arguments.input, reporter)?;
+    // the process ends with the command: to take a large mechanism apart first would only take time
+    let parsed = ManuallyDrop::new(input::parsed(&arguments.input, reporter)?);
     timings.end(Phase::Parse);
     let compiled = input::compiled(&parsed, &arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
+    let compiled = ManuallyDrop::new(compiled);
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.sources)?;
     if format == TableFormat::Parquet && output.is_terminal() {
