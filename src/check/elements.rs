@@ -159,10 +159,8 @@ impl Checker<'_> {
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
         self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         for (side, value, other) in [(left, a, right), (right, b, left)] {
-            match (is_a_length(other), context.judged) {
-                (true, true) => self.remember_length(value.id),
-                (true, false) => self.remember_plain_length(side, value.id),
-                _ => {}
+            if is_a_length(other) {
+                self.remember_any_length(side, value.id, context.judged);
             }
         }
         if !self.a_body_moves([a.id, b.id]) {

@@ -37,7 +37,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Remembers a constant length with a unit.
-    pub(super) fn remember_length(&mut self, id: ExprId) {
+    fn remember_length(&mut self, id: ExprId) {
         if let Some(value) = self.constant_value(id).map(f64::abs).filter(|value| *value > 0.0) {
             let [least, most] = self.lengths.with_unit.unwrap_or([value; 2]);
             self.lengths.with_unit = Some([least.min(value), most.max(value)]);
@@ -45,7 +45,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Remembers a length without one: a constant, or the constant terms of a sum.
-    pub(super) fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
+    fn remember_plain_length(&mut self, e: &Expr, id: ExprId) {
         if let Some(value) = self.constant_value(id).map(f64::abs) {
             let plain = self.root_of(e).unwrap_or(Plain { value, span: e.span, name: None, is_number: false });
             self.lengths.plain.extend(Some(plain).filter(|plain| plain.value > 0.0));

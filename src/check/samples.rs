@@ -1,6 +1,6 @@
 //! Samples of inputs: a CSV file with a column of times and one for each input, each fault with its place in the file.
 
-use super::table_file::number;
+use super::table_file::{between_commas, number};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Source, Span};
 use crate::vocabulary::{CompoundUnit, Dimension, Unit};
@@ -101,20 +101,12 @@ fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Vec<Cell<'_>>> {
 }
 
 fn cells(line: &str, start: usize, file: FileId) -> Vec<Cell<'_>> {
-    let (mut cells, mut from, mut is_quoted) = (Vec::new(), 0, false);
-    for (at, c) in line.char_indices().chain([(line.len(), ',')]) {
-        match c {
-            '"' => is_quoted = !is_quoted,
-            ',' if !is_quoted || at == line.len() => {
-                let part = &line[from..at];
-                let text = part.trim().trim_matches('"');
-                let begin = start + from + (part.len() - part.trim_start().len());
-                let span = Span { file, start: begin as u32, end: (begin + part.trim().len()) as u32 };
-                cells.push(Cell { text, span });
-                from = at + 1;
-            }
-            _ => {}
-        }
+    let (mut from, mut cells) = (start, Vec::new());
+    for part in between_commas(line) {
+        let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
+        let span = Span { file, start: begin as u32, end: (begin + text.len()) as u32 };
+        cells.push(Cell { text: text.trim_matches('"'), span });
+        from += part.len() + 1;
     }
     cells
 }

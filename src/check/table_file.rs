@@ -23,14 +23,18 @@ pub(super) fn first_line(source: &Source) -> Vec<&str> {
     cells(line).collect()
 }
 
-/// The cells of a line, without the quotes around them: between quotes a comma parts nothing.
-fn cells(line: &str) -> impl Iterator<Item = &str> {
+/// What stands between the commas of a line: between quotes a comma parts nothing.
+pub(super) fn between_commas(line: &str) -> impl Iterator<Item = &str> {
     let mut is_quoted = false;
-    let parts = line.split(move |c| {
+    line.split(move |c| {
         is_quoted ^= c == '"';
         c == ',' && !is_quoted
-    });
-    parts.map(|cell| {
+    })
+}
+
+/// The cells of a line, without the quotes around them.
+fn cells(line: &str) -> impl Iterator<Item = &str> {
+    between_commas(line).map(|cell| {
         let cell = cell.trim();
         cell.strip_prefix('"').and_then(|cell| cell.strip_suffix('"')).unwrap_or(cell)
     })
