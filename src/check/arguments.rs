@@ -51,8 +51,8 @@ impl Checker<'_> {
     /// The body of a name, or the ground, of which nothing is said.
     pub(super) fn frame_of(&self, owner: &Name) -> Option<Frame> {
         match self.entity(owner) {
-            _ if owner.text == "ground" => Some(Frame::Ground),
-            Some(Entity::Body(k)) => Some(Frame::Body(*self.bodies.get(k)?)),
+            _ if owner.text == "ground" => Some(self.ground),
+            Some(Entity::Body(k)) => Some(*self.bodies.get(k)?),
             _ => None,
         }
     }

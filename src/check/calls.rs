@@ -136,6 +136,15 @@ impl<'a> Checker<'a> {
 
     /// Another measure's formula, as if it stood there.
     pub(super) fn measure_value(&mut self, at: usize, span: Span, context: &Context<'_>) -> Option<Value> {
+        if let Some(&(part, Entity::Measure(inside))) = self.imported.get(&Entity::Measure(at)) {
+            let (untaken, guard, caller) = (self.untaken, self.guard, self.caller.or(Some(span)));
+            return self.in_part(part, |child| {
+                (child.untaken, child.guard, child.caller) = (untaken, guard, caller);
+                let value = child.measure_value(inside, span, context);
+                (child.untaken, child.guard, child.caller) = (false, None, None);
+                value
+            });
+        }
         if !self.measures[at].sound {
             return None;
         }

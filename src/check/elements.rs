@@ -1,7 +1,7 @@
 //! Measures, constraints, drivers and the analysis.
 
 use super::formula::{Context, Dim, Value};
-use super::{Checker, declared, errors};
+use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
     Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId,
@@ -12,35 +12,42 @@ use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
 use crate::vocabulary::QuantityWord;
 
 impl Checker<'_> {
-    /// Measures, in the order in which they need each other; listed in that of the text.
-    pub(super) fn measures(&mut self, order: &[usize]) {
-        let mut values = vec![None; self.measures.len()];
-        let mut asked = vec![Vec::new(); self.measures.len()];
-        for &k in order {
+    /// The values of measures, those of parts first, then in the order in which they need each other.
+    pub(super) fn measure_values(&mut self) {
+        self.in_parts(Checker::measure_values);
+        let mut values = vec![(None, Vec::new()); self.measures.len()];
+        for k in std::mem::take(&mut self.measure_order) {
             let conditions = self.model.conditions.len();
             let formula = self.measures[k].value;
-            values[k] = self.formula(formula, &measure_context(self.measures[k].dimensional));
-            asked[k] = self.asked_at_times(conditions, &self.measures[k].name.text);
-            self.measures[k].sound = values[k].is_some();
+            let value = self.formula(formula, &measure_context(self.measures[k].dimensional));
+            let owner = self.declared(self.measures[k].name).name;
+            values[k] = (value, self.asked_at_times(conditions, &owner));
+            self.measures[k].sound = value.is_some();
             self.measures[k].angle = self.angle_power(formula);
             self.measures[k].holds_plain_number = self.holds_plain_number(formula);
         }
-        self.list_measures(values.into_iter().zip(asked));
+        self.measure_values = values;
     }
 
-    /// Lists the measures, and the traces among them, in the order of the text.
-    fn list_measures(&mut self, measures: impl IntoIterator<Item = (Option<Value>, Vec<Condition>)>) {
-        let mut measures = measures.into_iter().enumerate();
+    /// Lists the measures, and the traces among them, in the order of the text, those of parts where these are declared.
+    pub(super) fn list_measures(&mut self) {
+        let mut measures = std::mem::take(&mut self.measure_values).into_iter().enumerate();
+        let mut parts = 0..self.parts.len();
         for item in self.items() {
             match &item.kind {
                 ItemKind::Measure { name, .. } => {
                     let Some((k, (Some(value), conditions))) = measures.next() else { continue };
                     if let Some(units) = self.units_of_measure(k, value) {
-                        let declared = declared(name);
+                        let declared = self.declared(name);
                         self.model.measures.push(Measure { declared, value: value.id, conditions, units });
                     }
                 }
                 ItemKind::Trace { name, point, unit } => self.trace(name, point, unit.as_ref()),
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::list_measures);
+                    }
+                }
                 _ => {}
             }
         }
@@ -62,14 +69,14 @@ impl Checker<'_> {
             ExprKind::Tuple(parts) => self.coordinates_of_trace(point, parts),
             _ => self.point(point).map(|point| {
                 [Quantity::X(None, point), Quantity::Y(None, point)]
-                    .map(|quantity| self.name_symbol(Named::Quantity(quantity), 0))
+                    .map(|quantity| self.name_symbol(Named::Quantity(self.part, quantity), 0))
             }),
         };
         let asked = self.asked_at_times(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
-                let declared = Declared { name: format!("{}.{part}", name.text), span: name.span };
+                let declared = Declared { name: format!("{}{}.{part}", self.path, name.text), span: name.span };
                 let (conditions, units) = (asked.clone(), units.clone());
                 self.model.measures.push(Measure { declared, value, conditions, units });
             }
@@ -106,16 +113,35 @@ impl Checker<'_> {
     }
 
     pub(super) fn equations(&mut self) {
+        let mut parts = 0..self.parts.len();
         for item in self.items() {
-            if let ItemKind::Equation { driver, name, left, right } = &item.kind {
-                let form = self.equation(*driver, name, [left, right]);
-                if let Some(form) = form {
-                    let written = left.span.to(right.span);
-                    let equation = Equation { declared: declared(name), driver: *driver, form, written };
-                    self.model.equations.push(equation);
+            match &item.kind {
+                ItemKind::Equation { driver, name, left, right } => {
+                    if let Some(form) = self.equation(*driver, name, [left, right]) {
+                        let (declared, written) = (self.declared(name), left.span.to(right.span));
+                        let driver = *driver && self.drives(form);
+                        self.model.equations.push(Equation { declared, driver, form, written });
+                    }
                 }
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::equations);
+                    }
+                }
+                _ => {}
             }
         }
+    }
+
+    /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
+    fn drives(&self, form: EquationForm) -> bool {
+        let sides = match form {
+            EquationForm::Difference(left, right) => [left, right],
+            EquationForm::SquaredDistance(_, _, distance) => [distance, distance],
+        };
+        let on_time = |id: ExprId| self.model.graph.dependence(id).on(Dependence::TIME);
+        let has_bound_inputs = !self.bound_inputs.is_empty();
+        !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<EquationForm> {
@@ -141,7 +167,7 @@ impl Checker<'_> {
         let conditions = self.model.conditions.len();
         let (a, b) = (self.formula(left, &context), self.formula(right, &context));
         for condition in &mut self.model.conditions[conditions..] {
-            condition.owner.clone_from(&name.text);
+            condition.owner = format!("{}{}", self.path, name.text);
         }
         let (a, b) = match (a, b) {
             (Some(a), Some(b)) => (a, b),
@@ -181,7 +207,7 @@ impl Checker<'_> {
                     positive: b.id,
                     kind: ConditionKind::Distance,
                     span: right.span,
-                    owner: name.text.clone(),
+                    owner: format!("{}{}", self.path, name.text),
                 });
             }
             return Some(EquationForm::SquaredDistance(p, q, b.id));
@@ -217,7 +243,7 @@ impl Checker<'_> {
             .flat_map(|id| graph.symbols(id))
             .filter_map(|symbol| match symbol {
                 Symbol::Named(k) => match self.model.named[k as usize] {
-                    Named::Quantity(quantity) => Some(quantity),
+                    Named::Quantity(_, quantity) => Some(quantity),
                     _ => None,
                 },
                 _ => None,
@@ -228,7 +254,7 @@ impl Checker<'_> {
     fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
-            .any(|quantity| self.frames_of(quantity).iter().any(|&frame| frame != Frame::Ground))
+            .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))
     }
 
     fn as_distance(&self, written: &Expr, id: ExprId) -> Option<(PointId, PointId)> {

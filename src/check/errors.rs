@@ -1,5 +1,9 @@
 //! What is said of a mechanism that does not pass.
 
+mod parts;
+
+pub use parts::*;
+
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
 use super::rates::{Part, polar, rate_mended};
@@ -389,12 +393,13 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
 }
 
 /// An input that the mechanism does not have, with the one meant.
-pub fn no_such_input(mechanism: &str, name: &str, inputs: &[&str], meant: Option<&str>) -> Diagnostic {
-    let listed = match inputs {
-        [] => "it has no inputs".to_owned(),
-        _ => format!("its inputs are {}", inputs.join(", ")),
+/// A param or input that is told from outside.
+pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], meant: Option<&str>) -> Diagnostic {
+    let listed = match known {
+        [] => format!("it has no {noun}s"),
+        _ => format!("its {noun}s are {}", known.join(", ")),
     };
-    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{name}`"))
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
         .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
 }
 

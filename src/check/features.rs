@@ -4,7 +4,7 @@ use super::formula::{Context, Value};
 use super::kinds::{self, Wanted, coordinate};
 use super::names::{Entity, Space};
 use super::sites::{Drawn, Site};
-use super::{Checker, declared, errors};
+use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
@@ -57,20 +57,43 @@ impl Feature {
 }
 
 impl<'a> Checker<'a> {
-    /// Bodies first, then all points, then what needs them: each may be used before it is declared.
+    /// Bodies, their features, and where all of it is drawn.
     pub(super) fn features(&mut self) {
-        let mut frames: Vec<(Frame, &'a [ast::Feature])> = Vec::new();
-        self.features.insert(Frame::Ground, Space::new());
+        self.add_frames();
+        self.collect_all_features();
+        self.mount_parts();
+        self.read_features();
+        self.poses();
+    }
+
+    /// Bodies, and the grounds of parts, in the order of the text.
+    pub(super) fn add_frames(&mut self) {
+        self.features.insert(self.ground, Space::new());
+        let mut parts = 0..;
         for item in self.items() {
             match &item.kind {
-                ItemKind::Ground { features } => frames.push((Frame::Ground, features)),
-                ItemKind::Body { name, features, .. } => frames.push((self.add_body(item, name), features)),
+                ItemKind::Ground { features } => self.frames.push((self.ground, features)),
+                ItemKind::Body { name, features, .. } => {
+                    let frame = self.add_body(item, name);
+                    self.frames.push((frame, features));
+                }
+                ItemKind::Part(part) => self.add_part(parts.next().unwrap_or_default(), part),
                 _ => {}
             }
         }
-        for &(frame, features) in &frames {
+        self.import();
+    }
+
+    pub(super) fn collect_all_features(&mut self) {
+        for (frame, features) in self.frames.clone() {
             self.collect_features(frame, features);
         }
+        self.in_parts(Checker::collect_all_features);
+    }
+
+    /// Points first, then what needs them: each may be used before it is declared.
+    pub(super) fn read_features(&mut self) {
+        let frames = self.frames.clone();
         for &(frame, features) in &frames {
             self.points_of(frame, features);
         }
@@ -78,7 +101,7 @@ impl<'a> Checker<'a> {
             self.axes_of(frame, features);
             self.profiles_of(frame, features);
         }
-        self.poses();
+        self.in_parts(Checker::read_features);
     }
 
     fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
@@ -87,9 +110,9 @@ impl<'a> Checker<'a> {
             ItemKind::Body { pose, .. } => pose.as_ref().map(Pose::span),
             _ => None,
         };
-        let declared = declared(name);
-        let id = self.model.add_body(Body { declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
-        self.bodies.push(id);
+        let (declared, part) = (self.declared(name), self.part);
+        let id = self.model.add_body(Body { part, declared, docs: item.docs.clone(), pose: [zero; 3], pose_span });
+        self.bodies.push(Frame::Body(id));
         self.features.insert(Frame::Body(id), Space::new());
         Frame::Body(id)
     }
@@ -307,7 +330,7 @@ impl<'a> Checker<'a> {
     /// A point of a body or of the ground, or a global one as a formula of points.
     pub(super) fn point(&mut self, e: &Expr) -> Option<PointId> {
         match &e.kind {
-            ExprKind::Tuple(_) => self.unnamed_point(Frame::Ground, e),
+            ExprKind::Tuple(_) => self.unnamed_point(self.ground, e),
             ExprKind::Member { owner, feature }
                 if coordinate(feature).is_some() && self.point_param(owner).is_some() =>
             {
@@ -318,7 +341,7 @@ impl<'a> Checker<'a> {
                 let frame = self.body(owner)?;
                 self.point_named(frame, feature)
             }
-            _ if self.is_point(e) => self.unnamed_point(Frame::Ground, e),
+            _ if self.is_point(e) => self.unnamed_point(self.ground, e),
             ExprKind::Name(name) => {
                 self.bare_name(name, "point");
                 None
@@ -374,11 +397,11 @@ impl<'a> Checker<'a> {
         let Ok(entity) = self.resolve(name) else { return };
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
         let beside = self.owners_beside(name.span);
-        let owners: Vec<String> = std::iter::once(Frame::Ground)
-            .chain(self.bodies.iter().map(|&id| Frame::Body(id)))
-            .filter(|&frame| !beside.contains(&self.model.frame_name(frame)))
+        let owners: Vec<String> = std::iter::once(self.ground)
+            .chain(self.bodies.iter().copied())
+            .filter(|&frame| !beside.contains(&self.frame_name(frame)))
             .filter(|frame| self.features.get(frame).is_some_and(|space| space.get(&name.text).is_some()))
-            .map(|frame| format!("`{}.{}`", self.model.frame_name(frame), name.text))
+            .map(|frame| format!("`{}.{}`", self.frame_name(frame), name.text))
             .collect();
         let help = match (owners.is_empty(), entity) {
             (false, _) => format!("was {} meant?", owners.join(" or ")),
@@ -410,7 +433,7 @@ impl<'a> Checker<'a> {
             known => return known,
         }
         let known = self.suggestions_in(space, wanted);
-        let diagnostic = errors::unknown_feature(what, self.model.frame_name(frame), name, &known);
+        let diagnostic = errors::unknown_feature(what, self.frame_name(frame), name, &known);
         self.report(diagnostic);
         None
     }

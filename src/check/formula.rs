@@ -167,8 +167,8 @@ impl Checker<'_> {
             }
             Some(Entity::Function(k)) => self.functions[k].dimensional,
             Some(Entity::Table(k)) => self.tables[k].dimensional,
-            Some(Entity::Input(k)) => self.inputs[k].value.is_some_and(Value::has_a_dimension),
-            Some(Entity::Measure(k)) => self.measures[k].dimensional,
+            Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
+            Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
             _ => false,
         }
     }
@@ -314,7 +314,7 @@ impl Checker<'_> {
                 None
             }
             Some(Entity::Param(k)) => self.params[k],
-            Some(Entity::Input(k)) if context.inputs => self.inputs[k].value,
+            Some(Entity::Input(k)) if context.inputs => self.input_known(k),
             Some(Entity::Input(_)) => {
                 self.input_in(name, context);
                 None
@@ -619,6 +619,15 @@ impl Checker<'_> {
     }
 
     /// A constant of a given dimension, judged on its own: its place in the graph and its value.
+    /// The value of a formula of constants, of whatever dimension; of one that is broken nothing is said here.
+    pub(super) fn any_constant(&mut self, e: &Expr) -> Option<f64> {
+        let said = self.diagnostics.len();
+        let judged = self.is_dimensional(e);
+        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") });
+        self.diagnostics.truncate(said);
+        self.constant_value(value?.id)
+    }
+
     pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
         self.constant_in(e, place, wanted, judged)

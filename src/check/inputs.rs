@@ -1,14 +1,15 @@
 //! Inputs: what they are by the text, and what they are told to be from outside.
 
 use super::formula::{Context, Dim, Value};
+use super::parts::is_told_by;
 use super::rates::Part;
 use super::samples::{self, Column, Samples};
 use super::{Checker, errors};
 use crate::diag::nearest;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Condition, ConditionKind, Input};
-use crate::source::FileId;
-use crate::syntax::ast::{Expr, Name};
+use crate::source::{FileId, Span};
+use crate::syntax::ast::{Expr, ItemKind, Name};
 
 /// What inputs are told to be.
 #[derive(Clone, Debug, Default)]
@@ -20,34 +21,82 @@ pub struct Given {
 }
 
 impl Checker<'_> {
+    /// Says which of the values set from outside are of no parameter, or of one that a part's user has bound.
+    pub(super) fn look_over_settings(&mut self) {
+        if self.settings.is_empty() {
+            return;
+        }
+        let params = self.settable_names(|item| match item {
+            ItemKind::Param { name, .. } => Some(name),
+            _ => None,
+        });
+        for setting in self.settings {
+            let (path, span) = (&setting.path, setting.value.span);
+            let owner = path.rsplit_once('.').filter(|(_, axis)| ["x", "y"].contains(&axis.trim()));
+            let is_it = |full: &str| is_told_by(full, path) || owner.is_some_and(|(owner, _)| is_told_by(full, owner));
+            self.look_over_name(Settable::Param, path, span, &params, is_it);
+        }
+    }
+
     /// Says which of the formulas given are of no input, or of one that another one is of too.
     pub(super) fn look_over_given(&mut self) {
         let given = self.given;
-        let inputs: Vec<&str> = self.inputs.iter().map(|input| input.name.text.as_str()).collect();
-        for (told, formula) in &given.formulas {
-            if !inputs.iter().any(|input| is_told_by(input, told)) {
-                let meant = nearest(told, inputs.iter().copied());
-                let diagnostic = errors::no_such_input(&self.tree.name.text, told, &inputs, meant);
-                self.report(diagnostic.at(formula.span, format!("for `{told}`")));
-            }
+        if given.formulas.is_empty() {
+            return;
         }
-        let twice = inputs.iter().find_map(|input| {
+        let inputs = self.all_inputs();
+        for (told, formula) in &given.formulas {
+            self.look_over_name(Settable::Input, told, formula.span, &inputs, |full| is_told_by(full, told));
+        }
+        let twice = inputs.iter().find_map(|(input, _)| {
             let mut formulas = given.formulas.iter().filter(|(told, _)| is_told_by(input, told));
             let (first, second) = (formulas.next()?, formulas.next()?);
-            Some((*input, [second.1.span, first.1.span]))
+            Some((input, [second.1.span, first.1.span]))
         });
         if let Some((input, places)) = twice {
             self.report(errors::input_told_twice(input, places));
         }
     }
 
+    fn all_inputs(&self) -> Vec<(String, Option<Span>)> {
+        self.settable_names(|item| match item {
+            ItemKind::Input { name, .. } => Some(name),
+            _ => None,
+        })
+    }
+
+    /// Whether something told from outside is of anything that can be told.
+    fn look_over_name(
+        &mut self,
+        what: Settable,
+        told: &str,
+        span: Span,
+        known: &[(String, Option<Span>)],
+        is_it: impl Fn(&str) -> bool,
+    ) -> bool {
+        let mut found = known.iter().filter(|(full, _)| is_it(full)).peekable();
+        if found.peek().is_none() {
+            let names: Vec<&str> = known.iter().map(|(full, _)| full.as_str()).collect();
+            let meant = nearest(told, names.iter().copied());
+            let diagnostic = errors::no_such_name(what.noun(), &self.tree.name.text, told, &names, meant);
+            self.report(diagnostic.at(span, format!("for `{told}`")));
+            return false;
+        }
+        let bound = found.find_map(|(full, binding)| Some((full, (*binding)?)));
+        if let Some((full, binding)) = bound {
+            self.report(errors::bound_from_outside(what.noun(), full, span, binding));
+        }
+        bound.is_none()
+    }
+
     /// The samples given, if they can be used.
-    pub(super) fn samples(&mut self) -> Option<Samples> {
+    pub(super) fn samples_given(&mut self) -> Option<Samples> {
         let file = self.given.samples?;
         match samples::read(self.sources.get(file), file) {
             Ok(samples) => {
+                let inputs = self.all_inputs();
                 for column in &samples.columns {
-                    self.has_an_input(column);
+                    self.has_an_input(column, &inputs);
                 }
                 Some(samples)
             }
@@ -60,32 +109,36 @@ impl Checker<'_> {
         }
     }
 
-    fn has_an_input(&mut self, column: &Column) {
-        let inputs: Vec<&str> = self.inputs.iter().map(|input| input.name.text.as_str()).collect();
-        if !inputs.contains(&column.name.as_str()) {
-            let meant = nearest(&column.name, inputs.iter().copied());
-            let diagnostic = errors::no_such_input(&self.tree.name.text, &column.name, &inputs, meant);
-            self.report(diagnostic.at(column.span, "this column"));
-        } else if let Some((_, formula)) = self.given.formulas.iter().find(|(told, _)| is_told_by(&column.name, told)) {
+    fn has_an_input(&mut self, column: &Column, inputs: &[(String, Option<Span>)]) {
+        if !self.look_over_name(Settable::Column, &column.name, column.span, inputs, |full| full == column.name) {
+            return;
+        }
+        if let Some((_, formula)) = self.given.formulas.iter().find(|(told, _)| is_told_by(&column.name, told)) {
             self.report(errors::input_told_twice(&column.name, [column.span, formula.span]));
         }
     }
 
-    /// What an input is.
-    pub(super) fn input(&mut self, k: usize, samples: Option<&Samples>) {
+    /// What an input is; of a part whose user says what it is, its own formula gives its dimension.
+    pub(super) fn input(&mut self, k: usize) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let Some(in_file) = self.input_value(formula) else { return };
-        let column = samples.and_then(|samples| samples.columns.iter().find(|column| column.name == name.text));
+        if self.bound_inputs.contains(&name.text.as_str()) {
+            self.inputs[k].value = Some(in_file);
+            return;
+        }
+        let full = format!("{}{}", self.path, name.text);
+        let samples = self.samples.clone();
+        let column = samples.as_ref().and_then(|samples| samples.columns.iter().find(|column| column.name == full));
         let formulas = &self.given.formulas;
-        let told = formulas.iter().rev().find(|(told, _)| is_told_by(&name.text, told)).map(|(_, formula)| formula);
-        let value = match (column, told) {
-            (Some(column), _) => samples.and_then(|samples| self.sampled(&samples.times, column, in_file.dim)),
-            (None, Some(formula)) => self.told(name, formula, in_file.dim),
-            (None, None) => Some(in_file),
+        let told = formulas.iter().rev().find(|(told, _)| is_told_by(&full, told)).map(|(_, formula)| formula);
+        let value = match (&samples, column, told) {
+            (Some(samples), Some(column), _) => self.sampled(&samples.times, column, in_file.dim),
+            (_, _, Some(formula)) => self.told(name, formula, in_file.dim),
+            _ => Some(in_file),
         };
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared: super::declared(name), value: value.id });
+            self.model.inputs.push(Input { declared: self.declared(name), value: value.id });
         }
     }
 
@@ -150,8 +203,20 @@ impl Checker<'_> {
     }
 }
 
-/// Whether what is told of a name is told of an input: of its own name, or of all copies of a repeated one; spaces count nothing.
-pub(super) fn is_told_by(input: &str, told: &str) -> bool {
-    let told: String = told.chars().filter(|c| !c.is_whitespace()).collect();
-    told == input || input.split_once('[').is_some_and(|(base, _)| base == told)
+/// What can be told from outside.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Settable {
+    Param,
+    Input,
+    /// An input, by a column of samples.
+    Column,
+}
+
+impl Settable {
+    fn noun(self) -> &'static str {
+        match self {
+            Settable::Param => "parameter",
+            Settable::Input | Settable::Column => "input",
+        }
+    }
 }

@@ -15,7 +15,7 @@ impl Checker<'_> {
     /// A point in the place of an axis: one of the axes of its body, or one through the point.
     pub(super) fn axis_for(&self, frame: Frame, point: &Name) -> Option<Fix> {
         let space = self.features.get(&frame)?;
-        let owner = self.model.frame_name(frame);
+        let owner = self.frame_name(frame);
         if let Some(axis) = space.names(|feature| matches!(feature, Feature::Axis(_))).next() {
             let message = format!("was `{owner}.{axis}` meant?");
             return Some(Fix::replace(point.span, axis, message, Applies::Probably));
@@ -45,8 +45,8 @@ impl Checker<'_> {
     /// A body in the place of a joint: the joints of that body, and the angle of the body itself.
     pub(super) fn joint_for(&self, quantity: &str, name: &Name, diagnostic: Diagnostic) -> Diagnostic {
         let body = match self.entity(name) {
-            _ if name.text == "ground" => Frame::Ground,
-            Some(Entity::Body(k)) => Frame::Body(self.bodies[k]),
+            _ if name.text == "ground" => self.ground,
+            Some(Entity::Body(k)) => self.bodies[k],
             _ => return diagnostic,
         };
         let is_one = |kind: JointKind| match kind {
@@ -72,7 +72,7 @@ impl Checker<'_> {
     /// `crank.phi`, `crank.x`, or a point in the place of a number.
     pub(super) fn number_for(&self, span: Span, owner: &Name, feature: &Name) -> Option<Fix> {
         let frame = match self.entity(owner)? {
-            Entity::Body(k) => Frame::Body(*self.bodies.get(k)?),
+            Entity::Body(k) => *self.bodies.get(k)?,
             _ => return None,
         };
         let space = self.features.get(&frame)?;

@@ -1,21 +1,39 @@
 //! Joints: what each is called with, and whether the drawing says what it must.
 
-use super::{Checker, declared, errors};
+use super::{Checker, errors};
 use crate::expr::ExprId;
-use crate::model::{CircleId, Dimension, Frame, Joint, JointKind, PointId, Side};
+use crate::model::{BodyId, CircleId, Dimension, Frame, Joint, JointId, JointKind, PointId, Side};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use crate::vocabulary::JointWord;
 
 impl Checker<'_> {
     pub(super) fn joints(&mut self) {
+        let (mut parts, mut own) = (0..self.parts.len(), 0..);
         for item in self.items() {
-            if let ItemKind::Joint { name, kind, arguments, call_span } = &item.kind {
-                let joint = self.joint(name, kind, arguments, *call_span);
-                let id = joint.map(|kind| self.model.add_joint(Joint { declared: declared(name), kind }));
-                self.joints.push(id);
+            match &item.kind {
+                ItemKind::Joint { name, kind, arguments, call_span } => {
+                    let joint = self.joint(name, kind, arguments, *call_span);
+                    let (declared, part) = (self.declared(name), self.part);
+                    let id = joint.map(|kind| self.model.add_joint(Joint { part, declared, kind }));
+                    self.set_joint(own.next().unwrap_or_default(), id);
+                }
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::joints);
+                    }
+                }
+                _ => {}
             }
         }
+        self.import();
+    }
+
+    fn set_joint(&mut self, k: usize, joint: Option<JointId>) {
+        if self.joints.len() <= k {
+            self.joints.resize(k + 1, None);
+        }
+        self.joints[k] = joint;
     }
 
     fn joint(&mut self, name: &Name, kind: &Name, arguments: &[Expr], span: Span) -> Option<JointKind> {
@@ -31,8 +49,8 @@ impl Checker<'_> {
             _ => self.unknown_joint(kind, arguments),
         }?;
         let frames = joint.frames(&self.model);
-        if frames[0] == frames[1] {
-            let frame = self.model.frame_name(frames[0]).to_owned();
+        if self.model.carrier(frames[0]) == self.model.carrier(frames[1]) {
+            let frame = self.frame_name(frames[0]).to_owned();
             self.report(errors::joint_with_itself(name, &frame, [arguments[0].span, arguments[1].span]));
             return None;
         }
@@ -226,13 +244,33 @@ impl Checker<'_> {
     fn drawn(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
         let [x, y] = local.map(|id| self.constant_value(id));
         let (x, y) = (x?, y?);
-        let Frame::Body(body) = frame else {
+        if frame == self.ground {
             return Some([x, y]);
-        };
+        }
+        let Some(body) = self.own_body(frame) else { return self.drawn_through_parts(frame, local, is_point) };
         let pose = self.model[body].pose.map(|id| self.constant_value(id));
         let (sin, cos) = crate::math::sin_cos(pose[2]?);
         let origin = if is_point { [pose[0]?, pose[1]?] } else { [0.0, 0.0] };
         Some([origin[0] + x * cos - y * sin, origin[1] + x * sin + y * cos])
+    }
+}
+
+impl Checker<'_> {
+    /// The body of a frame, if it is one of this text.
+    pub(super) fn own_body(&self, frame: Frame) -> Option<BodyId> {
+        match frame {
+            Frame::Body(body) if self.model[body].part == self.part => Some(body),
+            _ => None,
+        }
+    }
+
+    /// The same of a frame of a part.
+    fn drawn_through_parts(&mut self, frame: Frame, local: [ExprId; 2], is_point: bool) -> Option<[f64; 2]> {
+        let placement = self.drawn_frame(frame);
+        let graph = &mut self.model.graph;
+        let place = if is_point { placement.placed(graph, local) } else { placement.turned(graph, local) };
+        let [x, y] = place.map(|id| self.constant_value(id));
+        Some([x?, y?])
     }
 }
 

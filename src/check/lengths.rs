@@ -86,7 +86,7 @@ impl<'a> Checker<'a> {
     /// A parameter's name and formula; whether that stands in the text, or was given from outside.
     fn param_as_given(&self, k: usize) -> (&'a str, &'a Expr, bool) {
         let (name, value) = self.param_formulas[k];
-        let setting = self.settings.iter().rev().find(|setting| setting.name == name.text);
+        let setting = self.settings_of(name).pop().map(|(_, setting)| setting);
         (&name.text, setting.map_or(value, |setting| &setting.value), setting.is_none())
     }
 

@@ -106,7 +106,7 @@ impl Checker<'_> {
     /// What a body has of a kind, as it is written outside.
     pub(super) fn features_of(&self, body: &Name, wanted: impl Fn(Feature) -> bool) -> Vec<String> {
         let Some(Entity::Body(k)) = self.entity(body) else { return Vec::new() };
-        let space = self.bodies.get(k).and_then(|id| self.features.get(&Frame::Body(*id)));
+        let space = self.bodies.get(k).and_then(|id| self.features.get(id));
         let names = space.into_iter().flat_map(|space| self.suggestions_in(space, &wanted));
         names.take(MOST_PLACES).map(|name| format!("`{}.{name}`", body.text)).collect()
     }

@@ -55,6 +55,18 @@ fn units_in(e: &Expr) -> Vec<Span> {
         .collect()
 }
 
+/// The numbers in brackets anywhere in a formula.
+pub(super) fn indices(formula: &Expr) -> Vec<&Expr> {
+    let (mut found, mut open) = (Vec::new(), vec![formula]);
+    while let Some(e) = open.pop() {
+        if let ExprKind::Path(segments) = &e.kind {
+            found.extend(segments.iter().flat_map(|segment| &segment.indices));
+        }
+        open.extend(e.children());
+    }
+    found
+}
+
 /// The formulas of a declaration.
 pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
     match &item.kind {
@@ -65,6 +77,10 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
             vec![value]
         }
         ItemKind::Trace { point, .. } => vec![point],
+        ItemKind::Part(part) => {
+            let bindings = part.bindings.iter().map(|binding| &binding.value);
+            bindings.chain(&part.on).chain(&part.at).collect()
+        }
         ItemKind::Table { rows: TableRows::Listed(rows), .. } => rows.iter().collect(),
         ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),

@@ -12,6 +12,7 @@ mod errors;
 mod features;
 mod formula;
 mod inputs;
+mod instances;
 mod instead;
 mod joints;
 mod kinds;
@@ -22,6 +23,7 @@ mod mends;
 mod mentions;
 mod named_points;
 mod names;
+mod parts;
 mod points;
 mod poses;
 mod printed;
@@ -36,12 +38,13 @@ mod table_file;
 mod tables;
 
 pub use inputs::Given;
+pub use instances::Library;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
-use crate::model::{BodyId, Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PointId};
+use crate::model::{Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PartId, PointId};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
@@ -51,8 +54,11 @@ use formula::{Context, Dim, Value};
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
+use parts::{BoundParam, Import, is_told_by};
 use rustc_hash::{FxHashMap, FxHashSet};
+use samples::Samples;
 use sites::{Drawn, Scope};
+use std::rc::Rc;
 use tables::TableState;
 
 /// How many mistakes of one file are worth a suggestion.
@@ -72,10 +78,8 @@ pub struct Surroundings {
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
 #[derive(Clone, Debug)]
 pub struct Setting {
-    /// The parameter.
-    pub name: String,
-    /// Which of its coordinates, where it is a point of which one is set.
-    pub coordinate: Option<usize>,
+    /// The parameter, or a coordinate of one that is a point, with the parts before it; without a number it is meant in all copies.
+    pub path: String,
     /// Its formula, which names nothing of the file.
     pub value: Expr,
 }
@@ -98,26 +102,21 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 #[must_use]
 pub fn check(
     tree: &ast::Mechanism,
+    library: &dyn Library,
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
-    let deciding = repetition::deciding(tree);
-    let (written_out, told) = match repetition::written_out(tree, surroundings, sources) {
-        Some((written_out, told)) => (Some(written_out), told),
-        None => (None, Diagnostics::default()),
-    };
-    let tree = written_out.as_ref().unwrap_or(tree);
-    let mut checker = Checker::new(tree, surroundings, sources);
-    checker.deciding = deciding;
+    let (instance, told) = instances::instance_of(tree, library, surroundings, sources);
+    let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);
-    if written_out.is_some() {
+    if instance.is_written_out() {
         diagnostics.tell_once();
     }
     diagnostics.sort_by_place();
     let diagnostics = meant::told_once(diagnostics);
-    let sound = !diagnostics.has_errors() && !has_broken(tree);
+    let sound = !diagnostics.has_errors() && !has_broken(instance.tree());
     (sound.then_some(model), diagnostics)
 }
 
@@ -241,8 +240,27 @@ struct Checker<'a> {
     diagnostics: Diagnostics,
     model: Mechanism,
     space: Space<Entity>,
+    /// How many of each kind of thing have a name.
+    count: names::Count,
+    /// What its names begin with in the whole mechanism: `leg[2].`, or nothing.
+    path: String,
+    /// Of a part: what it is in the model, and what its ground is there.
+    part: Option<PartId>,
+    ground: Frame,
+    /// Of a part: its name and those of the parts around it, and where they stand.
+    used_at: Vec<(String, Span)>,
+    /// Of a part: what is said of its params and inputs where it is used.
+    bound_params: Vec<BoundParam<'a>>,
+    bound_inputs: Vec<&'a str>,
+    /// Its own parts, each with how it is written, and its names that are known here.
+    parts: Vec<Checker<'a>>,
+    bindings: Vec<&'a ast::Part>,
+    imports: Vec<Vec<Import>>,
+    imported: FxHashMap<Entity, (usize, Entity)>,
+    /// Of those the params that are points.
+    point_paths: FxHashSet<String>,
     /// The params that decide what is repeated.
-    deciding: FxHashSet<String>,
+    deciding: Rc<FxHashSet<String>>,
     /// By the parameter's position; `None` where it is broken.
     params: Vec<Option<Value>>,
     /// Those of them that are points, by the same position.
@@ -261,7 +279,15 @@ struct Checker<'a> {
     tables: Vec<TableState<'a>>,
     inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
-    bodies: Vec<BodyId>,
+    /// The order in which measures need each other, and their values with what these ask for.
+    measure_order: Vec<usize>,
+    measure_values: Vec<(Option<Value>, Vec<Condition>)>,
+    /// The samples that are given.
+    samples: Option<Rc<Samples>>,
+    /// Of bodies, and of the grounds of parts that are named.
+    bodies: Vec<Frame>,
+    /// The bodies and the ground of this text.
+    frames: Vec<(Frame, &'a [ast::Feature])>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
@@ -302,9 +328,21 @@ impl<'a> Checker<'a> {
             given: &surroundings.given,
             sources,
             diagnostics: Diagnostics::default(),
-            model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
+            model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
             space: Space::new(),
-            deciding: FxHashSet::default(),
+            count: names::Count::default(),
+            path: String::new(),
+            part: None,
+            ground: Frame::Ground,
+            used_at: Vec::new(),
+            bound_params: Vec::new(),
+            bound_inputs: Vec::new(),
+            parts: Vec::new(),
+            bindings: Vec::new(),
+            imports: Vec::new(),
+            imported: FxHashMap::default(),
+            point_paths: FxHashSet::default(),
+            deciding: Rc::default(),
             params: Vec::new(),
             drawn: Vec::new(),
             point_params: kinds::point_params(tree),
@@ -316,7 +354,11 @@ impl<'a> Checker<'a> {
             tables: Vec::new(),
             inputs: Vec::new(),
             measures: Vec::new(),
+            measure_order: Vec::new(),
+            measure_values: Vec::new(),
+            samples: None,
             bodies: Vec::new(),
+            frames: Vec::new(),
             joints: Vec::new(),
             features: FxHashMap::default(),
             lengths: Lengths::default(),
@@ -337,26 +379,32 @@ impl<'a> Checker<'a> {
     }
 
     fn run(&mut self) {
-        self.collect(self.tree);
-        let measures = self.definitions();
+        self.look_over_settings();
+        self.look_over_given();
+        self.samples = self.samples_given().map(Rc::new);
+        self.measure_order = self.definitions();
         self.features();
         self.joints();
-        self.measures(&measures);
+        self.bind_inputs();
+        self.measure_values();
+        self.list_measures();
         self.equations();
         self.analysis();
         self.warn_of_plain_lengths();
-        if self.bodies.is_empty() && !has_broken(self.tree) {
+        if self.model.bodies.is_empty() && !has_broken(self.tree) {
             self.report(errors::empty(&self.tree.name));
         }
     }
 
     /// Says something, with the place of the call through which it came up.
     fn report(&mut self, diagnostic: Diagnostic) {
-        self.diagnostics.push(match self.caller {
+        let diagnostic = match self.caller {
             // a formula is judged where it is called
             Some(caller) => diagnostic.raised_by(caller, "brought in here"),
             None => diagnostic,
-        });
+        };
+        let parts = self.used_at.iter();
+        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.also(*span, errors::in_part(part))));
     }
 
     /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
@@ -394,7 +442,8 @@ impl<'a> Checker<'a> {
                 ItemKind::Input { name, value } => {
                     entities.push(Entity::Input(self.inputs.len()));
                     let given = self.given.formulas.iter();
-                    let told = given.filter(|(told, _)| inputs::is_told_by(&name.text, told)).map(|(_, told)| told);
+                    let own = format!("{}{}", self.path, name.text);
+                    let told = given.filter(|(told, _)| is_told_by(&own, told)).map(|(_, told)| told);
                     definitions.push((name, std::iter::once(value).chain(told).collect()));
                     self.inputs.push(InputState { name, formula: value, value: None });
                 }
@@ -415,13 +464,17 @@ impl<'a> Checker<'a> {
                     let periodic = *periodic;
                     self.tables.push(TableState { name, periodic, rows, dimensional: false, made: None });
                 }
+                ItemKind::Part(part) => {
+                    let k = entities.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
+                    entities.push(Entity::Part(k));
+                    definitions.push((&part.name, part.bindings.iter().map(|binding| &binding.value).collect()));
+                }
                 _ => continue,
             }
             docs.push(&item.docs);
         }
+        self.import();
         let uses = self.uses(&definitions, &entities);
-        self.look_over_given();
-        let samples = self.samples();
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
@@ -439,7 +492,8 @@ impl<'a> Checker<'a> {
                 }
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
-                Entity::Input(k) => self.input(k, samples.as_ref()),
+                Entity::Input(k) => self.input(k),
+                Entity::Part(k) if k < self.parts.len() => self.definitions_of_part(k),
                 Entity::Measure(k) => {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
@@ -481,6 +535,9 @@ impl<'a> Checker<'a> {
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
+                            // what is in a part is known when the part is
+                            let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
+                            let entity = part.or(entity);
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }
@@ -496,15 +553,17 @@ impl<'a> Checker<'a> {
     fn param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Value> {
         let context = Context::constant("a parameter");
         let in_file = self.param_value(formula, context)?;
-        let settings = self.settings;
-        let setting = settings.iter().rev().find(|setting| setting.name == name.text);
+        if let Some(bound) = self.as_bound(name, in_file) {
+            return bound;
+        }
+        let setting = self.settings_of(name).pop();
         let value = match setting {
             None => in_file,
-            Some(Setting { coordinate: Some(k), value, .. }) => {
-                self.report(errors::coordinate_of_number(name, *k, value.span));
+            Some((Some(k), setting)) => {
+                self.report(errors::coordinate_of_number(name, k, setting.value.span));
                 return None;
             }
-            Some(setting) => {
+            Some((None, setting)) => {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
@@ -523,17 +582,17 @@ impl<'a> Checker<'a> {
                 }
             }
         };
-        self.settable(declared(name), docs, value)
+        self.settable(self.declared(name), &name.text, docs, value)
     }
 
     /// A number that is a parameter of the model, unless it follows from others.
-    fn settable(&mut self, declared: Declared, docs: &[String], value: Value) -> Option<Value> {
+    fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         if self.follows(value.id) {
             return Some(value);
         }
         let number = self.constant_value(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
-        if self.deciding.contains(declared.name.split('.').next().unwrap_or_default()) {
+        if self.deciding.contains(name) {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
@@ -552,20 +611,39 @@ impl<'a> Checker<'a> {
     /// A parameter that is a point: each of its coordinates is a parameter of the model, unless it follows from others.
     fn point_of_param(&mut self, name: &Name, docs: &[String], formula: &Expr) -> Option<Drawn> {
         let Drawn { mut at, mut dimensional } = self.point_formula(formula, &Context::constant("a parameter"))?;
-        let settings = self.settings;
-        for setting in settings.iter().filter(|setting| setting.name == name.text) {
-            let given = self.point_given(name, setting, Drawn { at, dimensional })?;
+        if self.bound_param(name).is_some() {
+            Drawn { at, dimensional } = self.point_as_bound(name, Drawn { at, dimensional })?;
+        }
+        for (coordinate, setting) in self.settings_of(name) {
+            let given = self.point_given(name, coordinate, setting, Drawn { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
         }
         let mut coordinate = |k: usize, axis: &str| {
-            let declared = Declared { name: format!("{}.{axis}", name.text), span: name.span };
+            let declared = Declared { name: format!("{}{}.{axis}", self.path, name.text), span: name.span };
             // a zero has no sign here: in a direction it would count
             let is_zero = self.constant_value(at[k]) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
-            self.settable(declared, docs, Value { id, dim: Dim::LENGTH })
+            self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
         Some(Drawn { at: [x.id, y.id], dimensional })
+    }
+
+    /// What is set of a param from outside, or of which of its coordinates, in the order given.
+    fn settings_of(&self, name: &Name) -> Vec<(Option<usize>, &'a Setting)> {
+        if self.settings.is_empty() {
+            return Vec::new();
+        }
+        let full = format!("{}{}", self.path, name.text);
+        let is_point = self.is_point_name(&name.text);
+        let of = |setting: &'a Setting| {
+            if is_told_by(&full, &setting.path) {
+                return Some((None, setting));
+            }
+            let axis = ["x", "y"].iter().position(|axis| is_told_by(&format!("{full}.{axis}"), &setting.path));
+            axis.filter(|_| is_point || setting.path.contains('.')).map(|axis| (Some(axis), setting))
+        };
+        self.settings.iter().filter_map(of).collect()
     }
 
     /// Whether a formula follows from parameters.
@@ -574,10 +652,16 @@ impl<'a> Checker<'a> {
     }
 
     /// The point with what is set from outside: `--set A=(12mm,0)`, `--set A.x=12mm`.
-    fn point_given(&mut self, name: &Name, setting: &Setting, before: Drawn) -> Option<Drawn> {
+    fn point_given(
+        &mut self,
+        name: &Name,
+        coordinate: Option<usize>,
+        setting: &Setting,
+        before: Drawn,
+    ) -> Option<Drawn> {
         let judged = before.dimensional;
         let context = Context { names: false, judged, ..Context::constant("a parameter") };
-        let Some(k) = setting.coordinate else {
+        let Some(k) = coordinate else {
             if !self.is_point(&setting.value) {
                 self.report(errors::point_set_to_number(name, setting.value.span));
                 return None;
@@ -670,8 +754,4 @@ impl<'a> Checker<'a> {
         });
         self.values.get(id.index()).copied()
     }
-}
-
-fn declared(name: &Name) -> Declared {
-    Declared { name: name.text.clone(), span: name.span }
 }

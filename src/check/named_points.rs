@@ -58,7 +58,7 @@ impl<'a> Checker<'a> {
         let Scope { own, of_mechanism, .. } = std::mem::replace(&mut self.scope, outer);
         match (site, own, of_mechanism) {
             (Site::Inside(frame), Some(own), Some(other)) if self.is_placed(frame) => {
-                let body = self.model.frame_name(frame).to_owned();
+                let body = self.frame_name(frame).to_owned();
                 self.report(errors::two_frames(&body, own, other));
                 None
             }
@@ -68,7 +68,7 @@ impl<'a> Checker<'a> {
 
     fn is_placed(&self, frame: Frame) -> bool {
         match frame {
-            Frame::Ground => false,
+            Frame::Ground | Frame::Part(_) => false,
             Frame::Body(body) => self.model[body].pose_span.is_some(),
         }
     }
@@ -77,7 +77,7 @@ impl<'a> Checker<'a> {
     pub(super) fn is_number_name(&self, name: &Name) -> bool {
         let declared = self.space.get(&name.text);
         match declared {
-            Some(Entity::Param(_)) => !self.point_params.contains(name.text.as_str()),
+            Some(Entity::Param(_)) => !self.is_point_name(&name.text),
             Some(_) => false,
             None => Constant::named(&name.text).is_some() || Unit::named(&name.text).is_some(),
         }
@@ -102,7 +102,7 @@ impl<'a> Checker<'a> {
     /// The param that is a point and has a name.
     pub(super) fn point_param(&self, name: &Name) -> Option<usize> {
         match self.entity(name) {
-            Some(Entity::Param(k)) if self.point_params.contains(name.text.as_str()) => Some(k),
+            Some(Entity::Param(k)) if self.is_point_name(&name.text) => Some(k),
             _ => None,
         }
     }
@@ -128,9 +128,9 @@ impl<'a> Checker<'a> {
             return false;
         }
         let frame = match self.entity(owner) {
-            _ if owner.text == "ground" => Frame::Ground,
+            _ if owner.text == "ground" => self.ground,
             Some(Entity::Body(k)) => match self.bodies.get(k) {
-                Some(&body) => Frame::Body(body),
+                Some(&frame) => frame,
                 None => return false,
             },
             _ => return false,
@@ -201,7 +201,7 @@ impl<'a> Checker<'a> {
     /// Those among which the nearest name is looked for.
     fn known_point_params(&self) -> Vec<&str> {
         let mut known = self.suggestions(|entity| matches!(entity, Entity::Param(_)));
-        known.retain(|name| self.point_params.contains(name));
+        known.retain(|name| self.is_point_name(name));
         known
     }
 

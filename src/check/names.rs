@@ -19,6 +19,9 @@ pub(super) enum Entity {
     Equation,
     Measure(usize),
     Trace,
+    Part(usize),
+    /// The ground of a part, inside it.
+    Ground,
     /// Its declaration does not follow the grammar, which has been said.
     Broken,
 }
@@ -36,6 +39,8 @@ impl Entity {
             Entity::Equation => "a constraint or driver",
             Entity::Measure(_) => "a measure",
             Entity::Trace => "a trace",
+            Entity::Part(_) => "a part",
+            Entity::Ground => "the ground of a part",
             Entity::Broken => "a declaration that cannot be read",
         }
     }
@@ -46,11 +51,24 @@ impl Entity {
                 KindOfName::Value
             }
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
-            Entity::Body(_) => KindOfName::Body,
+            Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
             Entity::Equation => KindOfName::Equation,
         }
     }
+}
+
+/// How many things of each kind have a name.
+#[derive(Clone, Copy, Default, Debug)]
+pub(super) struct Count {
+    pub params: usize,
+    pub functions: usize,
+    pub tables: usize,
+    pub inputs: usize,
+    pub bodies: usize,
+    pub joints: usize,
+    pub measures: usize,
+    pub parts: usize,
 }
 
 /// The name may be that of a declaration that cannot be read, which has been said.
@@ -116,23 +134,23 @@ impl<T: Copy> Space<T> {
 impl Checker<'_> {
     /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
-        let (mut params, mut functions, mut tables) = (0, 0, 0);
-        let (mut inputs, mut bodies, mut joints, mut measures) = (0, 0, 0, 0);
+        let mut count = Count::default();
         let next = |count: &mut usize| {
             *count += 1;
             *count - 1
         };
         for item in &mechanism.items {
             let (name, entity) = match &item.kind {
-                ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut params))),
-                ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut functions))),
-                ItemKind::Table { name, .. } => (name, Entity::Table(next(&mut tables))),
-                ItemKind::Input { name, .. } => (name, Entity::Input(next(&mut inputs))),
-                ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut bodies))),
-                ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut joints))),
+                ItemKind::Param { name, .. } => (name, Entity::Param(next(&mut count.params))),
+                ItemKind::Function { name, .. } => (name, Entity::Function(next(&mut count.functions))),
+                ItemKind::Table { name, .. } => (name, Entity::Table(next(&mut count.tables))),
+                ItemKind::Input { name, .. } => (name, Entity::Input(next(&mut count.inputs))),
+                ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut count.bodies))),
+                ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut count.joints))),
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
-                ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
+                ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut count.measures))),
                 ItemKind::Trace { name, .. } => (name, Entity::Trace),
+                ItemKind::Part(part) => (&part.name, Entity::Part(next(&mut count.parts))),
                 ItemKind::Broken { names, .. } => {
                     self.collect_broken(names);
                     continue;
@@ -152,6 +170,7 @@ impl Checker<'_> {
                 self.report(errors::declared_twice(name, first));
             }
         }
+        self.count = count;
         for item in &mechanism.items {
             match &item.kind {
                 ItemKind::Function { argument, value, .. } => self.argument_name(argument, value),

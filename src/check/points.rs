@@ -113,10 +113,16 @@ impl Checker<'_> {
         let frame = self.body(owner)?;
         let point = self.point_named(frame, feature)?;
         let [x, y] = self.model[point].at;
-        let Frame::Body(body) = frame else { return Some([x, y]) };
+        if frame == self.ground {
+            return Some([x, y]);
+        }
         if self.broken_poses.contains(&frame) {
             return None;
         }
+        let Some(body) = self.own_body(frame) else {
+            let placement = self.drawn_frame(frame);
+            return Some(placement.placed(&mut self.model.graph, [x, y]));
+        };
         let [origin_x, origin_y, phi] = self.model[body].pose;
         let graph = &mut self.model.graph;
         let (sin, cos) = (graph.unary(Unary::Sin, phi), graph.unary(Unary::Cos, phi));

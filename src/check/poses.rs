@@ -17,6 +17,8 @@ const PLACE: &str = "the estimate of a pose";
 impl<'a> Checker<'a> {
     /// The poses of all bodies, each after those that it needs.
     pub(super) fn poses(&mut self) {
+        // in their own frames they need nothing of what is around them
+        self.in_parts(Checker::poses);
         let mut poses = Vec::new();
         for item in self.items() {
             if let ItemKind::Body { name, pose, .. } = &item.kind {
@@ -26,18 +28,19 @@ impl<'a> Checker<'a> {
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
         for k in self.ordered(&uses) {
-            let (item, _, pose) = poses[k];
+            // behind the bodies stand the parts
+            let Some(&(item, _, pose)) = poses.get(k) else { continue };
             is_sound[k] = match pose {
                 Some(pose) => self.at_site(Site::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
                 None => !self.has_unread_pose(item),
             };
             if !is_sound[k] {
-                self.broken_poses.insert(Frame::Body(self.bodies[k]));
+                self.broken_poses.insert(self.bodies[k]);
             }
         }
         // those on a circle have none
         let broken = self.bodies.iter().zip(is_sound).filter(|(_, is_sound)| !is_sound);
-        self.broken_poses.extend(broken.map(|(&body, _)| Frame::Body(body)));
+        self.broken_poses.extend(broken.map(|(&body, _)| body));
     }
 
     /// Which bodies the pose of each one names.
@@ -46,6 +49,11 @@ impl<'a> Checker<'a> {
         for (k, (_, name, _)) in poses.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
         }
+        for (k, part) in self.bindings.iter().enumerate() {
+            positions.entry(part.name.text.as_str()).or_insert(poses.len() + k);
+        }
+        // what is in a part stands where the part does
+        let position = |name: &Name| positions.get(name.text.split('.').next().unwrap_or_default()).copied();
         let uses = poses.iter().map(|&(_, name, pose)| {
             let mut uses = Vec::new();
             let mut open: Vec<&Expr> = pose.into_iter().flat_map(Pose::parts).collect();
@@ -53,13 +61,21 @@ impl<'a> Checker<'a> {
                 if let ExprKind::Member { owner, .. } = &e.kind
                     && self.point_param(owner).is_none()
                 {
-                    uses.extend(positions.get(owner.text.as_str()).map(|&k| (k, owner.span)));
+                    uses.extend(position(owner).map(|k| (k, owner.span)));
                 }
                 open.extend(e.children());
             }
             (name, uses)
         });
-        uses.collect()
+        let mut uses: Vec<_> = uses.collect();
+        for part in &self.bindings {
+            let mount = part.on.as_ref().and_then(|on| match &on.kind {
+                ExprKind::Name(name) => position(name).map(|k| (k, name.span)),
+                _ => None,
+            });
+            uses.push((&part.name, mount.into_iter().collect()));
+        }
+        uses
     }
 
     /// Whether a body has a pose that does not follow the grammar, which has been said.
@@ -69,26 +85,38 @@ impl<'a> Checker<'a> {
     }
 
     fn pose(&mut self, body: usize, pose: &Pose) -> Option<()> {
-        let (place, phi) = match (&pose.toward, &pose.at.kind) {
-            (Some(toward), _) => self.pose_toward(&pose.at, toward),
-            (None, ExprKind::Tuple(parts)) => match parts.as_slice() {
-                [x, y, phi] => {
-                    let context = self.pair_context([x, y], PLACE, None);
-                    let place = self.lengths_in([x, y], &context);
-                    (place, self.angle(phi, "the angle of a pose"))
-                }
-                [point, phi] if self.is_meant_as_point(point) => {
-                    let place = self.drawn_point_of(point);
-                    (place, self.angle(phi, "the angle of a pose"))
-                }
-                parts => return self.wrong_pose(&pose.at, parts),
-            },
-            _ => return self.wrong_pose(&pose.at, &[]),
+        let (place, phi) = match &pose.toward {
+            Some(toward) => self.pose_toward(&pose.at, toward),
+            None => self.place_and_angle(&pose.at)?,
         };
         let ([x, y], phi) = (place?, phi?);
-        let id = self.bodies[body];
-        self.model.bodies[id.index()].pose = [x, y, phi];
+        if let Some(Frame::Body(id)) = self.bodies.get(body) {
+            self.model.bodies[id.index()].pose = [x, y, phi];
+        }
         Some(())
+    }
+
+    /// `(x, y, phi)` or `(P, phi)`
+    pub(super) fn place_and_angle(&mut self, at: &Expr) -> Option<(Option<Place>, Option<ExprId>)> {
+        let ExprKind::Tuple(parts) = &at.kind else {
+            self.wrong_pose(at, &[]);
+            return None;
+        };
+        Some(match parts.as_slice() {
+            [x, y, phi] => {
+                let context = self.pair_context([x, y], PLACE, None);
+                let place = self.lengths_in([x, y], &context);
+                (place, self.angle(phi, "the angle of a pose"))
+            }
+            [point, phi] if self.is_meant_as_point(point) => {
+                let place = self.drawn_point_of(point);
+                (place, self.angle(phi, "the angle of a pose"))
+            }
+            parts => {
+                self.wrong_pose(at, parts);
+                return None;
+            }
+        })
     }
 
     /// `at A toward B`
@@ -119,16 +147,15 @@ impl<'a> Checker<'a> {
             }
     }
 
-    fn wrong_pose(&mut self, e: &Expr, parts: &[Expr]) -> Option<()> {
+    fn wrong_pose(&mut self, e: &Expr, parts: &[Expr]) {
         if parts.is_empty() && self.is_point(e) {
             self.report(errors::no_angle_of_pose(e.span, self.sources.text(e.span)));
-            return None;
+            return;
         }
         let found = if parts.is_empty() { 1 } else { parts.len() };
         let word = Keyword::named("at").map(|keyword| &keyword.word);
         let diagnostic = errors::argument_count("at", word, e.span, "two lengths and an angle", found);
         let fix = self.decimal_comma(parts, 3).or_else(|| mends::angle_missing(parts));
         self.report(mends::fixed_first(diagnostic, fix));
-        None
     }
 }

@@ -87,7 +87,9 @@ impl Checker<'_> {
                 ExprKind::Name(name) | ExprKind::Call { name, .. } => match self.entity(name) {
                     Some(Entity::Param(k)) if !self.angle_params.contains_key(&k) => return true,
                     Some(Entity::Function(_) | Entity::Table(_)) => return true,
-                    Some(Entity::Measure(k)) if self.measures[k].holds_plain_number => return true,
+                    Some(Entity::Measure(k)) if self.measure_known(k).is_some_and(|known| known.holds_plain_number) => {
+                        return true;
+                    }
                     _ => {}
                 },
                 _ => {}
@@ -137,7 +139,7 @@ impl Checker<'_> {
     fn angle_power_of_name(&self, name: &Name) -> i32 {
         match self.entity(name) {
             Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
-            Some(Entity::Measure(k)) => self.measures[k].angle,
+            Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
             Some(_) => 0,
             None => match Constant::named(&name.text) {
                 Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,

@@ -66,7 +66,7 @@ impl Checker<'_> {
             }
             ("curvature", [p]) => Quantity::Curvature(self.point(p)?),
             ("speed", [p]) => Quantity::Speed(self.point(p)?),
-            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, Frame::Ground, part_of(name)),
+            ("pole_x" | "pole_y", [b]) => Quantity::Pole(self.body_of(b)?, self.ground, part_of(name)),
             ("pole_x" | "pole_y", [b, c]) => {
                 let (b, c) = (self.body_of(b), self.body_of(c));
                 Quantity::Pole(b?, c?, part_of(name))
@@ -86,13 +86,13 @@ impl Checker<'_> {
         if quantity.may_not_exist() {
             self.ask_for_existence(quantity, e.span);
         }
-        let id = self.name_symbol(Named::Quantity(quantity), quantity.order());
+        let id = self.name_symbol(Named::Quantity(self.part, quantity), quantity.order());
         Some(Value { id, dim: Dim::Of(quantity.dimension()) })
     }
 
     /// Asks that a quantity exists, where the branch that it stands in counts.
     fn ask_for_existence(&mut self, quantity: Quantity, span: Span) {
-        let exists = self.name_symbol(Named::Exists(quantity), quantity.order());
+        let exists = self.name_symbol(Named::Exists(self.part, quantity), quantity.order());
         let one = self.model.graph.constant(1.0);
         let positive = self.guard.map_or(exists, |guard| self.model.graph.select(guard, exists, one));
         let kind = ConditionKind::Existence;
@@ -140,7 +140,7 @@ impl Checker<'_> {
         let frames = self.model[joint].kind.frames(&self.model);
         for (axis, e, frame) in [(u_id, u, frames[0]), (v_id, v, frames[1])] {
             if self.model[axis].frame != frame {
-                let wanted = self.model.frame_name(frame).to_owned();
+                let wanted = self.frame_name(frame).to_owned();
                 let (joint, axis) = (self.model[joint].declared.name.clone(), self.model[axis].name.clone());
                 self.report(errors::axes_elsewhere(&joint, &axis, e.span, &wanted));
                 return None;
@@ -191,10 +191,10 @@ impl Checker<'_> {
     /// A body of that name, or the ground.
     pub(super) fn body(&mut self, name: &Name) -> Option<Frame> {
         if name.text == "ground" {
-            return Some(Frame::Ground);
+            return Some(self.ground);
         }
         match self.resolve(name).ok()? {
-            Some(Entity::Body(k)) => Some(Frame::Body(self.bodies[k])),
+            Some(Entity::Body(k)) => self.bodies.get(k).copied(),
             Some(entity) => {
                 self.report(errors::wrong_kind(name.span, "a body", entity.noun()));
                 None

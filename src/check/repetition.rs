@@ -1,129 +1,121 @@
 //! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
 //! names that the copies have. All else of `check` knows plain declarations alone.
 
-use super::mentions::{formulas, mentioned};
-use super::{Checker, Surroundings, errors};
+use super::instances::Instance;
+use super::{Checker, errors};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
-use crate::source::{Sources, Span};
+use crate::source::Span;
 use crate::syntax::ast::{
     self, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Sign,
 };
 use crate::vocabulary::is_taken;
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::rc::Rc;
 
-/// Declarations that a mechanism may have, written out.
-const MOST: usize = 1_000_000;
+/// Declarations that a mechanism may have, written out, with those of its parts.
+pub(super) const MOST: usize = 1_000_000;
 
 /// How far a number may be from a whole one: rounding.
 const WHOLE: f64 = 1e-9;
 
-/// A mechanism with every repeated declaration written out, and what is wrong with the repetition; nothing where there is none.
-pub(super) fn written_out(
-    tree: &Mechanism,
-    surroundings: &Surroundings,
-    sources: &Sources,
-) -> Option<(Mechanism, Diagnostics)> {
-    if tree.items.iter().all(|item| item.ranges.is_empty()) {
-        return None;
-    }
-    let definitions = definitions_of(tree);
-    let mut checker = Checker::new(&definitions, surroundings, sources);
-    checker.collect(&definitions);
-    checker.definitions();
-    // the same is told of the whole
-    checker.diagnostics = Diagnostics::default();
-    let names = tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect();
-    let mut writer = Writer { checker, names, numbers: FxHashMap::default(), count: 0, told: FxHashSet::default() };
-    let named: Vec<bool> = writer.have_names_of_their_own(tree);
-    let copies: Vec<Option<Vec<Numbers>>> = tree
-        .items
-        .iter()
-        .zip(named)
-        .map(|(item, is_named)| if is_named { writer.copies(item) } else { None })
-        .collect();
-    for (item, copies) in tree.items.iter().zip(&copies) {
-        if let (Some(name), Some(copies)) = (name_of(item).filter(|_| !item.ranges.is_empty()), copies) {
-            let numbers = copies.iter().map(|numbers| numbers.iter().map(|(_, k)| *k).collect()).collect();
-            writer.numbers.insert(&name.text, numbers);
-        }
-    }
-    let mut items = Vec::new();
-    for (item, copies) in tree.items.iter().zip(&copies) {
-        match copies {
-            Some(copies) => items.extend(copies.iter().map(|numbers| writer.copy(item, numbers))),
-            None => items.push(broken(item, &Vec::new())),
-        }
-    }
-    let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
-    Some((written, writer.checker.diagnostics))
-}
-
-/// The params that the bounds of ranges and the numbers of copies are made of, through other params and functions too.
-pub(super) fn deciding(tree: &Mechanism) -> FxHashSet<String> {
-    let mut deciding = FxHashSet::default();
-    if tree.items.iter().all(|item| item.ranges.is_empty()) {
-        return deciding;
-    }
-    let bounds = tree.items.iter().flat_map(|item| &item.ranges).flat_map(|range| [&range.from, &range.to]);
-    let mut open: Vec<&Expr> = bounds.chain(tree.items.iter().flat_map(formulas).flat_map(indices)).collect();
-    while let Some(e) = open.pop() {
-        mentioned(
-            e,
-            |_| false,
-            |name, _| {
-                if deciding.insert(name.text.clone()) {
-                    let is_it = |item: &&Item| name_of(item).is_some_and(|other| other.text == name.text);
-                    open.extend(tree.items.iter().filter(is_it).flat_map(formulas));
-                }
-            },
-        );
-    }
-    deciding
-}
-
-/// The numbers in brackets anywhere in a formula.
-fn indices(formula: &Expr) -> Vec<&Expr> {
-    let (mut found, mut open) = (Vec::new(), vec![formula]);
-    while let Some(e) = open.pop() {
-        if let ExprKind::Path(segments) = &e.kind {
-            found.extend(segments.iter().flat_map(|segment| &segment.indices));
-        }
-        open.extend(e.children());
-    }
-    found
-}
-
-/// What the bounds of ranges may speak of.
-fn definitions_of(tree: &Mechanism) -> Mechanism {
-    let is_definition =
-        |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Function { .. } | ItemKind::Table { .. });
-    let items = tree.items.iter().filter(is_definition).cloned().collect();
-    Mechanism { items, docs: Vec::new(), name: tree.name.clone(), span: tree.span }
+/// Whether something of a mechanism is repeated, or a part.
+pub(super) fn needs_writing(tree: &Mechanism) -> bool {
+    tree.items.iter().any(|item| !item.ranges.is_empty() || matches!(item.kind, ItemKind::Part(_)))
 }
 
 /// The numbers of a copy, each with what it is called.
-type Numbers<'t> = Vec<(&'t str, i64)>;
+pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
 
-struct Writer<'t, 'c> {
+/// The numbers of the copies of what is repeated.
+pub(super) type Copies = Rc<FxHashSet<Vec<i64>>>;
+
+/// Writes out one mechanism.
+pub(super) struct Writer<'t, 'c> {
     /// Knows the params.
     checker: Checker<'c>,
     /// The mechanism's names.
     names: FxHashSet<&'t str>,
     /// Of what is repeated: the numbers of its copies.
-    numbers: FxHashMap<&'t str, FxHashSet<Vec<i64>>>,
+    copies: FxHashMap<&'t str, Copies>,
+    /// Its parts; nothing where one cannot be, which has been said.
+    parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
+    /// What its formulas name in its parts.
+    paths: FxHashSet<String>,
     /// Declarations so far.
     count: usize,
     /// Where something was told already: what is wrong in every copy is told once.
     told: FxHashSet<Span>,
 }
 
+/// A mechanism with every repeated declaration written out, and what is wrong with the repetition.
+type WrittenOut = (Mechanism, Diagnostics);
+
 /// A formula or declaration that cannot be written out, which has been said.
 struct Unwritten;
 
 type Written<T> = Result<T, Unwritten>;
 
-impl<'t> Writer<'t, '_> {
+impl<'t, 'c> Writer<'t, 'c> {
+    /// With a reader of formulas that knows the mechanism's params.
+    pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
+        Writer {
+            checker,
+            names: tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect(),
+            copies: FxHashMap::default(),
+            parts: FxHashMap::default(),
+            paths: FxHashSet::default(),
+            count: 0,
+            told: FxHashSet::default(),
+        }
+    }
+
+    /// Declarations, written out.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
+    /// The numbers of the copies of each declaration; nothing where they cannot be told.
+    pub fn all_copies(&mut self, tree: &'t Mechanism) -> Vec<Option<Vec<Numbers<'t>>>> {
+        let named = self.have_names_of_their_own(tree);
+        let items = tree.items.iter().zip(named);
+        let copies: Vec<_> = items.map(|(item, is_named)| if is_named { self.copies(item) } else { None }).collect();
+        for (item, copies) in tree.items.iter().zip(&copies) {
+            if let (Some(name), Some(copies)) = (name_of(item).filter(|_| !item.ranges.is_empty()), copies) {
+                let numbers = copies.iter().map(|numbers| numbers.iter().map(|(_, k)| *k).collect());
+                self.copies.insert(&name.text, Rc::new(numbers.collect()));
+            }
+        }
+        copies
+    }
+
+    /// The value of a formula of constants; nothing where it is broken, which the whole will tell.
+    pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
+        let formula = self.formula(e, numbers).ok()?;
+        self.checker.any_constant(&formula)
+    }
+
+    /// The mechanism written out, with its parts by their names; the numbers of what is repeated; what its formulas name in its parts.
+    pub fn written(
+        mut self,
+        tree: &'t Mechanism,
+        copies: &[Option<Vec<Numbers<'t>>>],
+        parts: FxHashMap<String, Option<Rc<Instance<'t>>>>,
+    ) -> (WrittenOut, FxHashMap<&'t str, Copies>, Vec<String>) {
+        self.parts = parts;
+        let mut items = Vec::new();
+        for (item, copies) in tree.items.iter().zip(copies) {
+            match copies {
+                Some(copies) => items.extend(copies.iter().map(|numbers| self.copy(item, numbers))),
+                None => items.push(broken(item, &Vec::new())),
+            }
+        }
+        let written = Mechanism { items, docs: tree.docs.clone(), name: tree.name.clone(), span: tree.span };
+        let mut paths: Vec<String> = self.paths.into_iter().collect();
+        paths.sort_unstable();
+        ((written, self.checker.diagnostics), self.copies, paths)
+    }
+
     fn tell(&mut self, diagnostic: Diagnostic) {
         let span = diagnostic.labels.first().map(|label| label.span);
         if span.is_none_or(|span| self.told.insert(span)) {
@@ -251,8 +243,23 @@ impl<'t> Writer<'t, '_> {
                 left: self.formula(left, numbers)?,
                 right: self.formula(right, numbers)?,
             },
+            ItemKind::Part(part) => ItemKind::Part(self.part(part, numbers)?),
             other => other.clone(),
         })
+    }
+
+    /// A part is broken where its mechanism is not known, which has been said.
+    fn part(&mut self, part: &ast::Part, numbers: &Numbers<'_>) -> Written<ast::Part> {
+        let name = named(&part.name, numbers);
+        if self.parts.get(&name.text).is_none_or(Option::is_none) {
+            return Err(Unwritten);
+        }
+        let binding = |binding: &ast::Binding| {
+            Ok(ast::Binding { value: self.formula(&binding.value, numbers)?, ..binding.clone() })
+        };
+        let bindings = part.bindings.iter().map(binding).collect::<Written<_>>()?;
+        let mut place = |e: &Option<Expr>| e.as_ref().map(|e| self.formula(e, numbers)).transpose();
+        Ok(ast::Part { name, bindings, on: place(&part.on)?, at: place(&part.at)?, ..part.clone() })
     }
 
     fn features(&mut self, features: &[Feature], numbers: &Numbers<'_>) -> Written<Vec<Feature>> {
@@ -303,9 +310,15 @@ impl<'t> Writer<'t, '_> {
                     e.kind.clone()
                 }
             }
-            ExprKind::Member { owner, .. } => {
+            ExprKind::Member { owner, feature } => {
                 self.must_not_be_repeated(owner)?;
-                e.kind.clone()
+                match self.parts.get(&owner.text).cloned() {
+                    Some(part) => {
+                        let segment = ast::Segment { name: feature.clone(), indices: Vec::new() };
+                        self.inside(e.span, &owner.text, part, &[segment], numbers)?
+                    }
+                    None => e.kind.clone(),
+                }
             }
             ExprKind::Path(segments) => self.path(e.span, segments, numbers)?,
             ExprKind::Call { name, arguments } => {
@@ -341,7 +354,7 @@ impl<'t> Writer<'t, '_> {
     }
 
     fn must_not_be_repeated(&mut self, name: &Name) -> Written<()> {
-        let Some(copies) = self.numbers.get(name.text.as_str()) else { return Ok(()) };
+        let Some(copies) = self.copies.get(name.text.as_str()) else { return Ok(()) };
         let first = copies.iter().min().map(|numbers| indexed(&name.text, numbers));
         self.tell(errors::which_copy(name, first.as_deref()));
         Err(Unwritten)
@@ -351,6 +364,11 @@ impl<'t> Writer<'t, '_> {
     fn path(&mut self, span: Span, segments: &[ast::Segment], numbers: &Numbers<'_>) -> Written<ExprKind> {
         let [first, rest @ ..] = segments else { return Err(Unwritten) };
         let owner = self.copy_named(first, numbers)?;
+        if let Some(part) = self.parts.get(&owner.text).cloned()
+            && !rest.is_empty()
+        {
+            return self.inside(span, &owner.text, part, rest, numbers);
+        }
         match rest {
             [] => Ok(ExprKind::Name(owner)),
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
@@ -361,6 +379,74 @@ impl<'t> Writer<'t, '_> {
         }
     }
 
+    /// What a path names in a part: `leg[0].foot.toe` is the feature `toe` of the body that is called `leg[0].foot` here.
+    fn inside(
+        &mut self,
+        span: Span,
+        path: &str,
+        part: Option<Rc<Instance<'t>>>,
+        segments: &[ast::Segment],
+        numbers: &Numbers<'_>,
+    ) -> Written<ExprKind> {
+        // of a part that cannot be, that has been said
+        let mut part = part.ok_or(Unwritten)?;
+        let mut path = path.to_owned();
+        for (k, segment) in segments.iter().enumerate() {
+            let name = self.copy_in(&part, &path, segment, numbers)?;
+            let longer = format!("{path}.{name}");
+            let rest = &segments[k + 1..];
+            if let Some(inner) = part.part(&name).cloned()
+                && !rest.is_empty()
+            {
+                (part, path) = (inner, longer);
+                continue;
+            }
+            self.paths.insert(longer.clone());
+            let owner = Name { text: longer, span: if rest.is_empty() { span } else { segment.name.span } };
+            return match rest {
+                [] => Ok(ExprKind::Name(owner)),
+                [feature] if feature.indices.is_empty() => {
+                    Ok(ExprKind::Member { owner, feature: feature.name.clone() })
+                }
+                _ => {
+                    self.tell(errors::path_goes_on(span));
+                    Err(Unwritten)
+                }
+            };
+        }
+        Err(Unwritten)
+    }
+
+    /// The name that something has in a part.
+    fn copy_in(
+        &mut self,
+        part: &Instance<'t>,
+        path: &str,
+        segment: &ast::Segment,
+        numbers: &Numbers<'_>,
+    ) -> Written<String> {
+        let ast::Segment { name, indices } = segment;
+        let copies = part.copies.get(name.text.as_str());
+        let diagnostic = match (copies, indices.is_empty()) {
+            _ if !part.declares(&name.text) => {
+                let known: Vec<&str> = part.names().collect();
+                errors::nothing_in_part(path, part.mechanism_name(), name, &known)
+            }
+            (None, true) => return Ok(name.text.clone()),
+            (None, false) => errors::not_repeated(name),
+            (Some(copies), true) => {
+                let first = copies.iter().min().map(|numbers| format!("{path}.{}", indexed(&name.text, numbers)));
+                errors::which_copy(name, first.as_deref())
+            }
+            (Some(copies), false) => {
+                let copies = Rc::clone(copies);
+                return self.one_of(&copies, segment, numbers);
+            }
+        };
+        self.tell(diagnostic);
+        Err(Unwritten)
+    }
+
     /// The name that a copy has.
     fn copy_named(&mut self, segment: &ast::Segment, numbers: &Numbers<'_>) -> Written<Name> {
         let ast::Segment { name, indices } = segment;
@@ -368,28 +454,45 @@ impl<'t> Writer<'t, '_> {
             self.must_not_be_repeated(name)?;
             return Ok(name.clone());
         }
-        let values =
-            indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect::<Written<Vec<i64>>>()?;
-        let diagnostic = match self.numbers.get(name.text.as_str()) {
-            Some(copies) if copies.contains(&values) => {
-                return Ok(Name { text: indexed(&name.text, &values), span: name.span });
-            }
+        match self.copies.get(name.text.as_str()).cloned() {
             Some(copies) => {
-                let ends =
-                    [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
-                let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
-                errors::no_such_copy(&indexed(&name.text, &values), span, ends, numbers)
+                let text = self.one_of(&copies, segment, numbers)?;
+                Ok(Name { text, span: name.span })
             }
-            None if self.names.contains(name.text.as_str()) => errors::not_repeated(name),
+            None if self.names.contains(name.text.as_str()) => {
+                self.tell(errors::not_repeated(name));
+                Err(Unwritten)
+            }
             // nothing of that name is told by whoever asks for it
-            None => return Ok(Name { text: indexed(&name.text, &values), span: name.span }),
-        };
-        self.tell(diagnostic);
+            None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
+        }
+    }
+
+    fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {
+        indices.iter().map(|e| self.whole_number(e, numbers, "an index")).collect()
+    }
+
+    /// The name of one of some copies.
+    fn one_of(
+        &mut self,
+        copies: &FxHashSet<Vec<i64>>,
+        segment: &ast::Segment,
+        numbers: &Numbers<'_>,
+    ) -> Written<String> {
+        let ast::Segment { name, indices } = segment;
+        let values = self.values(indices, numbers)?;
+        let copy = indexed(&name.text, &values);
+        if copies.contains(&values) {
+            return Ok(copy);
+        }
+        let ends = [copies.iter().min(), copies.iter().max()].map(|end| end.map(|end| indexed(&name.text, end)));
+        let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
+        self.tell(errors::no_such_copy(&copy, span, ends, numbers));
         Err(Unwritten)
     }
 }
 
-fn name_of(item: &Item) -> Option<&Name> {
+pub(super) fn name_of(item: &Item) -> Option<&Name> {
     match &item.kind {
         ItemKind::Param { name, .. }
         | ItemKind::Function { name, .. }
@@ -400,6 +503,7 @@ fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Equation { name, .. }
         | ItemKind::Measure { name, .. }
         | ItemKind::Trace { name, .. } => Some(name),
+        ItemKind::Part(part) => Some(&part.name),
         ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }
 }
@@ -411,7 +515,7 @@ fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
 }
 
 /// What a copy is called.
-fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
+pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
     if numbers.is_empty() {
         return name.clone();
     }

@@ -62,6 +62,8 @@ pub enum NameKind {
     Measure,
     /// `trace`
     Trace,
+    /// `part`
+    Part,
     /// What cannot be read.
     Broken,
 }
@@ -224,6 +226,7 @@ impl Walk<'_> {
             ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
             ItemKind::Trace { name, .. } => (name, NameKind::Trace),
+            ItemKind::Part(part) => (&part.name, NameKind::Part),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -302,6 +305,12 @@ impl Walk<'_> {
                     self.read(part, plain, Wanted::Either);
                 }
                 self.uses_in_features(features, id, plain);
+            }
+            ItemKind::Part(part) => {
+                let bindings = part.bindings.iter().map(|binding| &binding.value);
+                for formula in bindings.chain(&part.on).chain(&part.at) {
+                    self.read(formula, plain, Wanted::Either);
+                }
             }
             ItemKind::Joint { kind, arguments, .. } => {
                 if let Some(joint) = JointWord::named(&kind.text) {

@@ -65,6 +65,7 @@ catalogue! {
         E0206 Error "definitions that go in a circle"
         E0207 Error "an argument that hides a name"
         E0208 Error "a repetition, or one of its copies, that cannot be"
+        E0209 Error "a part, or one of its bindings, that cannot be"
     }
     "kinds and arguments" {
         E0301 Error "a wrong number of arguments"
@@ -136,6 +137,7 @@ catalogue! {
         E0705 Error "an analysis without times"
         E0706 Error "a value of the command line that cannot be used"
         E0707 Error "a model file that cannot be translated"
+        E0708 Error "a bound param or input that is told from outside"
         N0701 Note "what was not carried over"
         N0702 Note "a name that was changed"
     }

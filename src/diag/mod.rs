@@ -214,6 +214,18 @@ impl Diagnostics {
         self.list.retain(|d| d.labels.first().is_none_or(|label| told.insert((d.code, label.span))));
     }
 
+    /// Forgets those behind a number of them.
+    pub fn truncate(&mut self, len: usize) {
+        self.list.truncate(len);
+    }
+
+    /// Adds a place that helps to understand all faults from one on.
+    pub fn label_from(&mut self, from: usize, span: Span, text: &str) {
+        for diagnostic in self.list.iter_mut().skip(from) {
+            diagnostic.labels.push(Label { span, text: text.to_owned(), primary: false });
+        }
+    }
+
     /// By their place in the text, so that a reader meets them from top to bottom.
     pub fn sort_by_place(&mut self) {
         self.list.sort_by_key(|d| d.labels.first().map(|l| l.span));

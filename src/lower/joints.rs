@@ -25,6 +25,7 @@ impl Lowering<'_> {
                 let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
                 let angle = self.formula(angle);
                 let turn = self.graph.sub(phi_j, phi_i);
+                let turn = self.handed(joint.part, turn);
                 let turn = self.graph.sub(turn, angle);
                 let (p, q) = (self.global(p), self.global(q));
                 let [x, y] = self.minus(p, q);
@@ -42,10 +43,16 @@ impl Lowering<'_> {
                 let v = self.direction(a);
                 let offset = self.formula(offset);
                 let left = self.left_of(v, d);
+                let left = self.handed(joint.part, left);
                 vec![self.graph.sub(left, offset)]
             }
-            JointKind::Gear { circles, internal, phase } => self.gear(joint, circles, internal, phase),
-            JointKind::RackPinion { pinion, rack, phase, side } => self.rack_pinion(pinion, rack, phase, side),
+            // their angles and phases are those of the text that declares them
+            JointKind::Gear { circles, internal, phase } => {
+                self.seen_from(joint.part, |l| l.gear(joint, circles, internal, phase))
+            }
+            JointKind::RackPinion { pinion, rack, phase, side } => {
+                self.seen_from(joint.part, |l| l.rack_pinion(pinion, rack, phase, side))
+            }
             JointKind::PointFollower(point, profile) => self.point_follower(joint, point, profile),
             JointKind::Cam(k, m) => self.cam(joint, k, m),
             JointKind::FlatFollower(profile, face) => self.flat_follower(joint, profile, face),

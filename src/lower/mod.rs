@@ -17,7 +17,9 @@ use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Units, Watch,
 };
-use crate::model::{self, AxisId, ConditionKind, EquationForm, Frame, Mechanism, Named, PointId, Quantity};
+use crate::model::{
+    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
+};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
@@ -30,6 +32,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         known: FxHashMap::default(),
         named: Vec::new(),
         as_drawn: false,
+        view: None,
         largest_size: sizes.iter().copied().fold(0.0, f64::max),
         sizes,
         numbers: estimates::Numbers::default(),
@@ -105,6 +108,8 @@ struct Lowering<'m> {
     named: Vec<ExprId>,
     /// Whether frames stand in their poses as written, rather than where the coordinates put them.
     as_drawn: bool,
+    /// The part from whose ground things are seen; the ground of all if there is none.
+    view: Option<PartId>,
     /// The size of each body (m), and the largest of them.
     sizes: Vec<f64>,
     largest_size: f64,
@@ -119,15 +124,25 @@ struct Lowering<'m> {
     fits: Vec<Fit>,
 }
 
+/// A formula of the model in another graph.
+fn carry(
+    graph: &mut Graph,
+    model: &Mechanism,
+    known: &mut FxHashMap<ExprId, ExprId>,
+    named: &[ExprId],
+    id: ExprId,
+) -> ExprId {
+    graph.import(&model.graph, &[id], known, |graph, symbol| match symbol {
+        Symbol::Named(k) => named[k as usize],
+        other => graph.symbol(other),
+    });
+    known[&id]
+}
+
 impl Lowering<'_> {
     /// A formula of the model in this graph.
     fn formula(&mut self, id: ExprId) -> ExprId {
-        let named = &self.named;
-        self.graph.import(&self.model.graph, &[id], &mut self.known, |graph, symbol| match symbol {
-            Symbol::Named(k) => named[k as usize],
-            other => graph.symbol(other),
-        });
-        self.known[&id]
+        carry(&mut self.graph, self.model, &mut self.known, &self.named, id)
     }
 
     fn tables(&mut self) {
@@ -139,8 +154,8 @@ impl Lowering<'_> {
     fn named(&mut self) {
         for k in 0..self.model.named.len() {
             let id = match self.model.named[k] {
-                Named::Quantity(quantity) => self.quantity(quantity),
-                Named::Exists(quantity) => self.existence(quantity),
+                Named::Quantity(view, quantity) => self.quantity(view, quantity),
+                Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
                 Named::Derivative(inner) => {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
@@ -155,14 +170,33 @@ impl Lowering<'_> {
     fn points(&mut self) -> Vec<ir::Point> {
         let model = self.model;
         let point = |point: &crate::model::Point| ir::Point {
-            body: match point.frame {
-                Frame::Ground => None,
+            body: match model.carrier(point.frame) {
                 Frame::Body(body) => Some(body.index()),
+                Frame::Ground | Frame::Part(_) => None,
             },
             name: point.name.clone(),
-            at: point.at.map(|id| self.formula(id)),
+            at: self.at_in_carrier(point),
         };
         model.points.iter().map(point).collect()
+    }
+
+    /// The place of a point in the frame of the body that carries it (m).
+    fn at_in_carrier(&mut self, point: &crate::model::Point) -> [ExprId; 2] {
+        let local = point.at.map(|id| self.formula(id));
+        if self.model.part_of(point.frame).is_none() {
+            return local;
+        }
+        let placement = self.in_carrier(point.frame);
+        placement.placed(&mut self.graph, local)
+    }
+
+    /// Where a body is drawn in the ground's frame.
+    fn drawn_pose(&mut self, body: BodyId) -> [ExprId; 3] {
+        if self.model[body].part.is_none() {
+            return self.model[body].pose.map(|id| self.formula(id));
+        }
+        let Placement { at: [x, y], phi, .. } = self.drawn(None, Frame::Body(body));
+        [x, y, phi]
     }
 
     fn body_coordinates(&mut self) {
@@ -170,15 +204,16 @@ impl Lowering<'_> {
             [("x", CoordinateKind::Length), ("y", CoordinateKind::Length), ("phi", CoordinateKind::Angle)];
         let model = self.model;
         let from_frames = size::of_frames(model);
-        for (k, body) in model.bodies.iter().enumerate() {
+        for (k, (id, body)) in model.body_ids().zip(&model.bodies).enumerate() {
             let is_far = from_frames[k] > size::FAR_FRAME * self.sizes[k];
             let size = if is_far { from_frames[k] } else { self.sizes[k] };
-            for ((part, kind), estimate) in PARTS.into_iter().zip(body.pose) {
+            let pose = self.drawn_pose(id);
+            for ((part, kind), estimate) in PARTS.into_iter().zip(pose) {
                 let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
                     owner: Owner::Body(k),
                     kind,
-                    estimate: self.formula(estimate),
+                    estimate,
                     scale: if kind == CoordinateKind::Length { size } else { 1.0 },
                 };
                 self.coordinates.push(coordinate);
@@ -188,9 +223,9 @@ impl Lowering<'_> {
 
     /// The size of a frame's body (m), that of the largest for the ground.
     fn size(&self, frame: Frame) -> f64 {
-        match frame {
-            Frame::Ground => self.largest_size,
+        match self.model.carrier(frame) {
             Frame::Body(body) => self.sizes[body.index()],
+            Frame::Ground | Frame::Part(_) => self.largest_size,
         }
     }
 
@@ -240,7 +275,7 @@ impl Lowering<'_> {
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
         }
         for named in &model.named {
-            if let Named::Quantity(Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
+            if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
                 self.declarations[joint.index()].is_spoken_of = true;
             }
         }
@@ -343,19 +378,20 @@ impl Lowering<'_> {
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])
     }
 
-    fn quantity(&mut self, quantity: Quantity) -> ExprId {
+    /// A quantity as it is seen from the ground of a part. What is the same from everywhere is written as it is seen from the ground.
+    fn quantity(&mut self, view: Option<PartId>, quantity: Quantity) -> ExprId {
         match quantity {
-            Quantity::X(from, to) => self.coordinate_between(from, to, 0),
-            Quantity::Y(from, to) => self.coordinate_between(from, to, 1),
-            Quantity::Angle(from, to) => self.angle_between(from, to),
+            Quantity::X(from, to) => self.seen_from(view, |l| l.coordinate_between(from, to, 0)),
+            Quantity::Y(from, to) => self.seen_from(view, |l| l.coordinate_between(from, to, 1)),
+            Quantity::Angle(from, to) => self.seen_from(view, |l| l.angle_between(from, to)),
             Quantity::Distance(p, q) => self.distance(p, q),
-            Quantity::Rotation(joint, axes) => self.rotation(joint, axes),
+            Quantity::Rotation(joint, axes) => self.seen_from(view, |l| l.rotation(joint, axes)),
             Quantity::Displacement(_, a, b) => self.displacement(a, b),
-            Quantity::Corner(points) => self.corner(points),
-            Quantity::Curvature(point) => self.path_curvature(point),
-            Quantity::Pole(of, from, part) => self.pole(of, from, part),
-            Quantity::Speed(point) => self.speed(point),
-            Quantity::PressureAngle(joint, frame) => self.pressure_angle(joint, frame),
+            Quantity::Corner(points) => self.corner(view, points),
+            Quantity::Curvature(point) => self.seen_from(view, |l| l.path_curvature(point)),
+            Quantity::Pole(of, from, part) => self.seen_from(view, |l| l.pole(of, from, part)),
+            Quantity::Speed(point) => self.seen_from(view, |l| l.speed(point)),
+            Quantity::PressureAngle(joint, frame) => self.seen_from(view, |l| l.pressure_angle(joint, frame)),
             Quantity::Slip(joint) => self.slip(joint),
         }
     }

@@ -2,31 +2,55 @@
 
 use super::Lowering;
 use crate::expr::{ExprId, Unary};
-use crate::model::{AxisId, Direction, JointId, PointId};
+use crate::model::{AxisId, Direction, Frame, JointId, PointId};
 
 impl Lowering<'_> {
     /// x (part 0) or y (part 1) of a point, or from one point to another (m).
     pub(super) fn coordinate_between(&mut self, from: Option<PointId>, to: PointId, part: usize) -> ExprId {
-        let end = self.global(to)[part];
-        match from {
-            None => end,
-            Some(from) => {
-                let start = self.global(from)[part];
-                self.graph.sub(end, start)
-            }
+        let Some(from) = from else { return self.global(to)[part] };
+        if self.view.is_none() {
+            let (end, start) = (self.global(to)[part], self.global(from)[part]);
+            return self.graph.sub(end, start);
         }
+        let ends = [from, to];
+        let [start, end] = self.seen_from(None, |l| ends.map(|point| l.global(point)));
+        let way = self.minus(end, start);
+        self.seen(way)[part]
     }
 
     /// Direction of a body or axis, or the angle from one to another (rad).
     pub(super) fn angle_between(&mut self, from: Option<Direction>, to: Direction) -> ExprId {
-        let end = self.angle(to);
-        match from {
-            None => end,
-            Some(from) => {
-                let start = self.angle(from);
-                self.graph.sub(end, start)
-            }
+        let Some(from) = from else { return self.angle(to) };
+        if self.view.is_none() {
+            let (end, start) = (self.angle(to), self.angle(from));
+            return self.graph.sub(end, start);
         }
+        let turn = self.turn(self.frame_of(from), self.frame_of(to));
+        let [start, end] = [from, to].map(|direction| match direction {
+            Direction::Frame(_) => self.graph.constant(0.0),
+            Direction::Axis(axis) => self.local_angle(axis),
+        });
+        let theta = self.graph.sub(end, start);
+        self.graph.add(turn, theta)
+    }
+
+    fn frame_of(&self, direction: Direction) -> Frame {
+        match direction {
+            Direction::Frame(frame) => frame,
+            Direction::Axis(axis) => self.model[axis].frame,
+        }
+    }
+
+    /// How far a frame is turned from another (rad): between two that move what carries the observer has no part in it.
+    fn turn(&mut self, from: Frame, to: Frame) -> ExprId {
+        let view = self.view;
+        let own = view.map(Frame::Part);
+        if own.is_none() || own == Some(from) || own == Some(to) {
+            let [start, end] = [from, to].map(|frame| self.frame_coordinate(frame, 2));
+            return self.graph.sub(end, start);
+        }
+        let turn = self.seen_from(None, |l| l.turn(from, to));
+        self.handed(view, turn)
     }
 
     fn angle(&mut self, direction: Direction) -> ExprId {
@@ -51,8 +75,7 @@ impl Lowering<'_> {
     /// `(φ_j + θ_j) − (φ_i + θ_i)` (rad)
     pub(super) fn rotation(&mut self, joint: JointId, axes: Option<(AxisId, AxisId)>) -> ExprId {
         let frames = self.model[joint].kind.frames(self.model);
-        let [phi_i, phi_j] = frames.map(|frame| self.frame_coordinate(frame, 2));
-        let turn = self.graph.sub(phi_j, phi_i);
+        let turn = self.turn(frames[0], frames[1]);
         match axes {
             None => turn,
             Some((u, v)) => {

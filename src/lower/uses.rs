@@ -65,10 +65,10 @@ fn of_formulas(model: &Mechanism, formulas: &[ExprId], points: &mut Vec<PointId>
         for symbol in model.graph.symbols_of_all(&[formula]) {
             let Symbol::Named(k) = symbol else { continue };
             match model.named[k as usize] {
-                Named::Quantity(quantity) => of_quantity(model, quantity, points),
+                Named::Quantity(_, quantity) => of_quantity(model, quantity, points),
                 // it speaks only of symbols before it
                 Named::Derivative(inner) => open.push(inner),
-                Named::Argument | Named::Exists(_) => {}
+                Named::Argument | Named::Exists(..) => {}
             }
         }
     }

@@ -7,7 +7,7 @@ use super::Lowering;
 use super::frames::Vector;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::ConstraintSystem;
-use crate::model::{Frame, JointId, JointKind, PointId, Profile, Quantity};
+use crate::model::{Frame, JointId, JointKind, PartId, PointId, Profile, Quantity};
 use std::f64::consts::PI;
 
 /// What is shorter than this part of the mechanism's size, or slower than this part of it in the time of the analysis, is nothing; and
@@ -58,9 +58,10 @@ impl Lowering<'_> {
     }
 
     /// The angle at the second of three points, from the first to the third, in (−π, π] (rad).
-    pub(super) fn corner(&mut self, points: [PointId; 3]) -> ExprId {
+    pub(super) fn corner(&mut self, view: Option<PartId>, points: [PointId; 3]) -> ExprId {
         let [to_p, to_r] = self.arms(points);
         let (across, along) = (self.left_of(to_p, to_r), self.dot(to_p, to_r));
+        let across = self.handed(view, across);
         let angle = self.graph.binary(Binary::Atan2, across, along);
         // opposite to each other they stand at π, with either zero; seen from behind it has the same derivatives
         let back = self.graph.neg(along);

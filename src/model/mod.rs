@@ -3,9 +3,11 @@
 //! Pure data, without meaning for mechanics yet: that a joint has equations is the business of `lower`. What stands
 //! here has been found sound; nothing after `check` fails on it.
 
+mod placement;
 mod print;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
+pub use placement::Placement;
 
 use crate::expr::{ExprId, Graph, TableId};
 use crate::source::Span;
@@ -51,6 +53,8 @@ macro_rules! ids {
 }
 
 ids! {
+    /// A part: another mechanism, once more.
+    PartId Part parts add_part;
     /// A body of the mechanism.
     BodyId Body bodies add_body;
     /// A point of a body or of the ground.
@@ -82,7 +86,9 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
-    /// In order of declaration.
+    /// Each behind the one that it is a part of.
+    pub parts: Vec<Part>,
+    /// In order of declaration, those of a part where it is declared.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
     pub points: Vec<Point>,
@@ -115,6 +121,7 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
+            parts: Vec::new(),
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -133,13 +140,52 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
+    /// The grounds of the parts, in order.
+    pub fn part_frames(&self) -> impl Iterator<Item = Frame> {
+        (0..self.parts.len() as u32).map(|part| Frame::Part(PartId(part)))
+    }
+
     /// A frame's name: the body's, or `ground`.
     #[must_use]
     pub fn frame_name(&self, frame: Frame) -> &str {
         match frame {
             Frame::Ground => "ground",
             Frame::Body(body) => &self[body].declared.name,
+            Frame::Part(part) => &self[part].ground_name,
         }
+    }
+
+    /// What carries a frame: a body, or the ground.
+    #[must_use]
+    pub fn carrier(&self, mut frame: Frame) -> Frame {
+        while let Frame::Part(part) = frame {
+            frame = self[part].mount;
+        }
+        frame
+    }
+
+    /// A frame, what carries it, and so on.
+    pub fn carrier_chain(&self, frame: Frame) -> impl Iterator<Item = Frame> {
+        std::iter::successors(Some(frame), |frame| match frame {
+            Frame::Part(part) => Some(self[*part].mount),
+            Frame::Ground | Frame::Body(_) => None,
+        })
+    }
+
+    /// The part in whose text a frame's features stand.
+    #[must_use]
+    pub fn part_of(&self, frame: Frame) -> Option<PartId> {
+        match frame {
+            Frame::Ground => None,
+            Frame::Body(body) => self[body].part,
+            Frame::Part(part) => Some(part),
+        }
+    }
+
+    /// Whether lengths to the left in the text of a part are lengths to the right in the ground's frame.
+    #[must_use]
+    pub fn is_mirrored(&self, part: Option<PartId>) -> bool {
+        part.is_some_and(|part| self[part].is_mirrored)
     }
 }
 
@@ -150,6 +196,8 @@ pub enum Frame {
     Ground,
     /// A moving body.
     Body(BodyId),
+    /// What is the ground in a part; fixed on what carries the part.
+    Part(PartId),
 }
 
 /// A parameter that depends on no other one.
@@ -174,14 +222,35 @@ pub struct Input {
     pub value: ExprId,
 }
 
+/// The declarations of another mechanism, once more.
+#[derive(Clone, Debug)]
+pub struct Part {
+    /// Its name, with those of the parts around it.
+    pub declared: Declared,
+    /// What its ground is called.
+    pub ground_name: String,
+    /// The part in whose text it is declared.
+    pub within: Option<PartId>,
+    /// What its ground is fixed on.
+    pub mount: Frame,
+    /// Where its frame is in that of the mount: x (m), y (m), phi (rad), in the handedness of the text that declares it.
+    pub pose: [ExprId; 3],
+    /// Whether its text is mirrored in the text that declares it.
+    pub is_turned_over: bool,
+    /// Whether its text is mirrored in the end.
+    pub is_mirrored: bool,
+}
+
 /// A body.
 #[derive(Clone, Debug)]
 pub struct Body {
+    /// The part in whose text it is declared.
+    pub part: Option<PartId>,
     /// Its name.
     pub declared: Declared,
     /// The text of its `///` lines.
     pub docs: Vec<String>,
-    /// The pose as written: x (m), y (m), phi (rad).
+    /// The pose as written: x (m), y (m), phi (rad), in the frame of the part that declares it.
     pub pose: [ExprId; 3],
     /// Where the pose is written, if it is.
     pub pose_span: Option<Span>,
@@ -290,6 +359,8 @@ pub enum Side {
 /// A joint.
 #[derive(Clone, Debug)]
 pub struct Joint {
+    /// The part in whose text it is declared.
+    pub part: Option<PartId>,
     /// Its name.
     pub declared: Declared,
     /// What it holds together, and how.
@@ -424,12 +495,12 @@ impl JointKind {
 /// What a named symbol of the graph stands for.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Named {
-    /// A kinematic quantity.
-    Quantity(Quantity),
+    /// A kinematic quantity, as it is seen from the ground of a part.
+    Quantity(Option<PartId>, Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
     /// Above zero where a quantity of measures exists.
-    Exists(Quantity),
+    Exists(Option<PartId>, Quantity),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }

@@ -82,9 +82,9 @@ impl Text<'_> {
             Symbol::Param(k) => self.model.params[k as usize].declared.name.clone(),
             Symbol::Time => "t".to_owned(),
             Symbol::Named(k) => match self.model.named[k as usize] {
-                Named::Quantity(quantity) => self.quantity_text(quantity, &text),
+                Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
-                Named::Exists(quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
+                Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
                 Named::Argument => "u".to_owned(),
             },
             Symbol::Coordinate { .. } => "q".to_owned(),
@@ -193,7 +193,7 @@ impl Mechanism {
         list.extend(self.measures.iter().map(|measure| measure.value));
         list.extend(self.named.iter().filter_map(|named| match named {
             Named::Derivative(inner) => Some(*inner),
-            Named::Quantity(_) | Named::Exists(_) | Named::Argument => None,
+            Named::Quantity(..) | Named::Exists(..) | Named::Argument => None,
         }));
         list
     }
@@ -230,6 +230,13 @@ impl std::fmt::Display for Mechanism {
             let [x, y, phi] = body.pose.map(|part| text.formula_text(part));
             writeln!(f, "\nbody {} at ({x}, {y}, {phi})", body.declared.name)?;
             text.write_features(f, Frame::Body(id))?;
+        }
+        for (part, frame) in self.parts.iter().zip(self.part_frames()) {
+            let [x, y, phi] = part.pose.map(|id| text.formula_text(id));
+            let mount = self.frame_name(part.mount);
+            let mirrored = if part.is_turned_over { " mirrored" } else { "" };
+            writeln!(f, "\n{} on {mount} at ({x}, {y}, {phi}){mirrored}", part.ground_name)?;
+            text.write_features(f, frame)?;
         }
         writeln!(f, "\njoints")?;
         for joint in &self.joints {

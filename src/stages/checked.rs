@@ -91,8 +91,8 @@ impl Checked {
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));
         let tree = &parsed.tree().mechanisms[number];
-        let settings = settings(&choice.set, tree, &mut sources);
-        let given = given(choice, tree, world, &mut sources);
+        let settings = settings(&choice.set, &mut sources);
+        let given = given(choice, world, &mut sources);
         let files = table_files(parsed, tree, world, &mut sources);
         let mut model = None;
         match (settings, given) {
@@ -102,7 +102,12 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let (found, said) = check::check(tree, &Surroundings { settings, files, given }, &sources);
+                let (found, said) = check::check(
+                    tree,
+                    &parsed.tree().mechanisms.as_slice(),
+                    &Surroundings { settings, files, given },
+                    &sources,
+                );
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
             }
@@ -203,44 +208,16 @@ fn table_files(parsed: &Parsed, tree: &ast::Mechanism, world: &dyn World, source
     files
 }
 
-fn settings(given: &[String], tree: &ast::Mechanism, sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
-    let params: Vec<&str> = tree
-        .items
-        .iter()
-        .filter_map(|item| match &item.kind {
-            ast::ItemKind::Param { name, .. } => Some(name.text.as_str()),
-            _ => None,
-        })
-        .collect();
-    let option =
-        NamedFormulas { option: "--set", noun: "parameter", example: "crank_length=60mm", names: Some(&params) };
-    let formulas = option.read(given, tree, sources)?;
-    let setting = |(path, value): (String, ast::Expr)| {
-        let (name, coordinate) = name_and_coordinate(&path);
-        Setting { name: name.to_owned(), coordinate, value }
-    };
-    Ok(formulas.into_iter().map(setting).collect())
-}
-
-/// What `NAME`, `NAME.x` or `NAME.y` names, and which of its coordinates.
-fn name_and_coordinate(path: &str) -> (&str, Option<usize>) {
-    let parts = path.split_once('.').map(|(name, coordinate)| (name.trim_end(), coordinate.trim_start()));
-    let coordinate = parts.and_then(|(_, coordinate)| ["x", "y"].iter().position(|axis| coordinate == *axis));
-    match (parts, coordinate) {
-        (Some((name, _)), Some(_)) => (name, coordinate),
-        _ => (path, None),
-    }
+fn settings(given: &[String], sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
+    let option = NamedFormulas { option: "--set", example: "crank_length=60mm" };
+    let formulas = option.read(given, sources)?;
+    Ok(formulas.into_iter().map(|(path, value)| Setting { path, value }).collect())
 }
 
 /// What inputs are told to be.
-fn given(
-    choice: &Choice,
-    tree: &ast::Mechanism,
-    world: &dyn World,
-    sources: &mut Sources,
-) -> Result<Given, Diagnostics> {
-    let option = NamedFormulas { option: "--input", noun: "input", example: "turn='90 deg * t'", names: None };
-    let formulas = option.read(&choice.inputs, tree, sources)?;
+fn given(choice: &Choice, world: &dyn World, sources: &mut Sources) -> Result<Given, Diagnostics> {
+    let option = NamedFormulas { option: "--input", example: "turn='90 deg * t'" };
+    let formulas = option.read(&choice.inputs, sources)?;
     let samples = match &choice.samples {
         None => None,
         Some(path) => Some(world::text_of(world, path, sources).map_err(|why| *why)?),
@@ -248,27 +225,18 @@ fn given(
     Ok(Given { formulas, samples })
 }
 
-/// An option that gives formulas to names, each as `NAME=FORMULA`.
-struct NamedFormulas<'n> {
-    option: &'n str,
-    /// What the names are of.
-    noun: &'n str,
-    example: &'n str,
-    /// Those that there are, unless `check` asks for them.
-    names: Option<&'n [&'n str]>,
+/// An option that gives formulas to names, each as `NAME=FORMULA`; `check` knows which names there are.
+struct NamedFormulas {
+    option: &'static str,
+    example: &'static str,
 }
 
-impl NamedFormulas<'_> {
-    fn read(
-        &self,
-        given: &[String],
-        tree: &ast::Mechanism,
-        sources: &mut Sources,
-    ) -> Result<Vec<(String, ast::Expr)>, Diagnostics> {
+impl NamedFormulas {
+    fn read(&self, given: &[String], sources: &mut Sources) -> Result<Vec<(String, ast::Expr)>, Diagnostics> {
         let (mut diagnostics, mut formulas) = (Diagnostics::default(), Vec::new());
         for text in given {
             let Some((name, value)) = text.split_once('=') else {
-                let &NamedFormulas { option, example, .. } = self;
+                let &NamedFormulas { option, example } = self;
                 diagnostics.push(
                     Diagnostic::new(Code::E0706, format!("`{option} {text}` sets nothing"))
                         .help(format!("write `{option} NAME=VALUE`, as in `{option} {example}`")),
@@ -276,10 +244,6 @@ impl NamedFormulas<'_> {
                 continue;
             };
             let name = syntax::normalized(name.trim());
-            if let Some(names) = self.names.filter(|names| !names.contains(&name_and_coordinate(&name).0)) {
-                diagnostics.push(self.no_such_name(names, &tree.name.text, &name));
-                continue;
-            }
             let file = sources.add_option(format!("{} {name}", self.option), value);
             match syntax::parse_expression(sources, file) {
                 Ok(value) => formulas.push((name, value)),
@@ -287,16 +251,5 @@ impl NamedFormulas<'_> {
             }
         }
         if diagnostics.is_empty() { Ok(formulas) } else { Err(diagnostics) }
-    }
-
-    fn no_such_name(&self, names: &[&str], mechanism: &str, name: &str) -> Diagnostic {
-        let noun = self.noun;
-        let meant = nearest(name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
-        let listed = match names {
-            [] => format!("it has no {noun}s"),
-            _ => format!("its {noun}s are {}", names.join(", ")),
-        };
-        Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
-            .help(meant.unwrap_or(listed))
     }
 }

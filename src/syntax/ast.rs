@@ -92,6 +92,8 @@ pub enum ItemKind {
         /// What it is unless something else is said.
         value: Expr,
     },
+    /// `part NAME: MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`
+    Part(Part),
     /// `ground { … }`
     Ground {
         /// Its features.
@@ -160,6 +162,61 @@ pub enum ItemKind {
         /// Step.
         every: Expr,
     },
+}
+
+/// The declarations of another mechanism, once more.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Part {
+    /// Its name.
+    pub name: Name,
+    /// Which mechanism it is.
+    pub mechanism: MechanismName,
+    /// What is said of its params and inputs.
+    pub bindings: Vec<Binding>,
+    /// What carries it, if that is said.
+    pub on: Option<Expr>,
+    /// Where its frame stands in the frame of what carries it.
+    pub at: Option<Expr>,
+    /// Where it says that y is turned over.
+    pub mirrored: Option<Span>,
+    /// `MECHANISM(…)`
+    pub call_span: Span,
+}
+
+/// The name of a mechanism, as a part has it.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct MechanismName {
+    /// What stands before its names, where a file is used under one.
+    pub prefix: Option<Name>,
+    /// Its own name.
+    pub name: Name,
+}
+
+impl MechanismName {
+    /// Both of its words.
+    #[must_use]
+    pub fn span(&self) -> Span {
+        self.prefix.as_ref().map_or(self.name.span, |prefix| prefix.span.to(self.name.span))
+    }
+
+    /// As it is written.
+    #[must_use]
+    pub fn text(&self) -> String {
+        self.prefix.as_ref().map_or(String::new(), |prefix| format!("{}.", prefix.text)) + &self.name.text
+    }
+}
+
+/// `turn = angle(shaft)`, `A.x = 3 mm`: what a param or input of a part is.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Binding {
+    /// Of the part.
+    pub name: Name,
+    /// Which of its coordinates, where it is a point of which one is bound.
+    pub coordinate: Option<Name>,
+    /// A formula over the names of the mechanism around the part.
+    pub value: Expr,
+    /// All of it.
+    pub span: Span,
 }
 
 /// Where a table's points come from.

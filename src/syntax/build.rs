@@ -1,8 +1,8 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
 use super::ast::{
-    Column, ColumnKind, Expr, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Range as Repetition,
-    TableRows, UnitFactor, WrittenUnit,
+    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism,
+    MechanismName, Name, Part, Pose, Range as Repetition, TableRows, UnitFactor, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
@@ -181,6 +181,7 @@ impl Reader<'_> {
             },
             Rule::input => ItemKind::Input { name: self.next_name(&mut inner)?, value: self.next_expr(&mut inner)? },
             Rule::table => self.table(&mut inner)?,
+            Rule::part => ItemKind::Part(self.part(&mut inner)?),
             Rule::joint => self.joint(&mut inner)?,
             Rule::driver | Rule::constraint => ItemKind::Equation {
                 driver: rule == Rule::driver,
@@ -206,6 +207,59 @@ impl Reader<'_> {
             _ => return Err(self.truncated()),
         };
         Ok(Item { docs, span, ranges, kind })
+    }
+
+    fn part<'i>(&self, inner: &mut impl Iterator<Item = Pair<'i, Rule>>) -> Built<Part> {
+        let name = self.next_name(inner)?;
+        let mechanism = inner.next().ok_or_else(|| self.truncated())?;
+        let start = self.span(&mechanism);
+        let mut part = Part {
+            name,
+            mechanism: self.mechanism_name(mechanism)?,
+            bindings: Vec::new(),
+            on: None,
+            at: None,
+            mirrored: None,
+            call_span: start,
+        };
+        for pair in inner {
+            match pair.as_rule() {
+                Rule::binding => part.bindings.push(self.binding(pair)?),
+                Rule::right => part.call_span = start.to(self.span(&pair)),
+                Rule::carrier => part.on = Some(self.carrier(pair)?),
+                Rule::paren => part.at = Some(formula::build_operand(self, pair, 0)?),
+                Rule::mirrored => part.mirrored = Some(self.span(&pair)),
+                _ => {}
+            }
+        }
+        Ok(part)
+    }
+
+    fn mechanism_name(&self, pair: Pair<'_, Rule>) -> Built<MechanismName> {
+        let mut words = significant(pair);
+        let first = self.next_name(&mut words)?;
+        Ok(match words.next() {
+            Some(second) => MechanismName { prefix: Some(first), name: self.name(&second)? },
+            None => MechanismName { prefix: None, name: first },
+        })
+    }
+
+    fn binding(&self, pair: Pair<'_, Rule>) -> Built<Binding> {
+        let span = self.span(&pair);
+        let mut inner = significant(pair).peekable();
+        let name = self.next_name(&mut inner)?;
+        let coordinate = inner.next_if(|pair| pair.as_rule() == Rule::word);
+        let coordinate = coordinate.map(|word| self.name(&word)).transpose()?;
+        Ok(Binding { name, coordinate, value: self.next_expr(&mut inner)?, span })
+    }
+
+    fn carrier(&self, pair: Pair<'_, Rule>) -> Built<Expr> {
+        let inner = pair.into_inner().next().ok_or_else(|| self.truncated())?;
+        if inner.as_rule() == Rule::ground_word {
+            let name = self.name(&inner)?;
+            return Ok(Expr { span: name.span, kind: ExprKind::Name(name) });
+        }
+        formula::build_operand(self, inner, 0)
     }
 
     /// The head of a mechanism or body.
@@ -440,6 +494,10 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::axis
             | Rule::circle
             | Rule::curve
+            | Rule::mechanism_name
+            | Rule::binding
+            | Rule::carrier
+            | Rule::part
             | Rule::joint
             | Rule::driver
             | Rule::constraint
@@ -468,6 +526,11 @@ fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
                 | Rule::table_rows
                 | Rule::table_file
                 | Rule::printed
+                | Rule::mechanism_name
+                | Rule::binding
+                | Rule::right
+                | Rule::carrier
+                | Rule::mirrored
         )
     })
 }

@@ -326,6 +326,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::constraint
         | Rule::measure
         | Rule::trace
+        | Rule::part
         | Rule::analysis
         | Rule::kw_param
         | Rule::kw_fn
@@ -337,6 +338,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_constraint
         | Rule::kw_measure
         | Rule::kw_trace
+        | Rule::kw_part
         | Rule::kw_analysis => "a declaration",
         Rule::point
         | Rule::axis
@@ -372,6 +374,11 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::radius => "`radius`",
         Rule::from => "`from`",
         Rule::every => "`every`",
+        Rule::kw_on => "`on`",
+        Rule::mirrored => "`mirrored`",
+        Rule::mechanism_name => "the name of a mechanism",
+        Rule::binding => "a binding `NAME = …`",
+        Rule::carrier => "a body",
         Rule::kw_then => "`then`",
         Rule::kw_else => "`else`",
         Rule::periodic | Rule::spline => "`spline`",

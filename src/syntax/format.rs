@@ -10,8 +10,8 @@ mod comments;
 mod expression;
 
 use super::ast::{
-    Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose,
-    Range, TableRows, WrittenUnit,
+    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name,
+    Part, Pose, Range, TableRows, WrittenUnit,
 };
 use super::trivia::Trivia;
 use comments::{Comments, lines};
@@ -65,6 +65,7 @@ enum Group {
     Functions,
     Tables,
     Inputs,
+    Parts,
     Bodies,
     Joints,
     Constraints,
@@ -81,6 +82,7 @@ impl Group {
             ItemKind::Function { .. } => Group::Functions,
             ItemKind::Table { .. } => Group::Tables,
             ItemKind::Input { .. } => Group::Inputs,
+            ItemKind::Part(_) => Group::Parts,
             ItemKind::Ground { .. } | ItemKind::Body { .. } => Group::Bodies,
             ItemKind::Joint { .. } => Group::Joints,
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
@@ -131,6 +133,7 @@ fn item_cells(item: &Item, block: &str) -> Vec<String> {
         }
         ItemKind::Table { name, periodic, rows } => cells(["table", &name.text, &table(*periodic, rows)]),
         ItemKind::Input { name, value } => cells(["input", &named(name), &defined(value)]),
+        ItemKind::Part(of) => cells(["part", &(named(&of.name) + ":"), &part(of)]),
         ItemKind::Ground { .. } => vec![format!("ground {block}")],
         ItemKind::Body { name, pose: None, .. } => vec![format!("body {} {block}", named(name))],
         ItemKind::Body { name, pose: Some(pose), .. } => {
@@ -153,6 +156,20 @@ fn item_cells(item: &Item, block: &str) -> Vec<String> {
             vec![format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))]
         }
     }
+}
+
+/// `MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored`
+fn part(of: &Part) -> String {
+    let bindings: Vec<String> = of.bindings.iter().map(binding).collect();
+    let mut text = format!("{}({})", of.mechanism.text(), bindings.join(", "));
+    text += &of.on.as_ref().map_or_else(String::new, |carrier| format!(" on {}", expression(carrier)));
+    text += &of.at.as_ref().map_or_else(String::new, |at| format!(" at {}", pair(at)));
+    text + if of.mirrored.is_some() { " mirrored" } else { "" }
+}
+
+fn binding(binding: &Binding) -> String {
+    let coordinate = binding.coordinate.as_ref().map_or_else(String::new, |name| format!(".{}", name.text));
+    format!("{}{coordinate} {}", binding.name.text, defined(&binding.value))
 }
 
 fn cells<const N: usize>(texts: [&str; N]) -> Vec<String> {

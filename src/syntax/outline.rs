@@ -157,7 +157,7 @@ impl<'a> Outline<'a> {
             "ground" => next == "{",
             "analysis" => next == "from",
             "fn" | "curve" => second == "(",
-            "joint" | "driver" | "constraint" => second == ":",
+            "joint" | "driver" | "constraint" | "part" => second == ":",
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
             _ => second == "=" && next != ")",
@@ -262,7 +262,7 @@ fn begins(role: Role) -> bool {
 fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
     let is_word = word(k + 1).starts_with(|c: char| c.is_alphabetic() || c == '_');
-    let is_defined = ["=", "["].contains(&word(k + 2));
+    let is_defined = ["=", "[", ":"].contains(&word(k + 2));
     let behind = k.checked_sub(1).map_or(0, |before| tokens[before].end());
     let begins_line = text[behind..tokens[k].start].contains('\n');
     is_word && (is_defined || begins_line && roles.get(k + 1).is_some_and(Option::is_none))

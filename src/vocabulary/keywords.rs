@@ -93,6 +93,27 @@ const fn keyword(
     Keyword { word, role }
 }
 
+/// A lever that is used twice.
+const TWO_LEVERS: Example = Example::Using(
+    "\
+mechanism lever {
+    param reach = 80 mm
+    input turn = 30 deg * sin(1 rev/s * t)
+    ground { point O = (0, 0) }
+    body arm {
+        point O   = (0, 0)
+        point tip = (reach, 0)
+    }
+    joint pivot: revolute(ground.O, arm.O)
+    driver motor: rotation(pivot) = turn
+}
+",
+    "\
+part front: lever()
+part back:  lever(reach = 60 mm, turn = angle(front.arm)) on front.arm at (80 mm, 0, 90 deg) mirrored
+trace tip = back.arm.tip",
+);
+
 /// A rack and pinion of which no pose says on which side of the axis the pinion lies.
 const ON_THE_LEFT: Example = Example::Whole(
     "\
@@ -295,6 +316,15 @@ driver motor: rotation(pivot) = turn",
         ),
     ),
     keyword(
+        Role::Opener,
+        "part",
+        &["part NAME: MECHANISM(BINDING, …)", "part NAME: MECHANISM(BINDING, …) on BODY at (x, y, phi) mirrored"],
+        "the declarations of another mechanism, once more, under a name",
+        "A binding `NAME = FORMULA` says what a param or input of it is. What is its ground is fixed on the body, the ground if none is \
+         named, at a place in that body's frame. Everything in it is reached by its path: `NAME.crank.pin`, `NAME.stroke`.",
+        TWO_LEVERS,
+    ),
+    keyword(
         Role::Declaration,
         "analysis",
         &["analysis from A to B every H"],
@@ -440,6 +470,22 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "Units with powers, joined by `*` and `/`: `in mm/s^2`. The columns of the derivatives are in that unit per second. Formulas \
          and emitted code see SI. Behind a number `in` is the inch, unless a unit follows it.",
         Example::Arm("measure height = y(arm.tip) / 2 in mm\nmeasure tilt   = rotation(main) in deg"),
+    ),
+    keyword(
+        Role::Place,
+        "on",
+        &["part NAME: MECHANISM(…) on BODY"],
+        "stands before the body that carries a part",
+        "Any body, by its path: `on front.arm`. What is ground in the part is fixed on it.",
+        TWO_LEVERS,
+    ),
+    keyword(
+        Role::Place,
+        "mirrored",
+        &["part NAME: MECHANISM(…) mirrored"],
+        "turns y of a part's frame over, before it is placed",
+        "What the part measures is the same as without it.",
+        TWO_LEVERS,
     ),
     keyword(
         Role::Place,

@@ -71,6 +71,8 @@ pub enum Example {
     Arm(&'static str),
     /// All declarations.
     Whole(&'static str),
+    /// A mechanism, and the declarations of another one that uses it.
+    Using(&'static str, &'static str),
     /// That of another word.
     Of(&'static str),
 }

@@ -38,8 +38,13 @@ impl Word {
     /// The text of a mechanism that shows it.
     #[must_use]
     pub fn example(&self) -> String {
+        let mut before = "";
         let inside = match self.example {
             Example::Whole(inside) => inside.to_owned(),
+            Example::Using(used, inside) => {
+                before = used;
+                inside.to_owned()
+            }
             Example::Of(other) => return words().find(|word| word.name == other).map_or(String::new(), Word::example),
             Example::Arm(more) => {
                 let has_driver = more.lines().any(|line| line.starts_with("driver motor:"));
@@ -51,7 +56,7 @@ impl Word {
             }
         };
         let lines: Vec<String> = inside.lines().map(|line| format!("    {line}")).collect();
-        format!("mechanism example {{\n{}\n}}\n", lines.join("\n"))
+        format!("{before}mechanism example {{\n{}\n}}\n", lines.join("\n"))
     }
 }
 

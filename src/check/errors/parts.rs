@@ -1,0 +1,101 @@
+//! What is said of parts, and of what is told of their params and inputs.
+
+use super::meant;
+use crate::diag::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::{Binding, MechanismName, Name};
+
+/// Of a fault in the text of a part: which part it is.
+pub fn in_part(path: &str) -> String {
+    format!("in part `{path}`, used here")
+}
+
+pub fn no_such_mechanism(wanted: &MechanismName, known: &[&str]) -> Diagnostic {
+    Diagnostic::new(Code::E0201, format!("there is no mechanism `{}`", wanted.text()))
+        .at(wanted.span(), "not declared")
+        .fix_if(meant(&wanted.name, known))
+}
+
+pub fn contains_itself(wanted: &MechanismName, circle: &[&str]) -> Diagnostic {
+    let name = &wanted.name.text;
+    let mut way: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();
+    way.push(format!("`{name}`"));
+    let diagnostic = Diagnostic::new(Code::E0206, format!("the mechanism `{name}` contains itself"));
+    diagnostic.at(wanted.span(), "a part of itself").note(format!("the way round: {}", way.join(" has a part ")))
+}
+
+pub fn too_many_levels(wanted: &MechanismName, most: usize) -> Diagnostic {
+    Diagnostic::new(Code::E0209, format!("parts stand in parts on more than {most} levels"))
+        .at(wanted.span(), "too deep")
+}
+
+/// `front.foo`
+pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str]) -> Diagnostic {
+    Diagnostic::new(Code::E0201, format!("there is no `{}` in the part `{path}`", name.text))
+        .at(name.span, format!("`{mechanism}` declares nothing of that name"))
+        .fix_if(meant(name, known))
+}
+
+pub fn path_goes_on(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0208, "a path ends with a body and a feature of it, or with another declaration of a part")
+        .at(span, "goes on")
+}
+
+pub fn bound_twice(binding: &Binding, first: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0209, format!("`{}` is bound twice", binding.name.text))
+        .at(binding.span, "bound again")
+        .also(first, "and here")
+}
+
+pub fn nothing_to_bind(
+    mechanism: &str,
+    binding: &Binding,
+    found: Option<&str>,
+    known: &[&str],
+    nearest: Option<&str>,
+) -> Diagnostic {
+    let name = &binding.name.text;
+    let label = match found {
+        Some(found) => format!("this is {found}"),
+        None => "not declared there".to_owned(),
+    };
+    let listed = match known {
+        [] => format!("`{mechanism}` has no params and no inputs"),
+        _ => format!("its params and inputs are {}", super::list(known)),
+    };
+    let diagnostic = Diagnostic::new(Code::E0209, format!("`{mechanism}` has no param or input `{name}`"));
+    let diagnostic = diagnostic.at(binding.name.span, label);
+    match nearest {
+        Some(_) => diagnostic.fix_if(meant(&binding.name, known)),
+        None => diagnostic.help(listed),
+    }
+}
+
+pub fn no_coordinate_to_bind(binding: &Binding, coordinate: &Name, is_point: bool) -> Diagnostic {
+    let name = &binding.name.text;
+    let (message, label) = if is_point {
+        (format!("a point has no `{}`", coordinate.text), format!("`{name}.x` or `{name}.y`"))
+    } else {
+        (format!("the param `{name}` is a number and has no coordinates"), "of a number".to_owned())
+    };
+    Diagnostic::new(Code::E0209, message).at(coordinate.span, label)
+}
+
+pub fn number_for_point(binding: &Binding) -> Diagnostic {
+    Diagnostic::new(Code::E0209, format!("the param `{}` is a point", binding.name.text))
+        .at(binding.value.span, "a number")
+        .help("a point is written `(x, y)`")
+}
+
+pub fn carries_itself(part: &Name, on: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", part.text))
+        .at(on, "this stands on its own ground")
+}
+
+/// `--set front.reach=…`, where `front: lever(reach = …)`.
+pub fn bound_from_outside(noun: &str, path: &str, told: Span, binding: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0708, format!("the {noun} `{path}` is bound where its mechanism is used"))
+        .at(told, "told from outside")
+        .also(binding, "bound here")
+        .help("tell what the binding is made of, or take the binding away")
+}

@@ -1,0 +1,303 @@
+//! A mechanism and all that its parts bring along, before anything of it is checked: each part is an instance of a mechanism, with what
+//! is repeated in it written out. Instances of one text that come out the same are one.
+
+use super::errors;
+use super::mentions::{formulas, indices, mentioned};
+use super::parts::BoundParam;
+use super::repetition::{Copies, MOST, Numbers, Writer, name_of, named, needs_writing};
+use super::{Checker, Surroundings};
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::source::Sources;
+use crate::syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
+use rustc_hash::{FxHashMap, FxHashSet};
+use std::rc::Rc;
+
+/// Levels of parts within parts.
+const DEEPEST: usize = 32;
+
+/// The mechanisms that texts may use as parts.
+pub trait Library {
+    /// The one that a part names.
+    ///
+    /// # Errors
+    /// Why there is none.
+    fn mechanism(&self, wanted: &MechanismName) -> Result<&Mechanism, Box<Diagnostic>>;
+}
+
+/// Those of one text, under their own names.
+impl Library for &[Mechanism] {
+    fn mechanism(&self, wanted: &MechanismName) -> Result<&Mechanism, Box<Diagnostic>> {
+        let found = self.iter().find(|mechanism| mechanism.name.text == wanted.name.text);
+        found.filter(|_| wanted.prefix.is_none()).ok_or_else(|| {
+            let names: Vec<&str> = self.iter().map(|mechanism| mechanism.name.text.as_str()).collect();
+            Box::new(errors::no_such_mechanism(wanted, &names))
+        })
+    }
+}
+
+/// A mechanism as it is checked.
+pub(super) struct Instance<'t> {
+    /// Its text.
+    mechanism: &'t Mechanism,
+    /// With repeated declarations written out, and paths into parts as names; nothing where it has neither.
+    written: Option<Mechanism>,
+    /// In the order in which its tree has them.
+    pub parts: Vec<Rc<Instance<'t>>>,
+    /// Their numbers, by their names.
+    pub part_named: FxHashMap<String, usize>,
+    /// What its formulas name in its parts.
+    pub paths: Vec<String>,
+    /// The params that decide what is repeated.
+    pub deciding: Rc<FxHashSet<String>>,
+    /// Of what is repeated: the numbers of its copies.
+    pub copies: FxHashMap<&'t str, Copies>,
+    /// Its declarations, and those of its parts.
+    count: usize,
+}
+
+impl<'t> Instance<'t> {
+    /// One without anything repeated, and without parts.
+    fn plain(mechanism: &'t Mechanism) -> Instance<'t> {
+        Instance {
+            mechanism,
+            written: None,
+            parts: Vec::new(),
+            part_named: FxHashMap::default(),
+            paths: Vec::new(),
+            deciding: Rc::default(),
+            copies: FxHashMap::default(),
+            count: mechanism.items.len(),
+        }
+    }
+
+    /// What is checked.
+    pub fn tree(&self) -> &Mechanism {
+        self.written.as_ref().unwrap_or(self.mechanism)
+    }
+
+    /// Whether it differs from its text.
+    pub fn is_written_out(&self) -> bool {
+        self.written.is_some()
+    }
+
+    /// One of its parts.
+    pub fn part(&self, name: &str) -> Option<&Rc<Instance<'t>>> {
+        self.part_named.get(name).map(|&k| &self.parts[k])
+    }
+
+    /// Whether its text declares a name, be it repeated or not.
+    pub fn declares(&self, name: &str) -> bool {
+        name == "ground" || self.names().any(|known| known == name)
+    }
+
+    /// The names that its text declares.
+    pub fn names(&self) -> impl Iterator<Item = &'t str> {
+        self.mechanism.items.iter().filter_map(name_of).map(|name| name.text.as_str())
+    }
+
+    /// The name of its mechanism.
+    pub fn mechanism_name(&self) -> &'t str {
+        &self.mechanism.name.text
+    }
+}
+
+/// The instance of a mechanism that stands alone, and what is wrong with its ranges and parts.
+pub(super) fn instance_of<'t>(
+    tree: &'t Mechanism,
+    library: &'t dyn Library,
+    surroundings: &Surroundings,
+    sources: &Sources,
+) -> (Rc<Instance<'t>>, Diagnostics) {
+    let mut builder = Builder {
+        library,
+        surroundings,
+        sources,
+        deciding: FxHashMap::default(),
+        known: FxHashMap::default(),
+        around: Vec::new(),
+        diagnostics: Diagnostics::default(),
+        is_too_large: false,
+    };
+    let instance = builder.instance(tree, "", &[]);
+    (instance, builder.diagnostics)
+}
+
+struct Builder<'t, 's> {
+    library: &'t dyn Library,
+    surroundings: &'s Surroundings,
+    sources: &'s Sources,
+    /// By the text of a mechanism.
+    deciding: FxHashMap<*const Mechanism, Rc<FxHashSet<String>>>,
+    /// By the text of a mechanism, and what is bound of what decides its ranges.
+    known: FxHashMap<(*const Mechanism, Vec<(String, u64)>), Rc<Instance<'t>>>,
+    /// The mechanisms around the one at hand, the outermost first.
+    around: Vec<&'t Mechanism>,
+    diagnostics: Diagnostics,
+    /// Which has been said.
+    is_too_large: bool,
+}
+
+impl<'t> Builder<'t, '_> {
+    /// With what is bound of the params that decide its ranges.
+    fn instance(&mut self, tree: &'t Mechanism, path: &str, bound: &[(String, f64)]) -> Rc<Instance<'t>> {
+        if !needs_writing(tree) {
+            return Rc::new(Instance::plain(tree));
+        }
+        // what is set from outside may be another thing for every path
+        let key = (std::ptr::from_ref(tree), bound.iter().map(|(name, x)| (name.clone(), x.to_bits())).collect());
+        let is_shared = self.surroundings.settings.is_empty();
+        if is_shared && let Some(known) = self.known.get(&key) {
+            return Rc::clone(known);
+        }
+        self.around.push(tree);
+        let instance = Rc::new(self.written_out(tree, path, bound));
+        self.around.pop();
+        if is_shared {
+            self.known.insert(key, Rc::clone(&instance));
+        }
+        instance
+    }
+
+    fn written_out(&mut self, tree: &'t Mechanism, path: &str, bound: &[(String, f64)]) -> Instance<'t> {
+        let deciding = self.deciding(tree);
+        let definitions = definitions_of(tree);
+        let mut checker = Checker::new(&definitions, self.surroundings, self.sources);
+        path.clone_into(&mut checker.path);
+        checker.bound_params = bound
+            .iter()
+            .map(|(name, value)| BoundParam { name, bound: checker.number_bound(*value), span: None })
+            .collect();
+        checker.collect(&definitions);
+        checker.definitions();
+        // the same is told of the whole
+        checker.diagnostics = Diagnostics::default();
+        let mut writer = Writer::new(tree, checker);
+        let copies = writer.all_copies(tree);
+        let (mut by_name, mut count) = (FxHashMap::default(), writer.count());
+        for (item, copies) in tree.items.iter().zip(&copies) {
+            let (ItemKind::Part(part), Some(copies)) = (&item.kind, copies) else { continue };
+            let mechanism = self.mechanism_of(part);
+            for numbers in copies {
+                let instance = mechanism
+                    .filter(|_| !self.is_too_large)
+                    .and_then(|mechanism| self.part(mechanism, part, path, numbers, &mut writer));
+                count += instance.as_ref().map_or(0, |instance| instance.count);
+                let instance = instance.filter(|_| self.is_small_enough(count, part));
+                by_name.insert(named(&part.name, numbers).text, instance);
+            }
+        }
+        let ((found, said), copies, paths) = writer.written(tree, &copies, by_name.clone());
+        self.diagnostics.extend(said);
+        let (mut parts, mut part_named) = (Vec::new(), FxHashMap::default());
+        for item in &found.items {
+            let ItemKind::Part(part) = &item.kind else { continue };
+            if let Some(Some(instance)) = by_name.remove(&part.name.text) {
+                part_named.insert(part.name.text.clone(), parts.len());
+                parts.push(instance);
+            }
+        }
+        Instance { mechanism: tree, written: Some(found), parts, part_named, paths, deciding, copies, count }
+    }
+
+    /// The mechanism that a part is, unless that contains itself or is too deep.
+    fn mechanism_of(&mut self, part: &'t ast::Part) -> Option<&'t Mechanism> {
+        let mechanism = match self.library.mechanism(&part.mechanism) {
+            Ok(mechanism) => mechanism,
+            Err(why) => {
+                self.diagnostics.push(*why);
+                return None;
+            }
+        };
+        if let Some(first) = self.around.iter().position(|around| std::ptr::eq(*around, mechanism)) {
+            let circle: Vec<&str> = self.around[first..].iter().map(|around| around.name.text.as_str()).collect();
+            self.diagnostics.push(errors::contains_itself(&part.mechanism, &circle));
+            return None;
+        }
+        if self.around.len() > DEEPEST {
+            self.diagnostics.push(errors::too_many_levels(&part.mechanism, DEEPEST));
+            return None;
+        }
+        Some(mechanism)
+    }
+
+    fn part(
+        &mut self,
+        mechanism: &'t Mechanism,
+        part: &'t ast::Part,
+        path: &str,
+        numbers: &Numbers<'t>,
+        writer: &mut Writer<'t, '_>,
+    ) -> Option<Rc<Instance<'t>>> {
+        let deciding = self.deciding(mechanism);
+        let mut bound = Vec::new();
+        for binding in part.bindings.iter().filter(|binding| deciding.contains(&binding.name.text)) {
+            bound.push((binding.name.text.clone(), writer.number(&binding.value, numbers)?));
+        }
+        let name = named(&part.name, numbers).text;
+        let told = self.diagnostics.len();
+        let instance = self.instance(mechanism, &format!("{path}{name}."), &bound);
+        self.diagnostics.label_from(told, part.name.span, &errors::in_part(&format!("{path}{name}")));
+        Some(instance)
+    }
+
+    fn is_small_enough(&mut self, count: usize, part: &ast::Part) -> bool {
+        if count > MOST && !self.is_too_large {
+            self.is_too_large = true;
+            self.diagnostics.push(errors::too_many_declarations(part.name.span, MOST));
+        }
+        !self.is_too_large
+    }
+
+    /// The params that the bounds of ranges and the numbers of copies are made of, in a mechanism and in its parts, through other params
+    /// and functions too.
+    fn deciding(&mut self, tree: &'t Mechanism) -> Rc<FxHashSet<String>> {
+        let key = std::ptr::from_ref(tree);
+        if let Some(known) = self.deciding.get(&key) {
+            return Rc::clone(known);
+        }
+        // in a circle of mechanisms, which is told elsewhere
+        self.deciding.insert(key, Rc::default());
+        let mut open: Vec<&'t Expr> = Vec::new();
+        if needs_writing(tree) {
+            let ranges = tree.items.iter().flat_map(|item| &item.ranges);
+            open.extend(ranges.flat_map(|range| [&range.from, &range.to]));
+            open.extend(tree.items.iter().flat_map(formulas).flat_map(indices));
+            for item in &tree.items {
+                let ItemKind::Part(part) = &item.kind else { continue };
+                let Ok(mechanism) = self.library.mechanism(&part.mechanism) else { continue };
+                let inside = self.deciding(mechanism);
+                let bindings = part.bindings.iter().filter(|binding| inside.contains(&binding.name.text));
+                open.extend(bindings.map(|binding| &binding.value));
+            }
+        }
+        let deciding = Rc::new(needed_by(tree, open));
+        self.deciding.insert(key, Rc::clone(&deciding));
+        deciding
+    }
+}
+
+/// The names that formulas mention, those that the formulas of these mention, and so on.
+fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<String> {
+    let mut needed = FxHashSet::default();
+    while let Some(e) = open.pop() {
+        mentioned(
+            e,
+            |_| false,
+            |name, _| {
+                if needed.insert(name.text.clone()) {
+                    let is_it = |item: &&Item| name_of(item).is_some_and(|other| other.text == name.text);
+                    open.extend(tree.items.iter().filter(is_it).flat_map(formulas));
+                }
+            },
+        );
+    }
+    needed
+}
+
+/// What the bounds of ranges may speak of.
+fn definitions_of(tree: &Mechanism) -> Mechanism {
+    let is_definition =
+        |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Function { .. } | ItemKind::Table { .. });
+    let items = tree.items.iter().filter(is_definition).cloned().collect();
+    Mechanism { items, docs: Vec::new(), name: tree.name.clone(), span: tree.span }
+}
