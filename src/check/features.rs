@@ -81,7 +81,7 @@ impl<'a> Checker<'a> {
                 _ => {}
             }
         }
-        self.import();
+        self.import_frames();
     }
 
     pub(super) fn collect_all_features(&mut self) {

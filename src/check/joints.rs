@@ -26,7 +26,7 @@ impl Checker<'_> {
                 _ => {}
             }
         }
-        self.import();
+        self.import_joints();
     }
 
     fn set_joint(&mut self, k: usize, joint: Option<JointId>) {

@@ -473,7 +473,7 @@ impl<'a> Checker<'a> {
             }
             docs.push(&item.docs);
         }
-        self.import();
+        self.import_params();
         let uses = self.uses(&definitions, &entities);
         let mut measures = Vec::new();
         for at in self.ordered(&uses) {

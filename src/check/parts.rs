@@ -147,33 +147,46 @@ impl<'a> Checker<'a> {
         Some(entity)
     }
 
-    /// Brings over what is known by now of the names of all parts.
-    pub(super) fn import(&mut self) {
+    /// Brings over what is known by now of the params of parts that have a name here.
+    pub(super) fn import_params(&mut self) {
         for part in 0..self.parts.len() {
-            self.import_of(part);
+            self.import_params_of(part);
         }
     }
 
-    fn import_of(&mut self, part: usize) {
-        for Import { entity, inside } in self.imports[part].clone() {
-            let child = &self.parts[part];
-            match (entity, inside) {
-                (Entity::Param(k), Entity::Param(m)) => {
-                    fill(&mut self.params, k, child.params.get(m).copied().flatten());
-                    fill(&mut self.drawn, k, child.drawn.get(m).copied().flatten());
-                    set(&mut self.param_angles, k, child.param_angles.get(m).copied(), 0);
-                    if let Some(&formula) = child.param_formulas.get(m) {
-                        set(&mut self.param_formulas, k, Some(formula), formula);
-                    }
-                }
-                (Entity::Body(k), Entity::Body(m)) => {
-                    set(&mut self.bodies, k, child.bodies.get(m).copied(), Frame::Ground);
-                }
-                (Entity::Body(k), _) => set(&mut self.bodies, k, Some(child.ground), Frame::Ground),
-                (Entity::Joint(k), Entity::Joint(m)) => {
-                    fill(&mut self.joints, k, child.joints.get(m).copied().flatten());
-                }
-                _ => {}
+    fn import_params_of(&mut self, part: usize) {
+        let child = &self.parts[part];
+        for import in &self.imports[part] {
+            let (Entity::Param(k), Entity::Param(m)) = (import.entity, import.inside) else { continue };
+            set(&mut self.params, k, child.params.get(m).copied(), None);
+            set(&mut self.drawn, k, child.drawn.get(m).copied(), None);
+            set(&mut self.param_angles, k, child.param_angles.get(m).copied(), 0);
+            if let Some(&formula) = child.param_formulas.get(m) {
+                set(&mut self.param_formulas, k, Some(formula), formula);
+            }
+        }
+    }
+
+    /// The same of their bodies, once its own are there.
+    pub(super) fn import_frames(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Body(k), inside) = (import.entity, import.inside) else { continue };
+                let frame = match inside {
+                    Entity::Body(m) => child.bodies.get(m).copied(),
+                    _ => Some(child.ground),
+                };
+                set(&mut self.bodies, k, frame, Frame::Ground);
+            }
+        }
+    }
+
+    /// The same of their joints.
+    pub(super) fn import_joints(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Joint(k), Entity::Joint(m)) = (import.entity, import.inside) else { continue };
+                set(&mut self.joints, k, child.joints.get(m).copied(), None);
             }
         }
     }
@@ -218,7 +231,7 @@ impl<'a> Checker<'a> {
             child.samples = samples;
             child.measure_order = child.definitions();
         });
-        self.import_of(part);
+        self.import_params_of(part);
     }
 
     /// What is said of the params of a part.
@@ -366,7 +379,6 @@ impl<'a> Checker<'a> {
 
     /// What carries each part, and where.
     pub(super) fn mount_parts(&mut self) {
-        self.import();
         for k in 0..self.parts.len() {
             let written = self.bindings[k];
             let mount = written.on.as_ref().map(|on| self.carrier_of(on));
@@ -541,8 +553,4 @@ fn set<T: Clone>(list: &mut Vec<T>, k: usize, value: Option<T>, otherwise: T) {
     if let Some(value) = value {
         list[k] = value;
     }
-}
-
-fn fill<T: Clone>(list: &mut Vec<Option<T>>, k: usize, value: Option<T>) {
-    set(list, k, Some(value), None);
 }
