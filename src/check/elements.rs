@@ -4,8 +4,8 @@ use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
-    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Frame, Measure, Named, PointId,
-    Quantity, Units,
+    Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Measure, Named, PointId, Quantity,
+    Units,
 };
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};

@@ -5,7 +5,7 @@ use super::formula::{Context, Dim};
 use super::names::Entity;
 use super::{Checker, errors};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
-use crate::model::{Dimension, Frame, JointKind};
+use crate::model::{Dimension, JointKind};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name};
 use crate::vocabulary::{Place, Synonym, Unit, is_ground};

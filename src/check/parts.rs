@@ -481,11 +481,6 @@ impl<'a> Checker<'a> {
         Some(Value { dim: wanted, ..value })
     }
 
-    /// Whether an input is bound where its mechanism is used, and where that stands.
-    pub(super) fn is_bound(&self, name: &Name) -> bool {
-        self.bound_inputs.contains(&name.text.as_str())
-    }
-
     // ---- what is told from outside
 
     /// All params or inputs, those of parts by their paths, each with the place of its binding if it has one.

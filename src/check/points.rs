@@ -9,7 +9,7 @@ use super::named_points::Found;
 use super::sites::{Drawn, Place, Site};
 use super::{Checker, errors, mends};
 use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
-use crate::model::{Dimension, Frame};
+use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Name, Sign};
 use crate::vocabulary::{Function, Keyword};

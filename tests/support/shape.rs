@@ -1,7 +1,8 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Range, Segment, TableRows, WrittenUnit,
+    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Part, Range, Segment, TableRows,
+    WrittenUnit,
 };
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
@@ -79,6 +80,17 @@ fn item_shape(item: &Item) -> String {
     format!("{} {ranges:?}", kind_shape(&item.kind))
 }
 
+fn part_shape(part: &Part) -> String {
+    let binding = |binding: &Binding| {
+        let coordinate = binding.coordinate.as_ref().map(|name| name.text.as_str());
+        format!("{} {coordinate:?} {}", binding.name.text, shape(&binding.value))
+    };
+    let bindings: Vec<String> = part.bindings.iter().map(binding).collect();
+    let places: Vec<String> = part.on.iter().chain(&part.at).map(shape).collect();
+    let (name, mechanism) = (&part.name.text, part.mechanism.text());
+    format!("part {name} {mechanism} {bindings:?} {places:?} {:?}", part.mirrored.is_some())
+}
+
 fn kind_shape(kind: &ItemKind) -> String {
     match kind {
         ItemKind::Input { name, value } => format!("input {} {}", name.text, shape(value)),
@@ -109,6 +121,7 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Trace { name, point, unit } => {
             format!("trace {} {} {}", name.text, shape(point), unit_shape(unit.as_ref()))
         }
+        ItemKind::Part(part) => part_shape(part),
         ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }
