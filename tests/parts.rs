@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Times};
+use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Sources, Times};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use support::random::Random;
@@ -33,7 +33,9 @@ impl Table {
 /// Runs a mechanism of a text; of one that is refused, or stops, the codes.
 fn run(text: &str, file: &Path, mechanism: &str, times: Option<&Times>) -> Result<(Table, Times), String> {
     let choice = Choice { mechanism: Some(mechanism.to_owned()), ..Choice::default() };
-    let parsed = Parsed::of(&file.to_string_lossy(), text);
+    let mut sources = Sources::default();
+    let id = sources.add("text", text);
+    let parsed = Parsed::of_source(sources, id, file);
     let checked = parsed.check(&choice, &Disk::default());
     let (compiled, said) = checked.compile(Redundant::LeftOut, &Cancel::default());
     let told = || {

@@ -381,8 +381,11 @@ impl Features {
 
     /// How far from a centroid a row takes hold of a body at most (m).
     fn lever(&self, system: &ConstraintSystem, row: usize, body: usize, [x, y]: [f64; 2]) -> f64 {
-        let levers = self.of_row(system, row, body).map(|at| math::hypot(at[0] - x, at[1] - y));
-        let longest = levers.filter(|lever| lever.is_finite()).fold(0.0, f64::max);
+        // where all features are one point, rounding may put their centroid beside it
+        let beside = |at: &[f64; 2]| math::hypot(at[0] - x, at[1] - y);
+        let is_lever = |at: &[f64; 2]| beside(at).is_finite() && beside(at) > ROUNDING * math::hypot(x, y);
+        let levers = self.of_row(system, row, body).filter(is_lever).map(|at| beside(&at));
+        let longest = levers.fold(0.0, f64::max);
         if system.declaration_of(row).axes.is_empty() {
             return longest;
         }
