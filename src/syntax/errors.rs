@@ -24,6 +24,12 @@ pub fn no_mechanism(span: Span) -> Diagnostic {
         .help("a file begins with `mechanism NAME {`")
 }
 
+/// A `use` behind a mechanism.
+pub fn late_use(span: Span) -> Diagnostic {
+    misplaced(span, "a `use` stands before the mechanisms", "not expected here")
+        .help("move it to the top of the file, above the first `mechanism`")
+}
+
 /// A fault that the grammar let pass and the tree builder did not.
 pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0101, message).at(span, label)
@@ -346,7 +352,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_axis
         | Rule::kw_circle
         | Rule::kw_curve => "a point, axis, circle or curve",
-        Rule::name | Rule::name_text | Rule::word | Rule::ground_word => "a name",
+        Rule::name | Rule::use_prefix | Rule::name_text | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
         | Rule::conditional

@@ -136,6 +136,15 @@ driver motor: rotation(axle) = 30 deg/s * t",
 /// All of them, in the order of the grammar.
 pub static KEYWORDS: &[Keyword] = &[
     keyword(
+        Role::Opener,
+        "use",
+        &["use \"FILE.mech\"", "use \"FILE.mech\" as PREFIX"],
+        "takes the mechanisms of another file, which may then serve as parts",
+        "At the top of a file, before its mechanisms. The path is relative to the file that says so. Mechanisms have their names, or \
+         behind `as` these names with a prefix, `PREFIX.NAME`. What the other file uses is not passed on.",
+        Example::Arm("// at the top of the file: use \"legs.mech\" as walkers\nmeasure reach = x(arm.tip)"),
+    ),
+    keyword(
         Role::Declaration,
         "mechanism",
         &["mechanism NAME { … }"],
@@ -440,6 +449,14 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "Units with powers, joined by `*` and `/`: `in mm/s^2`. The columns of the derivatives are in that unit per second. Formulas \
          and emitted code see SI. Behind a number `in` is the inch, unless a unit follows it.",
         Example::Arm("measure height = y(arm.tip) / 2 in mm\nmeasure tilt   = rotation(main) in deg"),
+    ),
+    keyword(
+        Role::Place,
+        "as",
+        &["use \"FILE.mech\" as PREFIX"],
+        "stands before the prefix that the mechanisms of a used file have",
+        "Two files that hold mechanisms of one name can both be used, one of them at least with a prefix.",
+        Example::Arm("// at the top of the file: use \"legs.mech\" as walkers\nmeasure reach = x(arm.tip)"),
     ),
     keyword(
         Role::Place,

@@ -1,7 +1,7 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Range, Segment, TableRows, WrittenUnit,
+    Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Range, Segment, TableRows, Use, WrittenUnit,
 };
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
@@ -58,7 +58,13 @@ fn shapes(list: &[Expr]) -> String {
 
 /// All declarations of a file, a line each.
 pub fn file_shape(file: &File) -> Vec<String> {
-    file.mechanisms.iter().flat_map(mechanism_shape).collect()
+    let uses = file.uses.iter().map(use_shape);
+    uses.chain(file.mechanisms.iter().flat_map(mechanism_shape)).collect()
+}
+
+fn use_shape(used: &Use) -> String {
+    let text = |name: &Option<Name>| name.as_ref().map(|name| name.text.clone());
+    format!("{:?} use {:?} as {:?}", used.docs, text(&used.path), text(&used.prefix))
 }
 
 fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
