@@ -1,5 +1,7 @@
 //! What is said of a mechanism that does not pass.
 
+pub mod library;
+
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
 use super::rates::{Part, polar, rate_mended};

@@ -16,6 +16,7 @@ mod instead;
 mod joints;
 mod kinds;
 mod lengths;
+mod library;
 mod meaning;
 mod meant;
 mod mends;
@@ -36,6 +37,7 @@ mod table_file;
 mod tables;
 
 pub use inputs::Given;
+pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -63,6 +65,8 @@ const MOST_SUGGESTIONS: usize = 100;
 pub struct Surroundings {
     /// Parameters set from outside.
     pub settings: Vec<Setting>,
+    /// The files that it uses.
+    pub library: Library,
     /// The files that its tables name.
     pub files: TableFiles,
     /// What inputs are told to be.

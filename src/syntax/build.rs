@@ -1,8 +1,8 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
 use super::ast::{
-    Column, ColumnKind, Expr, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose, Range as Repetition,
-    TableRows, UnitFactor, Use, WrittenUnit,
+    Column, ColumnKind, Expr, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Pose,
+    Range as Repetition, TableRows, UnitFactor, Use, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};

@@ -125,6 +125,12 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     let length = string.map_or(word.len(), |inside| word.len() + inside + 1);
     let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let rules = match &error.variant {
+        // no prefix is called `use`, if a file follows: that is the next one
+        ErrorVariant::ParsingError { positives, negatives }
+            if positives.is_empty() && negatives.contains(&Rule::kw_use) =>
+        {
+            &[Rule::use_prefix]
+        }
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
         ErrorVariant::CustomError { .. } => &[],
     };

@@ -143,17 +143,22 @@ impl Reading<'_> {
             let piece = self.piece(start..self.outline.end(last));
             piece.read(Rule::use_and_next, make).map_err(|refused| piece.fault(refused, self.sees_mends()))
         });
+        let fault = match read {
+            Ok(used) => {
+                self.at = self.outline.index_at(used.span.end as usize);
+                return used;
+            }
+            Err(fault) => fault,
+        };
+        self.tell(fault);
         self.at = next;
-        read.unwrap_or_else(|fault| {
-            self.tell(fault);
-            let path = self.outline.string_behind(first);
-            let path = path.map(|token| Name {
-                text: token.text.trim_matches('"').to_owned(),
-                span: self.span(token.start..token.end()),
-            });
-            let span = self.span(start..self.outline.end_before(next));
-            Use { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
-        })
+        let path = self.outline.string_behind(first);
+        let path = path.map(|token| Name {
+            text: token.text.trim_matches('"').to_owned(),
+            span: self.span(token.start..token.end()),
+        });
+        let span = self.span(start..self.outline.end_before(next));
+        Use { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
     }
 
     /// `mechanism NAME { … }`, if it is more than a word.
@@ -570,7 +575,8 @@ mod tests {
         let text = "use \"a.mech\" as 3\nuse b.mech\nuse \"c.mech\" as\nuse \"d.mech\" as d;\nuse \"e.mech\" as e\nmechanism m { param a = 1 }\nuse \"f.mech\"";
         let parsed = parsed(text);
         assert_eq!(parsed.faults.len(), 5, "{:?}", parsed.faults);
-        let used = parsed.tree.uses.iter().map(|used| (used.path.as_ref().map_or("", |path| &path.text), used.is_broken));
+        let used =
+            parsed.tree.uses.iter().map(|used| (used.path.as_ref().map_or("", |path| &path.text), used.is_broken));
         assert_eq!(
             used.collect::<Vec<_>>(),
             [("a.mech", true), ("", true), ("c.mech", true), ("d.mech", true), ("e.mech", false), ("f.mech", false)]

@@ -16,13 +16,12 @@ impl Fault<'_> {
         if !is_before_a_string {
             return None;
         }
-        if self.found == "use" {
+        if self.found == "use" && !self.expects(Rule::use_prefix) {
             return Some(Mend::words("a `use` stands at the top of the file, above the first `mechanism`"));
         }
         let is_top = self.expects(Rule::kw_use) || self.expects(Rule::kw_mechanism);
-        (is_top && OTHER_WORDS.contains(&self.found)).then(|| {
-            self.replaced(self.here(), "use", "a file is used by `use \"FILE.mech\"`", Applies::Probably)
-        })
+        (is_top && OTHER_WORDS.contains(&self.found))
+            .then(|| self.replaced(self.here(), "use", "a file is used by `use \"FILE.mech\"`", Applies::Probably))
     }
 
     /// `use leg.mech`
