@@ -6,7 +6,7 @@ use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources, Span};
 use rustc_hash::FxHashMap;
 use std::io;
-use std::path::{Path, PathBuf};
+use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 /// What a file holds, as of a version.
@@ -25,6 +25,17 @@ pub trait World: Send + Sync {
     /// # Errors
     /// It is not there, or cannot be read.
     fn read(&self, path: &Path) -> io::Result<Contents>;
+
+    /// The names of the files in a folder, for a message that says what was probably meant; nothing where nobody can tell.
+    fn names_in(&self, folder: &Path) -> Vec<String> {
+        let _ = folder;
+        Vec::new()
+    }
+
+    /// What tells a file from all others: two paths with one identity are one file, which is read once.
+    fn identity(&self, path: &Path) -> PathBuf {
+        normalised(path)
+    }
 }
 
 /// A world without files, or with those that were put into it.
@@ -47,6 +58,14 @@ impl Memory {
 impl World for Memory {
     fn read(&self, path: &Path) -> io::Result<Contents> {
         self.files.get(path).cloned().ok_or_else(|| io::ErrorKind::NotFound.into())
+    }
+
+    fn names_in(&self, folder: &Path) -> Vec<String> {
+        let here = self.files.keys().filter(|path| path.parent() == Some(folder));
+        let mut names: Vec<String> =
+            here.filter_map(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
     }
 }
 
@@ -81,6 +100,20 @@ pub fn beside(path: &str, named: &str) -> PathBuf {
         Some(folder) => folder.join(named),
         None => PathBuf::from(named),
     }
+}
+
+/// A path without `.`, and without `..` behind a folder.
+#[must_use]
+pub fn normalised(path: &Path) -> PathBuf {
+    let mut normalised = PathBuf::new();
+    for part in path.components() {
+        match (part, normalised.components().next_back()) {
+            (Component::CurDir, _) | (Component::ParentDir, Some(Component::RootDir | Component::Prefix(_))) => {}
+            (Component::ParentDir, Some(Component::Normal(_))) => drop(normalised.pop()),
+            _ => normalised.push(part),
+        }
+    }
+    normalised
 }
 
 pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {

@@ -576,7 +576,7 @@ fn the_order_of_declarations_means_nothing() {
         let tree = syntax::parse(&sources, file).tree;
         let mechanism = &tree.mechanisms[0];
         let follow = |mechanism: &ast::Mechanism| {
-            let file = ast::File { mechanisms: vec![mechanism.clone()] };
+            let file = ast::File { uses: Vec::new(), mechanisms: vec![mechanism.clone()] };
             let (compiled, outcome) = compile_number(&path, &syntax::format(&file), 0);
             let span = compiled
                 .as_ref()

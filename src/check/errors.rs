@@ -1,5 +1,6 @@
 //! What is said of a mechanism that does not pass.
 
+pub mod library;
 mod parts;
 
 pub use parts::*;

@@ -2,11 +2,12 @@
 //! is repeated in it written out. Instances of one text that come out the same are one.
 
 use super::errors;
+use super::library::{Library, NotKnown};
 use super::mentions::{formulas, indices, mentioned};
 use super::parts::BoundParam;
 use super::repetition::{Copies, MOST, Numbers, Writer, name_of, named, needs_writing};
 use super::{Checker, Surroundings};
-use crate::diag::{Diagnostic, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::source::Sources;
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -14,26 +15,6 @@ use std::rc::Rc;
 
 /// Levels of parts within parts.
 const DEEPEST: usize = 32;
-
-/// The mechanisms that texts may use as parts.
-pub trait Library {
-    /// The one that a part names.
-    ///
-    /// # Errors
-    /// Why there is none.
-    fn mechanism(&self, wanted: &MechanismName) -> Result<&Mechanism, Box<Diagnostic>>;
-}
-
-/// Those of one text, under their own names.
-impl Library for &[Mechanism] {
-    fn mechanism(&self, wanted: &MechanismName) -> Result<&Mechanism, Box<Diagnostic>> {
-        let found = self.iter().find(|mechanism| mechanism.name.text == wanted.name.text);
-        found.filter(|_| wanted.prefix.is_none()).ok_or_else(|| {
-            let names: Vec<&str> = self.iter().map(|mechanism| mechanism.name.text.as_str()).collect();
-            Box::new(errors::no_such_mechanism(wanted, &names))
-        })
-    }
-}
 
 /// A mechanism as it is checked.
 pub(super) struct Instance<'t> {
@@ -104,12 +85,11 @@ impl<'t> Instance<'t> {
 /// The instance of a mechanism that stands alone, and what is wrong with its ranges and parts.
 pub(super) fn instance_of<'t>(
     tree: &'t Mechanism,
-    library: &'t dyn Library,
-    surroundings: &Surroundings,
+    surroundings: &'t Surroundings,
     sources: &Sources,
 ) -> (Rc<Instance<'t>>, Diagnostics) {
     let mut builder = Builder {
-        library,
+        library: &surroundings.library,
         surroundings,
         sources,
         deciding: FxHashMap::default(),
@@ -123,7 +103,7 @@ pub(super) fn instance_of<'t>(
 }
 
 struct Builder<'t, 's> {
-    library: &'t dyn Library,
+    library: &'t Library,
     surroundings: &'s Surroundings,
     sources: &'s Sources,
     /// By the text of a mechanism.
@@ -199,16 +179,22 @@ impl<'t> Builder<'t, '_> {
         Instance { mechanism: tree, written: Some(found), parts, part_named, paths, deciding, copies, count }
     }
 
+    fn find(&self, name: &MechanismName) -> Result<&'t Mechanism, NotKnown> {
+        let found = self.library.find(name.prefix.as_ref(), &name.name, self.sources)?;
+        Ok(self.library.tree(found))
+    }
+
     /// The mechanism that a part is, unless that contains itself or is too deep.
     fn mechanism_of(&mut self, part: &'t ast::Part) -> Option<&'t Mechanism> {
-        let mechanism = match self.library.mechanism(&part.mechanism) {
+        let mechanism = match self.find(&part.mechanism) {
             Ok(mechanism) => mechanism,
-            Err(why) => {
+            Err(NotKnown::Said) => return None,
+            Err(NotKnown::Told(why)) => {
                 self.diagnostics.push(*why);
                 return None;
             }
         };
-        if let Some(first) = self.around.iter().position(|around| std::ptr::eq(*around, mechanism)) {
+        if let Some(first) = self.around.iter().position(|around| around.name.span == mechanism.name.span) {
             let circle: Vec<&str> = self.around[first..].iter().map(|around| around.name.text.as_str()).collect();
             self.diagnostics.push(errors::contains_itself(&part.mechanism, &circle));
             return None;
@@ -264,7 +250,7 @@ impl<'t> Builder<'t, '_> {
             open.extend(tree.items.iter().flat_map(formulas).flat_map(indices));
             for item in &tree.items {
                 let ItemKind::Part(part) = &item.kind else { continue };
-                let Ok(mechanism) = self.library.mechanism(&part.mechanism) else { continue };
+                let Ok(mechanism) = self.find(&part.mechanism) else { continue };
                 let inside = self.deciding(mechanism);
                 let bindings = part.bindings.iter().filter(|binding| inside.contains(&binding.name.text));
                 open.extend(bindings.map(|binding| &binding.value));

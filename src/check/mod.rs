@@ -17,6 +17,7 @@ mod instead;
 mod joints;
 mod kinds;
 mod lengths;
+mod library;
 mod meaning;
 mod meant;
 mod mends;
@@ -38,7 +39,7 @@ mod table_file;
 mod tables;
 
 pub use inputs::Given;
-pub use instances::Library;
+pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 
@@ -69,6 +70,8 @@ const MOST_SUGGESTIONS: usize = 100;
 pub struct Surroundings {
     /// Parameters set from outside.
     pub settings: Vec<Setting>,
+    /// The files that it uses.
+    pub library: Library,
     /// The files that its tables name.
     pub files: TableFiles,
     /// What inputs are told to be.
@@ -102,11 +105,10 @@ pub fn check_file(file: &ast::File) -> Diagnostics {
 #[must_use]
 pub fn check(
     tree: &ast::Mechanism,
-    library: &dyn Library,
     surroundings: &Surroundings,
     sources: &Sources,
 ) -> (Option<Mechanism>, Diagnostics) {
-    let (instance, told) = instances::instance_of(tree, library, surroundings, sources);
+    let (instance, told) = instances::instance_of(tree, surroundings, sources);
     let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;

@@ -7,7 +7,8 @@ use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows, WrittenUnit,
+    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows, Use as UsedFile,
+    WrittenUnit,
 };
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
@@ -30,6 +31,8 @@ impl NameId {
 pub enum NameKind {
     /// `mechanism`
     Mechanism,
+    /// What stands behind `as`, and before the names of a used file's mechanisms.
+    Prefix,
     /// `param`
     Param,
     /// `fn`
@@ -112,20 +115,23 @@ pub struct Symbols {
 }
 
 impl Symbols {
-    /// The names of a mechanism; the text is that of its file, where its keywords stand.
+    /// The names of a mechanism, and of the files that its file uses; the text is that of its file, where its keywords stand.
     #[must_use]
-    pub fn of(tree: &Mechanism, text: &str) -> Symbols {
+    pub fn of(tree: &Mechanism, uses: &[UsedFile], text: &str) -> Symbols {
         let point_params = kinds::point_params(tree);
         let mut walk = Walk { point_params, hidden: kinds::own_functions(tree), ..Walk::default() };
         walk.mechanism(tree);
+        walk.prefixes(uses);
         let mut symbols = walk.symbols;
-        symbols.add_keywords(tree.span, text);
+        for span in uses.iter().map(|used| used.span).chain([tree.span]) {
+            symbols.add_keywords(span, text);
+        }
         // where a name declares and is a use of another one, it is the declaration that `at` finds
         symbols.uses.sort_by_key(|used| (used.span, used.declares));
         symbols
     }
 
-    /// All declarations, in the order of the text.
+    /// All declarations, in the order of the text, prefixes of used files last.
     pub fn iter(&self) -> impl Iterator<Item = (NameId, &DeclaredName)> {
         self.symbols.iter().enumerate().map(|(k, symbol)| (NameId(k as u32), symbol))
     }
@@ -203,6 +209,14 @@ impl Walk<'_> {
         let items: Vec<Option<NameId>> = tree.items.iter().map(|item| self.item(item)).collect();
         for (item, id) in tree.items.iter().zip(items) {
             self.uses_in(item, id);
+        }
+    }
+
+    fn prefixes(&mut self, uses: &[UsedFile]) {
+        for used in uses {
+            if let Some(prefix) = &used.prefix {
+                self.declare(prefix, NameKind::Prefix, used.span, None);
+            }
         }
     }
 
@@ -521,7 +535,7 @@ mod tests {
         let mut sources = Sources::default();
         let file = sources.add("a.mech", text);
         let parsed = syntax::parse(&sources, file);
-        let symbols = Symbols::of(&parsed.tree.mechanisms[0], text);
+        let symbols = Symbols::of(&parsed.tree.mechanisms[0], &parsed.tree.uses, text);
         (sources, symbols)
     }
 
@@ -607,6 +621,16 @@ mod tests {
         let called =
             text.replace('‸', "").replace(" param", " fn slip(u) = u\n param").replace("speed(b.P)", "‸slip(1)");
         assert_eq!(places(&called).len(), 2);
+    }
+
+    #[test]
+    fn prefixes_of_used_files_are_names() {
+        let text = "use \"a.mech\"\nuse \"b.mech\" as ‸use // one\nmechanism m {\n body as { point use = (0, 0) }\n}";
+        assert_eq!(places(text), ["use \"b.mech\" as use // one"]);
+        let (_, symbols) = symbols(&text.replace('‸', ""));
+        let words = symbols.uses().filter(|used| matches!(used.meaning, Meaning::Word(_)));
+        let starts: Vec<u32> = words.map(|used| used.span.start).filter(|start| *start < 40).collect();
+        assert_eq!(starts, [0, 13, 26], "`use`, `use` and `as`, and not the prefix");
     }
 
     #[test]

@@ -18,8 +18,8 @@ const AT_THE_END: f64 = 1e-12;
 /// How much the ends of a periodic table may differ, as a part of its largest value: rounding.
 const SAME: f64 = 1e-12;
 
-/// The texts of the files that tables name, by the path as written; or why one cannot be read.
-pub type TableFiles = FxHashMap<String, Result<FileId, Box<Diagnostic>>>;
+/// The texts of the files that tables name, by the text that names one and the path as written; or why one cannot be read.
+pub type TableFiles = FxHashMap<(FileId, String), Result<FileId, Box<Diagnostic>>>;
 
 /// What is known of a table.
 pub(super) struct TableState<'a> {
@@ -192,7 +192,7 @@ impl<'a> Checker<'a> {
 
     /// The text that a table names, if it could be read.
     fn file_of_table(&mut self, path: &Name) -> Option<FileId> {
-        match self.files.get(&path.text) {
+        match self.files.get(&(path.span.file, path.text.clone())) {
             Some(Ok(file)) => Some(*file),
             Some(Err(diagnostic)) => {
                 let named = "named here";

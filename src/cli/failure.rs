@@ -51,6 +51,8 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
     }
     match first.code {
         _ if on_the_way => ANALYSIS,
+        // a file that a text names is a part of the text
+        Code::E0701 if !first.labels.is_empty() => INPUT,
         Code::E0701 | Code::E0702 => FILES,
         Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
         _ => INPUT,

@@ -37,6 +37,19 @@ impl World for Disk {
     fn read(&self, path: &Path) -> io::Result<Contents> {
         Ok(Contents { bytes: fs::read(path)?.into(), version: 0 })
     }
+
+    fn names_in(&self, folder: &Path) -> Vec<String> {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let files = entries.filter(|entry| !entry.path().is_dir());
+        let mut names: Vec<String> = files.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    fn identity(&self, path: &Path) -> PathBuf {
+        path.canonicalize().unwrap_or_else(|_| world::normalised(path))
+    }
 }
 
 fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {

@@ -32,17 +32,19 @@ pub(super) fn fix(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Fail
     if parsed.file() != first || input.file == "-" {
         let mark = if has_mark { "\u{feff}" } else { "" };
         let text = format!("{mark}{}", reporter.sources.get(parsed.file()).text);
-        Output::replace(&input.file, &text).map_err(|why| unwritten(why, &read(first, reporter)))?;
+        Output::replace(&input.file, &text).map_err(|why| unwritten(why, &read(first, reporter), reporter))?;
     }
     reporter.made(&made, first);
     Ok(parsed)
 }
 
 /// Why a mended text could not be written, with all that is wrong with the one that stays.
-fn unwritten(why: Failure, stays: &Parsed) -> Failure {
+fn unwritten(why: Failure, stays: &Parsed, reporter: &mut Reporter) -> Failure {
     match why {
         Failure::Said(mut said) => {
-            said.extend(stays.check(&Choice::default(), &Disk).diagnostics().iter().cloned());
+            let checked = stays.check(&Choice::default(), &Disk);
+            reporter.sources = checked.sources().clone();
+            said.extend(checked.diagnostics().iter().cloned());
             Failure::Said(said)
         }
         Failure::ReaderGone => Failure::ReaderGone,

@@ -54,6 +54,6 @@ pub fn import(model: FileId, settings: Option<FileId>, sources: &Sources) -> (Op
         }
         said.sort_by_place();
         let mechanisms = mechanism.filter(|_| !said.has_errors()).map(|mechanism| vec![mechanism]);
-        (mechanisms.map(|mechanisms| ast::File { mechanisms }), said)
+        (mechanisms.map(|mechanisms| ast::File { uses: Vec::new(), mechanisms }), said)
     })
 }

@@ -1,12 +1,13 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
+use super::used::{self, Used};
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
-use crate::check::{self, Given, Setting, Surroundings, Symbols, TableFiles};
+use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
 use crate::lower;
 use crate::model::Mechanism;
-use crate::source::Sources;
+use crate::source::{FileId, Sources, Span};
 use crate::syntax::{self, ast};
 use crate::world::{self, World};
 use std::path::PathBuf;
@@ -40,6 +41,7 @@ pub struct Checked {
     parsed: Parsed,
     /// Its number in the file.
     number: Option<usize>,
+    library: Library,
     model: Option<Arc<Mechanism>>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
@@ -64,36 +66,41 @@ impl Parsed {
         if !of_syntax.is_empty() {
             return of_syntax;
         }
-        let all =
-            (0..self.mechanisms().len()).map(|number| Checked::of_number(self, number, &Choice::default(), world));
+        let used = used::read(self, world);
+        let all = (0..self.mechanisms().len())
+            .map(|number| Checked::of_number(self, &used, number, &Choice::default(), world));
         all.flat_map(|checked| certain(checked.diagnostics())).collect()
     }
 }
 
 impl Checked {
     fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
+        let used = used::read(parsed, world);
         match chosen(parsed, choice.mechanism.as_deref()) {
-            Ok(number) => Checked::of_number(parsed, number, choice, world),
+            Ok(number) => Checked::of_number(parsed, &used, number, choice, world),
             Err(why) => {
                 let mut diagnostics = parsed.faults().clone();
                 // a mechanism that cannot be read may be the one
                 let is_read = diagnostics.is_empty();
                 diagnostics.extend(check::check_file(parsed.tree()));
+                diagnostics.extend(used.said.clone());
                 diagnostics.extend((is_read && !diagnostics.has_errors()).then_some(*why));
-                Checked::with(parsed.clone(), None, None, diagnostics)
+                let library = used.library;
+                Checked::with(parsed.with_sources(used.sources), None, library, None, diagnostics)
             }
         }
     }
 
     /// The mechanism of a number, with settings from outside.
-    fn of_number(parsed: &Parsed, number: usize, choice: &Choice, world: &dyn World) -> Checked {
-        let mut sources = parsed.sources().clone();
+    fn of_number(parsed: &Parsed, used: &Used, number: usize, choice: &Choice, world: &dyn World) -> Checked {
+        let (mut sources, library) = (used.sources.clone(), used.library.clone());
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));
+        diagnostics.extend(used.said.clone());
         let tree = &parsed.tree().mechanisms[number];
         let settings = settings(&choice.set, &mut sources);
         let given = given(choice, world, &mut sources);
-        let files = table_files(parsed, tree, world, &mut sources);
+        let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let mut model = None;
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
@@ -102,27 +109,24 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let (found, said) = check::check(
-                    tree,
-                    &parsed.tree().mechanisms.as_slice(),
-                    &Surroundings { settings, files, given },
-                    &sources,
-                );
+                let surroundings = Surroundings { settings, library: library.clone(), files, given };
+                let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
             }
         }
-        Checked::with(parsed.with_sources(sources), Some(number), model, diagnostics)
+        Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics)
     }
 
     fn with(
         parsed: Parsed,
         number: Option<usize>,
+        library: Library,
         model: Option<Arc<Mechanism>>,
         mut diagnostics: Diagnostics,
     ) -> Checked {
         diagnostics.sort_by_place();
-        Checked { parsed, number, model, diagnostics: Arc::new(diagnostics), symbols: Arc::default() }
+        Checked { parsed, number, library, model, diagnostics: Arc::new(diagnostics), symbols: Arc::default() }
     }
 
     /// The texts that its diagnostics speak of.
@@ -149,9 +153,17 @@ impl Checked {
         self.symbols.get_or_init(|| match self.number {
             None => Symbols::default(),
             Some(number) => {
-                Symbols::of(&self.parsed.tree().mechanisms[number], &self.sources().get(self.parsed.file()).text)
+                let tree = self.parsed.tree();
+                Symbols::of(&tree.mechanisms[number], &tree.uses, &self.sources().get(self.parsed.file()).text)
             }
         })
+    }
+
+    /// The files that its text uses, as far as they can be read: each with the place that names it.
+    pub fn used_files(&self) -> impl Iterator<Item = (Span, FileId)> {
+        let files = self.library.files();
+        let own = files.iter().take(1).flat_map(|own| own.read.tree.uses.iter().zip(&own.uses));
+        own.filter_map(|(used, number)| Some((used.path.as_ref()?.span, files[(*number)?].id)))
     }
 
     /// The mechanism with its names resolved, as a text; nothing where it is not sound.
@@ -177,16 +189,23 @@ impl Checked {
     }
 }
 
+/// The only mechanism of some that is not a part of another one of them; each with the names of its parts.
+fn outermost(mechanisms: &[(&str, Vec<&str>)]) -> Option<usize> {
+    let is_part = |name: &str| mechanisms.iter().any(|(other, parts)| *other != name && parts.contains(&name));
+    let mut others = (0..mechanisms.len()).filter(|&number| !is_part(mechanisms[number].0));
+    others.next().filter(|_| others.next().is_none())
+}
+
 fn chosen(parsed: &Parsed, wanted: Option<&str>) -> Result<usize, Box<Diagnostic>> {
     let names: Vec<&str> = parsed.mechanisms().collect();
+    let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_own_parts).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
     let file = &parsed.sources().get(parsed.file()).name;
     match wanted.map(syntax::normalized) {
-        None if names.len() == 1 => Ok(0),
-        None => Err(Box::new(
-            Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()))
-                .help(format!("choose one with `--mechanism NAME`; {listed}")),
-        )),
+        None => outermost(&with_parts).ok_or_else(|| {
+            let said = Diagnostic::new(Code::E0704, format!("`{file}` holds {} mechanisms", names.len()));
+            Box::new(said.help(format!("choose one with `--mechanism NAME`; {listed}")))
+        }),
         Some(name) => names.iter().position(|known| *known == name).ok_or_else(|| {
             let meant = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
             let said = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
@@ -195,15 +214,51 @@ fn chosen(parsed: &Parsed, wanted: Option<&str>) -> Result<usize, Box<Diagnostic
     }
 }
 
-/// The files that a mechanism's tables name.
-fn table_files(parsed: &Parsed, tree: &ast::Mechanism, world: &dyn World, sources: &mut Sources) -> TableFiles {
-    let mut files = TableFiles::default();
-    for item in &tree.items {
-        if let ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } = &item.kind
-            && !files.contains_key(&path.text)
-        {
-            files.insert(path.text.clone(), world::text_of(world, &parsed.beside(&path.text), sources));
+/// The name of a mechanism, with the mechanisms of its own text that it has for parts.
+fn with_own_parts(tree: &ast::Mechanism) -> (&str, Vec<&str>) {
+    let own = parts(tree).filter(|name| name.prefix.is_none());
+    (&tree.name.text, own.map(|name| name.name.text.as_str()).collect())
+}
+
+/// The mechanisms that a mechanism has for parts.
+fn parts(tree: &ast::Mechanism) -> impl Iterator<Item = &ast::MechanismName> {
+    tree.items.iter().filter_map(|item| match &item.kind {
+        ast::ItemKind::Part(part) => Some(&part.mechanism),
+        _ => None,
+    })
+}
+
+/// A mechanism and all that it has for parts, directly or by way of others, each once.
+fn with_parts<'t>(library: &'t Library, tree: &'t ast::Mechanism, sources: &Sources) -> Vec<&'t ast::Mechanism> {
+    let (mut found, mut next) = (vec![tree], 0);
+    while let Some(tree) = found.get(next).copied() {
+        next += 1;
+        for name in parts(tree) {
+            if let Ok(known) = library.find(name.prefix.as_ref(), &name.name, sources) {
+                let part = library.tree(known);
+                if !found.iter().any(|tree| tree.name.span == part.name.span) {
+                    found.push(part);
+                }
+            }
         }
+    }
+    found
+}
+
+/// The files that the tables of some mechanisms name.
+fn table_files<'t>(
+    library: &Library,
+    trees: impl IntoIterator<Item = &'t ast::Mechanism>,
+    world: &dyn World,
+    sources: &mut Sources,
+) -> TableFiles {
+    let mut files = TableFiles::default();
+    for item in trees.into_iter().flat_map(|tree| &tree.items) {
+        let ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } = &item.kind else { continue };
+        files.entry((path.span.file, path.text.clone())).or_insert_with(|| {
+            let path = world::beside(&library.path_of(path.span.file).to_string_lossy(), &path.text);
+            world::text_of(world, &path, sources)
+        });
     }
     files
 }

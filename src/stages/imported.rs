@@ -22,7 +22,7 @@ pub fn imported(model: FileId, settings: Option<FileId>, sources: &Sources) -> (
 fn without_value(file: &ast::File, sources: &Sources) -> Diagnostics {
     let mut found = Diagnostics::default();
     for mechanism in &file.mechanisms {
-        let (_, said) = check::check(mechanism, &[].as_slice(), &Surroundings::default(), sources);
+        let (_, said) = check::check(mechanism, &Surroundings::default(), sources);
         found.extend(said.into_iter().filter(|one| matches!(one.code, Code::E0404 | Code::E0410)));
     }
     found

@@ -4,7 +4,7 @@ use crate::diag::Diagnostics;
 use crate::source::{FileId, Sources};
 use crate::syntax::{self, Trivia, ast};
 use crate::world::{self, World};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 /// A file that was read, whatever its faults.
@@ -89,6 +89,16 @@ impl Parsed {
         is_whole.then(|| syntax::format_with_comments(&self.read.tree, &self.read.trivia, text))
     }
 
+    /// What was read.
+    pub(super) fn shared(&self) -> Arc<syntax::Parsed> {
+        Arc::clone(&self.read)
+    }
+
+    /// Beside which the files are that it names.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     pub(super) fn tree(&self) -> &ast::File {
         &self.read.tree
     }
@@ -96,10 +106,5 @@ impl Parsed {
     /// The same, with more texts beside it.
     pub(super) fn with_sources(&self, sources: Sources) -> Parsed {
         Parsed { sources, ..self.clone() }
-    }
-
-    /// A file that its text names.
-    pub(super) fn beside(&self, named: &str) -> PathBuf {
-        world::beside(&self.path.to_string_lossy(), named)
     }
 }

@@ -14,8 +14,25 @@ pub struct Name {
 /// A whole file.
 #[derive(Clone, PartialEq, Debug)]
 pub struct File {
+    /// The files that it uses, in order.
+    pub uses: Vec<Use>,
     /// In order.
     pub mechanisms: Vec<Mechanism>,
+}
+
+/// `use "FILE.mech" as PREFIX`
+#[derive(Clone, PartialEq, Debug)]
+pub struct Use {
+    /// The text of the `///` lines above.
+    pub docs: Vec<String>,
+    /// All of it.
+    pub span: Span,
+    /// The path as written, with the place of the string; nothing where it cannot be read.
+    pub path: Option<Name>,
+    /// What stands before the names of its mechanisms.
+    pub prefix: Option<Name>,
+    /// Whether a part of it does not follow the grammar: it may have been meant to give any name.
+    pub is_broken: bool,
 }
 
 /// `mechanism NAME { … }`.

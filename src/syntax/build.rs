@@ -1,8 +1,8 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
 use super::ast::{
-    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism,
-    MechanismName, Name, Part, Pose, Range as Repetition, TableRows, UnitFactor, WrittenUnit,
+    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism,
+    MechanismName, Name, Part, Pose, Range as Repetition, TableRows, UnitFactor, Use, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
@@ -129,10 +129,36 @@ impl Reader<'_> {
         pair.into_inner().next().ok_or_else(|| self.truncated())
     }
 
-    /// All mechanisms of a file.
-    pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<Vec<Mechanism>> {
-        let mechanisms = pair.into_inner().filter(|pair| pair.as_rule() == Rule::mechanism);
-        mechanisms.map(|pair| self.mechanism(pair)).collect()
+    /// A whole file.
+    pub(super) fn file(&self, pair: Pair<'_, Rule>) -> Built<File> {
+        let (mut uses, mut mechanisms) = (Vec::new(), Vec::new());
+        for pair in pair.into_inner() {
+            match pair.as_rule() {
+                Rule::use_file => uses.push(self.use_file(pair)?),
+                Rule::mechanism => mechanisms.push(self.mechanism(pair)?),
+                _ => {}
+            }
+        }
+        Ok(File { uses, mechanisms })
+    }
+
+    /// `use "FILE.mech" as PREFIX`
+    pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<Use> {
+        let span = self.span(&pair);
+        let (mut path, mut prefix) = (None, None);
+        for part in pair.into_inner() {
+            match part.as_rule() {
+                Rule::string => path = Some(self.unquoted_name(&part)),
+                Rule::use_prefix => prefix = Some(self.name(&self.only(part)?)?),
+                _ => {}
+            }
+        }
+        Ok(Use { docs: self.docs_above(span.start), span, path, prefix, is_broken: false })
+    }
+
+    /// What stands between the quotes of a string, with the place of the string.
+    fn unquoted_name(&self, string: &Pair<'_, Rule>) -> Name {
+        Name { text: unquoted(string.as_str()).to_owned(), span: self.span(string) }
     }
 
     fn mechanism(&self, pair: Pair<'_, Rule>) -> Built<Mechanism> {
@@ -315,7 +341,7 @@ impl Reader<'_> {
     fn table_file(&self, pair: Pair<'_, Rule>) -> Built<TableRows> {
         let mut inner = pair.into_inner();
         let string = inner.next().ok_or_else(|| self.truncated())?;
-        let path = Name { text: unquoted(string.as_str()).to_owned(), span: self.span(&string) };
+        let path = self.unquoted_name(&string);
         let (mut columns, mut units) = (None, Vec::new());
         for pair in inner {
             match pair.as_rule() {
@@ -509,6 +535,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::columns
             | Rule::column
             | Rule::analysis
+            | Rule::use_file
     )
 }
 

@@ -24,6 +24,12 @@ pub fn no_mechanism(span: Span) -> Diagnostic {
         .help("a file begins with `mechanism NAME {`")
 }
 
+/// A `use` behind a mechanism.
+pub fn late_use(span: Span) -> Diagnostic {
+    misplaced(span, "a `use` stands before the mechanisms", "not expected here")
+        .help("move it to the top of the file, above the first `mechanism`")
+}
+
 /// A fault that the grammar let pass and the tree builder did not.
 pub fn misplaced(span: Span, message: &str, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0101, message).at(span, label)
@@ -119,6 +125,12 @@ pub fn from_pest(error: &Error<Rule>, source: &Source, file: FileId, base: usize
     let length = string.map_or(word.len(), |inside| word.len() + inside + 1);
     let span = Span { file, start: found.start as u32, end: (found.start + length) as u32 };
     let rules = match &error.variant {
+        // no prefix is called `use`, if a file follows: that is the next one
+        ErrorVariant::ParsingError { positives, negatives }
+            if positives.is_empty() && negatives.contains(&Rule::kw_use) =>
+        {
+            &[Rule::use_prefix]
+        }
         ErrorVariant::ParsingError { positives, .. } => positives.as_slice(),
         ErrorVariant::CustomError { .. } => &[],
     };
@@ -348,7 +360,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_axis
         | Rule::kw_circle
         | Rule::kw_curve => "a point, axis, circle or curve",
-        Rule::name | Rule::name_text | Rule::word | Rule::ground_word => "a name",
+        Rule::name | Rule::use_prefix | Rule::name_text | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
         | Rule::conditional

@@ -11,7 +11,7 @@ mod expression;
 
 use super::ast::{
     Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name,
-    Part, Pose, Range, TableRows, WrittenUnit,
+    Part, Pose, Range, TableRows, Use, WrittenUnit,
 };
 use super::trivia::Trivia;
 use comments::{Comments, lines};
@@ -39,10 +39,33 @@ pub fn format_with_comments(file: &File, trivia: &Trivia, text: &str) -> String 
 }
 
 fn format_with(file: &File, mut comments: Comments<'_>) -> String {
-    let mechanisms: Vec<String> = file.mechanisms.iter().map(|of_file| mechanism(of_file, &mut comments)).collect();
-    let text = mechanisms.join("\n");
+    let uses = (!file.uses.is_empty()).then(|| uses(&file.uses, &mut comments));
+    let mechanisms = file.mechanisms.iter().map(|of_file| mechanism(of_file, &mut comments));
+    let blocks: Vec<String> = uses.into_iter().chain(mechanisms).collect();
+    let text = blocks.join("\n");
     let rest = lines(&comments.rest(), "");
     if text.is_empty() || rest.is_empty() { text + &rest } else { format!("{text}\n{rest}") }
+}
+
+/// The files that are used, a line each.
+fn uses(uses: &[Use], comments: &mut Comments<'_>) -> String {
+    let mut rows = Vec::new();
+    for used in uses {
+        let above = comments.before(used.span.end);
+        let behind = comments.behind(used.span.end);
+        rows.push(Row { above, docs: &used.docs, cells: use_cells(used), behind });
+    }
+    columns(&rows, "")
+}
+
+fn use_cells(used: &Use) -> Vec<String> {
+    // what is broken has no form
+    let Some(path) = &used.path else { return Vec::new() };
+    let path = format!("\"{}\"", path.text);
+    match &used.prefix {
+        Some(prefix) => cells(["use", &path, &format!("as {}", prefix.text)]),
+        None => cells(["use", &path]),
+    }
 }
 
 fn mechanism(mechanism: &Mechanism, comments: &mut Comments<'_>) -> String {

@@ -4,6 +4,7 @@ mod brackets;
 mod characters;
 mod semicolons;
 mod separators;
+mod uses;
 
 use super::grammar::Rule;
 use super::tokens::{Token, begins_declaration, next_token};
@@ -92,7 +93,7 @@ impl Fault<'_> {
     pub fn mend(&self, expected: &str) -> Option<Mend> {
         let of_words = || self.of_a_keyword().or_else(|| self.of_a_word());
         let missing = || self.closing().or_else(|| self.separator(expected)).map(Mend::Fix);
-        self.of_a_character().or_else(of_words).or_else(missing)
+        self.of_a_use().or_else(|| self.of_a_character()).or_else(of_words).or_else(missing)
     }
 
     fn of_a_keyword(&self) -> Option<Mend> {

@@ -5,6 +5,7 @@ use super::tokens::{Token, tokens};
 use crate::diag::nearest;
 use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_ground};
 use rustc_hash::FxHashSet;
+use std::ops::Range;
 
 /// The words of a text with what they may be the beginning of.
 pub(super) struct Outline<'a> {
@@ -80,6 +81,32 @@ impl<'a> Outline<'a> {
     /// One past the end of a token.
     pub fn end(&self, k: usize) -> usize {
         self.tokens.get(k).map_or(self.text.len(), |token| token.end())
+    }
+
+    /// The bytes of a token.
+    pub fn range(&self, k: usize) -> Range<usize> {
+        self.start(k)..self.end(k)
+    }
+
+    /// Whether a file is used at a token: its word, which is a name in other places, before a string or at the beginning of a line.
+    pub fn begins_use(&self, k: usize) -> bool {
+        self.word(k) == "use" && (self.string_behind(k).is_some() || self.is_first_on_its_line(k))
+    }
+
+    /// The string right behind a token.
+    pub fn string_behind(&self, k: usize) -> Option<Token<'a>> {
+        self.tokens.get(k + 1).copied().filter(|token| token.text.starts_with('"'))
+    }
+
+    /// Where what is said of a used file ends: at the next one, at a mechanism, or with its line, unless the next line goes on with it.
+    pub fn end_of_use(&self, k: usize) -> usize {
+        let goes_on = |next: usize| {
+            let is_prefix = self.word(next - 1) == "as" && self.string_behind(next).is_none();
+            self.word(next) == "as" || self.word(next).starts_with('"') || is_prefix
+        };
+        let is_next = |next: usize| self.is_first_on_its_line(next) || self.begins_use(next);
+        let ends = |&next: &usize| self.word(next) == "mechanism" || is_next(next) && !goes_on(next);
+        (k + 1..self.tokens.len()).find(ends).unwrap_or(self.tokens.len())
     }
 
     pub fn is_behind_the_last(&self, k: usize) -> bool {

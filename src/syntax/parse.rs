@@ -6,7 +6,7 @@
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
-use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name};
+use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Use};
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
@@ -43,19 +43,19 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let source = sources.get(file);
     let whole = Piece { source, file, range: 0..source.text.len() };
     // once for the whole text: a stack of its own takes longer than most declarations
-    let (mechanisms, mut faults) = stacker::maybe_grow(STACK, STACK, || {
+    let (tree, mut faults) = stacker::maybe_grow(STACK, STACK, || {
         let at_once = whole.read(Rule::file, |reader, pair| reader.file(pair));
-        at_once.map_or_else(|_| by_declarations(source, file), |mechanisms| (mechanisms, Diagnostics::default()))
+        at_once.map_or_else(|_| by_declarations(source, file), |tree| (tree, Diagnostics::default()))
     });
-    if mechanisms.is_empty() && faults.is_empty() {
+    if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
     faults.sort_by_place();
-    Parsed { tree: File { mechanisms }, trivia: trivia::of(&source.text, file), faults }
+    Parsed { tree, trivia: trivia::of(&source.text, file), faults }
 }
 
-/// The mechanisms of a text that may have faults, with those.
-fn by_declarations(source: &Source, file: FileId) -> (Vec<Mechanism>, Diagnostics) {
+/// The tree of a text that may have faults, with those.
+fn by_declarations(source: &Source, file: FileId) -> (File, Diagnostics) {
     let mut reading = Reading {
         source,
         file,
@@ -66,8 +66,8 @@ fn by_declarations(source: &Source, file: FileId) -> (Vec<Mechanism>, Diagnostic
         has_told_the_end: false,
         last_told: None,
     };
-    let mechanisms = reading.file();
-    (mechanisms, reading.faults)
+    let tree = reading.file();
+    (tree, reading.faults)
 }
 
 /// A formula alone, as the command line takes it.
@@ -98,10 +98,18 @@ struct Reading<'a> {
 }
 
 impl Reading<'_> {
-    fn file(&mut self) -> Vec<Mechanism> {
-        let mut mechanisms: Vec<Mechanism> = Vec::new();
+    fn file(&mut self) -> File {
+        let (mut uses, mut mechanisms): (Vec<Use>, Vec<Mechanism>) = (Vec::new(), Vec::new());
         let mut is_outside_told = false;
         while !self.outline.is_behind_the_last(self.at) {
+            if self.outline.begins_use(self.at) {
+                if !mechanisms.is_empty() {
+                    self.tell(Box::new(errors::late_use(self.span(self.outline.range(self.at)))));
+                }
+                let used = self.used_file();
+                uses.push(used);
+                continue;
+            }
             if self.outline.word(self.at) == "mechanism"
                 || self.outline.block_behind(self.at).is_some_and(|k| k == self.at + 2)
             {
@@ -122,7 +130,35 @@ impl Reading<'_> {
                 _ => self.at = (self.at + 1).max(self.outline.resumption(self.at)),
             }
         }
-        mechanisms
+        File { uses, mechanisms }
+    }
+
+    /// `use "FILE.mech" as PREFIX`; one at fault keeps what can be read of it.
+    fn used_file(&mut self) -> Use {
+        let first = self.at;
+        let (start, next) = (self.outline.start(first), self.outline.end_of_use(first));
+        let make = |reader: &Reader<'_>, pair: Pair<'_, Rule>| reader.use_file(reader.only(pair)?);
+        let read = self.piece(start..self.outline.start(next)).read(Rule::only_use, make).or_else(|_| {
+            let last = if self.outline.string_behind(next).is_some() { next + 1 } else { next };
+            let piece = self.piece(start..self.outline.end(last));
+            piece.read(Rule::use_and_next, make).map_err(|refused| piece.fault(refused, self.sees_mends()))
+        });
+        let fault = match read {
+            Ok(used) => {
+                self.at = self.outline.index_at(used.span.end as usize);
+                return used;
+            }
+            Err(fault) => fault,
+        };
+        self.tell(fault);
+        self.at = next;
+        let path = self.outline.string_behind(first);
+        let path = path.map(|token| Name {
+            text: token.text.trim_matches('"').to_owned(),
+            span: self.span(token.start..token.end()),
+        });
+        let span = self.span(start..self.outline.end_before(next));
+        Use { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
     }
 
     /// `mechanism NAME { … }`, if it is more than a word.
@@ -483,24 +519,25 @@ mod tests {
     }
 
     const TEXT: &str = include_str!("../../examples/table_driven.mech");
+    const USES: &str = "/// Both.\nuse \"a.mech\" // of one\nuse\n\"../b.mech\" as\nuse use \"c.mech\" as mechanisms /// m\nmechanism m { body use { point as = (0, 0) } }\nmechanism n {}";
     const MORE: &str = include_str!("../../examples/cam_with_dwells.mech");
 
     #[test]
     fn a_text_without_faults_has_one_tree_both_ways() {
-        for text in [TEXT, MORE, include_str!("../../tests/stages/everything/input.mech")] {
+        for text in [TEXT, MORE, USES, include_str!("../../tests/stages/everything/input.mech")] {
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text);
-            let (mechanisms, faults) = super::by_declarations(sources.get(file), file);
+            let (tree, faults) = super::by_declarations(sources.get(file), file);
             assert!(faults.is_empty(), "{faults:?}");
-            assert_eq!(parse(&sources, file).tree.mechanisms, mechanisms);
+            assert_eq!(parse(&sources, file).tree, tree);
         }
     }
 
     #[test]
     fn what_is_read_without_faults_is_what_the_grammar_has() {
         let (mut state, mut refused) = (1, 0);
-        for k in 0..600 {
-            let text = damaged(if k % 2 == 0 { TEXT } else { MORE }, &mut state);
+        for k in 0..900 {
+            let text = damaged([TEXT, MORE, USES][k % 3], &mut state);
             let is_in_the_grammar = Grammar::parse(Rule::file, &text).is_ok();
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text.as_str());
@@ -512,7 +549,7 @@ mod tests {
             assert_eq!(is_in_the_grammar, faults.is_empty() || is_let_pass, "{text}\n{faults:?}");
             refused += usize::from(!is_in_the_grammar);
         }
-        assert!(refused > 200, "only {refused} texts were broken");
+        assert!(refused > 400, "only {refused} texts were broken");
     }
 
     #[test]
@@ -534,8 +571,24 @@ mod tests {
     }
 
     #[test]
+    fn a_use_at_fault_spoils_no_other_and_no_mechanism() {
+        let text = "use \"a.mech\" as 3\nuse b.mech\nuse \"c.mech\" as\nuse \"d.mech\" as d;\nuse \"e.mech\" as e\nmechanism m { param a = 1 }\nuse \"f.mech\"";
+        let parsed = parsed(text);
+        assert_eq!(parsed.faults.len(), 5, "{:?}", parsed.faults);
+        let used =
+            parsed.tree.uses.iter().map(|used| (used.path.as_ref().map_or("", |path| &path.text), used.is_broken));
+        assert_eq!(
+            used.collect::<Vec<_>>(),
+            [("a.mech", true), ("", true), ("c.mech", true), ("d.mech", true), ("e.mech", false), ("f.mech", false)]
+        );
+        assert_eq!(parsed.tree.mechanisms[0].items.len(), 1);
+    }
+
+    #[test]
     fn many_faults_take_linear_time() {
         let text = format!("mechanism m {{\n{}}}", "param r = 3 +\n".repeat(5_000));
+        assert_eq!(parsed(&text).faults.len(), 5_000);
+        let text = "use \"a.mech\" as\n".repeat(5_000);
         assert_eq!(parsed(&text).faults.len(), 5_000);
         let text = "joint ".repeat(100_000);
         assert!(!parsed(&text).faults.is_empty());

@@ -157,6 +157,15 @@ driver motor: rotation(axle) = 30 deg/s * t",
 /// All of them, in the order of the grammar.
 pub static KEYWORDS: &[Keyword] = &[
     keyword(
+        Role::Opener,
+        "use",
+        &["use \"FILE.mech\"", "use \"FILE.mech\" as PREFIX"],
+        "takes the mechanisms of another file, which may then serve as parts",
+        "At the top of a file, before its mechanisms. The path is relative to the file that says so. Mechanisms have their names, or \
+         behind `as` these names with a prefix, `PREFIX.NAME`. What the other file uses is not passed on.",
+        Example::Arm("// at the top of the file: use \"legs.mech\" as walkers\nmeasure reach = x(arm.tip)"),
+    ),
+    keyword(
         Role::Declaration,
         "mechanism",
         &["mechanism NAME { … }"],
@@ -486,6 +495,14 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "turns y of a part's frame over, before it is placed",
         "What the part measures is the same as without it.",
         TWO_LEVERS,
+    ),
+    keyword(
+        Role::Place,
+        "as",
+        &["use \"FILE.mech\" as PREFIX"],
+        "stands before the prefix that the mechanisms of a used file have",
+        "Two files that hold mechanisms of one name can both be used, one of them at least with a prefix.",
+        Example::Arm("// at the top of the file: use \"legs.mech\" as walkers\nmeasure reach = x(arm.tip)"),
     ),
     keyword(
         Role::Place,

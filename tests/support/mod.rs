@@ -23,6 +23,17 @@ impl World for Disk {
     fn read(&self, path: &Path) -> std::io::Result<Contents> {
         Ok(Contents { bytes: std::fs::read(self.0.join(path))?.into(), version: 0 })
     }
+
+    fn names_in(&self, folder: &Path) -> Vec<String> {
+        let entries = std::fs::read_dir(self.0.join(folder)).into_iter().flatten().flatten();
+        let mut names: Vec<String> = entries.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
+    fn identity(&self, path: &Path) -> PathBuf {
+        self.0.join(path).canonicalize().unwrap_or_else(|_| path.to_owned())
+    }
 }
 
 /// What became of a text.

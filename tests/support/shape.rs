@@ -1,7 +1,8 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Part, Range, Segment, TableRows,
+    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Part, Range, Segment, TableRows,
+    Use,
     WrittenUnit,
 };
 
@@ -59,7 +60,13 @@ fn shapes(list: &[Expr]) -> String {
 
 /// All declarations of a file, a line each.
 pub fn file_shape(file: &File) -> Vec<String> {
-    file.mechanisms.iter().flat_map(mechanism_shape).collect()
+    let uses = file.uses.iter().map(use_shape);
+    uses.chain(file.mechanisms.iter().flat_map(mechanism_shape)).collect()
+}
+
+fn use_shape(used: &Use) -> String {
+    let text = |name: &Option<Name>| name.as_ref().map(|name| name.text.clone());
+    format!("{:?} use {:?} as {:?}", used.docs, text(&used.path), text(&used.prefix))
 }
 
 fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {

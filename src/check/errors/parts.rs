@@ -10,12 +10,6 @@ pub fn in_part(path: &str) -> String {
     format!("in part `{path}`, used here")
 }
 
-pub fn no_such_mechanism(wanted: &MechanismName, known: &[&str]) -> Diagnostic {
-    Diagnostic::new(Code::E0201, format!("there is no mechanism `{}`", wanted.text()))
-        .at(wanted.span(), "not declared")
-        .fix_if(meant(&wanted.name, known))
-}
-
 pub fn contains_itself(wanted: &MechanismName, circle: &[&str]) -> Diagnostic {
     let name = &wanted.name.text;
     let mut way: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();

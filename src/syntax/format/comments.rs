@@ -24,6 +24,9 @@ impl<'a> Comments<'a> {
                 (0..before).rev().filter(|&k| trivia.comments[k].is_doc && !trivia.comments[k].is_trailing);
             docs_before.take(docs.len()).for_each(|k| is_doc_of_tree[k] = true);
         };
+        for used in &file.uses {
+            take(&used.docs, used.span);
+        }
         for mechanism in &file.mechanisms {
             take(&mechanism.docs, mechanism.span);
             for item in &mechanism.items {

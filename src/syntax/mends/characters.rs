@@ -55,7 +55,7 @@ impl Fault<'_> {
             "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
             "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),
             "\"" if behind.lines().next().is_some_and(|line| line.contains('"')) => {
-                Mend::words("text in quotes is the file of a `table`, and stands nowhere else")
+                Mend::words("text in quotes is the file of a `table` or a `use`, and stands nowhere else")
             }
             "\"" => Mend::words("a string ends on the line where it begins"),
             "," if self.is_head_of_fn() => Mend::words("a `fn` has one argument: what else it needs can be a `param`"),
