@@ -68,12 +68,13 @@ impl<'a> Checker<'a> {
             (name, uses)
         });
         let mut uses: Vec<_> = uses.collect();
-        for part in &self.bindings {
+        for (own, part) in self.bindings.iter().enumerate() {
             let mount = part.on.as_ref().and_then(|on| match &on.kind {
                 ExprKind::Name(name) => position(name).map(|k| (k, name.span)),
                 _ => None,
             });
-            uses.push((&part.name, mount.into_iter().collect()));
+            // of one that carries itself that is said
+            uses.push((&part.name, mount.filter(|(k, _)| *k != poses.len() + own).into_iter().collect()));
         }
         uses
     }

@@ -251,7 +251,7 @@ impl Reader<'_> {
         for pair in inner {
             match pair.as_rule() {
                 Rule::binding => part.bindings.push(self.binding(pair)?),
-                Rule::right => part.call_span = start.to(self.span(&pair)),
+                Rule::call_end => part.call_span = start.to(self.span(&pair)),
                 Rule::carrier => part.on = Some(self.carrier(pair)?),
                 Rule::paren => part.at = Some(formula::build_operand(self, pair, 0)?),
                 Rule::mirrored => part.mirrored = Some(self.span(&pair)),
@@ -555,7 +555,7 @@ fn significant(pair: Pair<'_, Rule>) -> impl Iterator<Item = Pair<'_, Rule>> {
                 | Rule::printed
                 | Rule::mechanism_name
                 | Rule::binding
-                | Rule::right
+                | Rule::call_end
                 | Rule::carrier
                 | Rule::mirrored
         )

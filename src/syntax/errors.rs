@@ -376,7 +376,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::equals => "`=`",
         Rule::colon => "`:`",
         Rule::comma => "`,`",
-        Rule::right => "`)`",
+        Rule::right | Rule::call_end => "`)`",
         Rule::open => "`{`",
         Rule::close => "`}`",
         Rule::at => "`at`",

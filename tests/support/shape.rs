@@ -1,9 +1,8 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Part, Range, Segment, TableRows,
-    Use,
-    WrittenUnit,
+    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Part, Range, Segment,
+    TableRows, Use, WrittenUnit,
 };
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
