@@ -1,8 +1,10 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
-use crate::analysis::{self, ColumnUnit, Times};
+use super::RunOptions;
+use super::lead::Leading;
+use crate::analysis::{self, ColumnUnit, Started, Times};
 use crate::cancel::Cancel;
-use crate::diag::Diagnostics;
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -42,6 +44,8 @@ pub struct Compiled {
     sources: Sources,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
+    /// Where it begins, if it is told other inputs than its own.
+    leading: Option<(Arc<Leading>, Redundant)>,
 }
 
 impl Compiled {
@@ -49,6 +53,7 @@ impl Compiled {
         sources: Sources,
         system: ConstraintSystem,
         redundant: Redundant,
+        leading: Option<Arc<Leading>>,
         cancel: &Cancel,
     ) -> (Option<Compiled>, Diagnostics) {
         if cancel.is_cancelled() {
@@ -59,7 +64,8 @@ impl Compiled {
             Err(why) => (None, why),
             Ok((determined, said)) => {
                 let determined = Arc::new(determined);
-                (Some(Compiled { sources, determined, program: Arc::default() }), said)
+                let leading = leading.map(|leading| (leading, redundant));
+                (Some(Compiled { sources, determined, program: Arc::default(), leading }), said)
             }
         }
     }
@@ -139,6 +145,21 @@ impl Compiled {
     #[must_use]
     pub fn json(&self, file: &str) -> String {
         emit::json(self.system(), &self.sources, file)
+    }
+
+    /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
+    /// said of the way.
+    pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        let (from, said) = match &self.leading {
+            None => (None, Diagnostics::default()),
+            Some((leading, redundant)) => {
+                let own = self.analysis().map_or(0.0, |[from, ..]| from);
+                leading.lead([own, t], *redundant, options)
+            }
+        };
+        let (determined, program) = (Arc::clone(&self.determined), Arc::clone(self.program()));
+        let RunOptions { tolerance, cancel, .. } = options;
+        (analysis::start_from(determined, program, t, from.as_deref(), *tolerance, cancel), said)
     }
 
     pub(crate) fn system(&self) -> &ConstraintSystem {

@@ -78,14 +78,16 @@ impl Compiled {
 
 impl Run {
     fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
-        let started = analysis::start(determined, program, times.from(), options.tolerance, &options.cancel);
+        let (started, mut said) = compiled.start(times.from(), options);
         let mut started = match started {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
-            Err(why) => return (None, (*why).into()),
+            Err(why) => {
+                said.push(*why);
+                return (None, said);
+            }
         };
-        let remarks = started.remarks();
+        said.extend(started.remarks());
         let assembly = assembly(compiled, &mut started, times.from());
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
@@ -93,7 +95,7 @@ impl Run {
         }
         let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
-        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), remarks)
+        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), said)
     }
 
     /// The names of the numbers of a row.
