@@ -3,6 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use mechc::rooms::math::{acos, cos, sin};
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
 
 /// Lengths of a four-bar's links (mm), ground first, and the angles (deg) at which coupler and rocker are drawn: near to where they are with
@@ -29,7 +30,7 @@ const ROCKING: Links = Links { lengths: [150.0, 30.0, 90.0, 70.0], angles: [40.0
 
 fn four_bar(links: &Links, declarations: &str, driver: &str) -> String {
     let ([ground, crank, coupler, rocker], [coupler_angle, rocker_angle]) = (links.lengths, links.angles);
-    let (x, y) = (crank * 30_f64.to_radians().cos(), crank * 30_f64.to_radians().sin());
+    let (x, y) = (crank * cos(30_f64.to_radians()), crank * sin(30_f64.to_radians()));
     format!(
         "mechanism four_bar {{
             {declarations}
@@ -158,7 +159,7 @@ fn a_dead_point_on_the_way_is_told_and_the_estimates_alone_are_tried() {
     let told = said.iter().next().expect("a diagnostic");
     assert!(told.message.starts_with("on the way to the inputs that are given there is a dead point at `turn` = "));
     // the pins are in one line with the pivots where (90 + 70)² = 30² + 150² - 2·30·150 cos(turn)
-    let limit = f64::acos((30.0 * 30.0 + 150.0 * 150.0 - 160.0 * 160.0) / (2.0 * 30.0 * 150.0));
+    let limit = acos((30.0 * 30.0 + 150.0 * 150.0 - 160.0 * 160.0) / (2.0 * 30.0 * 150.0));
     let part = told.data["part"].as_f64().expect("a number");
     let (from, to) = (30_f64.to_radians(), 330_f64.to_radians());
     assert!((from + (to - from) * part - limit).abs() < 1e-6, "{part}");

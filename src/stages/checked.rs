@@ -345,3 +345,24 @@ impl NamedFormulas<'_> {
             .help(meant.unwrap_or(listed))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::outermost;
+
+    #[test]
+    fn the_outermost_mechanism_is_the_one_that_is_no_part_of_another() {
+        let of = |mechanisms: &[(&str, &[&str])]| {
+            let mechanisms: Vec<_> = mechanisms.iter().map(|(name, parts)| (*name, parts.to_vec())).collect();
+            outermost(&mechanisms)
+        };
+        assert_eq!(of(&[("leg", &[])]), Some(0));
+        assert_eq!(of(&[("leg", &[]), ("walker", &[])]), None);
+        assert_eq!(of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
+        assert_eq!(of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
+        // one that contains itself is no part of another, and of two that contain each other none is outermost
+        assert_eq!(of(&[("leg", &["leg"])]), Some(0));
+        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), None);
+        assert_eq!(of(&[]), None);
+    }
+}

@@ -1,10 +1,9 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
-use super::RunOptions;
 use super::lead::Leading;
-use crate::analysis::{self, ColumnUnit, Started, Times};
+use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
-use crate::diag::{Diagnostic, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -147,19 +146,9 @@ impl Compiled {
         emit::json(self.system(), &self.sources, file)
     }
 
-    /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
-    /// said of the way.
-    pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (from, said) = match &self.leading {
-            None => (None, Diagnostics::default()),
-            Some((leading, redundant)) => {
-                let own = self.analysis().map_or(0.0, |[from, ..]| from);
-                leading.lead([own, t], *redundant, options)
-            }
-        };
-        let (determined, program) = (Arc::clone(&self.determined), Arc::clone(self.program()));
-        let RunOptions { tolerance, cancel, .. } = options;
-        (analysis::start_from(determined, program, t, from.as_deref(), *tolerance, cancel), said)
+    /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
+    pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
+        self.leading.as_ref().map(|(leading, redundant)| (&**leading, *redundant == Redundant::LeftOut))
     }
 
     pub(crate) fn system(&self) -> &ConstraintSystem {

@@ -1,6 +1,5 @@
 //! Where a mechanism begins that is told other inputs than its own: where these lead it, from where it is with its own.
 
-use super::{Redundant, RunOptions};
 use crate::analysis::{self, LeadOptions, NotLed};
 use crate::check::{self, Lead, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
@@ -25,23 +24,22 @@ pub(super) struct Leading {
 }
 
 impl Leading {
-    /// Where it comes to at a time, from an earlier or later one (s); nothing where it cannot be led, with what is to be said.
-    pub fn lead(&self, times: [f64; 2], redundant: Redundant, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
+    /// Where it comes to at a time (s), from the one that the options tell; nothing where it cannot be led, with what is to be said.
+    pub fn lead(&self, t: f64, leave_out_redundant: bool, options: &LeadOptions) -> (Option<Vec<f64>>, Diagnostics) {
+        let times = [options.t, t];
         let surroundings = Surroundings { lead: Some(Lead { times, inputs: Vec::new() }), ..self.surroundings.clone() };
         let tree = &self.read.tree.mechanisms[self.number];
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (Some(model), _) = check::check(tree, &surroundings, &self.sources) else {
             return (None, Diagnostics::default());
         };
-        let Ok((determined, _)) = analysis::determine(lower::lower(&model), redundant == Redundant::LeftOut) else {
+        let Ok((determined, _)) = analysis::determine(lower::lower(&model), leave_out_redundant) else {
             return (None, Diagnostics::default());
         };
         let program = Arc::new(Program::new(determined.system()));
-        let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
-        let options = LeadOptions { tolerance, pass_bifurcations, t: times[0], cancel: cancel.clone() };
-        match analysis::lead(&Arc::new(determined), &program, &options) {
+        match analysis::lead(&Arc::new(determined), &program, options) {
             Ok(arrived) => (Some(arrived.q), arrived.remarks),
-            Err(NotLed::Stopped { part, why }) if !cancel.is_cancelled() => {
+            Err(NotLed::Stopped { part, why }) if !options.cancel.is_cancelled() => {
                 (None, not_led(&model.led, times, model.declared.span, part, &why).into())
             }
             // alone it is nowhere, so that there is nothing to lead

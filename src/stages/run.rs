@@ -1,7 +1,7 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
-use crate::analysis::{self, ColumnUnit, Motion, Times};
+use crate::analysis::{self, ColumnUnit, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
@@ -73,6 +73,22 @@ impl Compiled {
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         Run::of(self, times, options)
+    }
+
+    /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
+    /// said of the way.
+    pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
+        let (from, said) = match self.leading() {
+            None => (None, Diagnostics::default()),
+            Some((leading, leave_out)) => {
+                let own = self.analysis().map_or(0.0, |[from, ..]| from);
+                let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
+                leading.lead(t, leave_out, &options)
+            }
+        };
+        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        (analysis::start_from(determined, program, t, from.as_deref(), tolerance, cancel), said)
     }
 }
 
