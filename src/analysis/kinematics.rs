@@ -78,6 +78,8 @@ pub(super) struct Kinematics {
     looked_at_beside: Vec<usize>,
     beside: Vec<f64>,
     doubt: Doubt,
+    /// Where assembly begins, if not where the file says.
+    other_estimates: Option<Vec<f64>>,
 }
 
 /// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
@@ -112,7 +114,20 @@ impl Kinematics {
         let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
         let n = system.coordinates.len();
         let (beside, doubt) = (vec![0.0; n], Doubt::new(n));
-        Kinematics { determined, program, registers, linear, tolerance, cancel, bent, looked_at_beside, beside, doubt }
+        let other_estimates = None;
+        Kinematics {
+            determined,
+            program,
+            registers,
+            linear,
+            tolerance,
+            cancel,
+            bent,
+            looked_at_beside,
+            beside,
+            doubt,
+            other_estimates,
+        }
     }
 
     /// Measures the slopes at a position, at the time that was set, by which nearness to a singular position is judged. Those of
@@ -199,7 +214,13 @@ impl Kinematics {
 
     /// The estimates of the file [m, rad].
     pub fn estimates(&self) -> Vec<f64> {
-        self.program.outputs.estimates.iter().map(|&register| self.registers.get(register)).collect()
+        let of_file = || self.program.outputs.estimates.iter().map(|&register| self.registers.get(register)).collect();
+        self.other_estimates.clone().unwrap_or_else(of_file)
+    }
+
+    /// Takes other estimates than those of the file.
+    pub fn begin_from(&mut self, estimates: &[f64]) {
+        self.other_estimates = Some(estimates.to_vec());
     }
 
     /// Which switches stay as they are from now on.

@@ -22,6 +22,7 @@ mod evaluator;
 mod finer;
 mod freedom;
 mod kinematics;
+mod lead;
 mod least_squares;
 mod limits;
 mod linear;
@@ -42,6 +43,7 @@ mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::determine;
+pub use lead::{Arrived, LeadOptions, NotLed, lead};
 pub use march::Motion;
 pub use times::Times;
 
@@ -88,7 +90,25 @@ pub fn start(
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
+    start_from(determined, program, t, None, tolerance, cancel)
+}
+
+/// As [`start`], from other estimates [m, rad] than those of the file, if there are any.
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn start_from(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    t: f64,
+    estimates: Option<&[f64]>,
+    tolerance: f64,
+    cancel: &Cancel,
+) -> Result<Started, Box<Diagnostic>> {
     let mut kinematics = Kinematics::new(determined, program, tolerance, cancel.clone());
+    if let Some(estimates) = estimates {
+        kinematics.begin_from(estimates);
+    }
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
@@ -102,11 +122,18 @@ impl Started {
     /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
     #[must_use]
     pub fn remarks(&self) -> Diagnostics {
-        let mut diagnostics = Diagnostics::default();
         let (system, state) = (self.kinematics.system(), &self.state);
-        let from = self.kinematics.estimates();
-        diagnostics.extend(errors::far_estimates(system, self.moved.perturbed, self.doubt, [&from, &state.q], state.t));
+        let mut diagnostics = self.far_estimates_at(state.t);
         diagnostics.extend(system.fits.iter().filter_map(|fit| errors::misfit(system, fit, &state.q, state.t)));
+        diagnostics
+    }
+
+    /// Whether the assembly moved bodies far, said of a time (s).
+    fn far_estimates_at(&self, t: f64) -> Diagnostics {
+        let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
+        let ends = [from.as_slice(), &self.state.q];
+        let mut diagnostics = Diagnostics::default();
+        diagnostics.extend(errors::far_estimates(system, self.moved.perturbed, self.doubt, ends, t));
         diagnostics
     }
 

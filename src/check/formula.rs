@@ -288,7 +288,7 @@ impl Checker<'_> {
             Alone::Argument => return context.argument.map(|(_, value)| value),
             Alone::Constant(constant) => match constant.stands_for {
                 StandsFor::Time if context.time => {
-                    let id = self.model.graph.symbol(Symbol::Time);
+                    let id = self.time();
                     return Some(Value { id, dim: Dim::Of(Dimension::TIME) });
                 }
                 // a parameter was meant

@@ -1,12 +1,13 @@
 //! Inputs: what they are by the text, and what they are told to be from outside.
 
 use super::formula::{Context, Dim, Value};
+use super::lead::Needs;
 use super::parts::is_told_by;
 use super::rates::Part;
 use super::samples::{self, Column, Samples};
 use super::{Checker, errors};
 use crate::diag::nearest;
-use crate::expr::{ExprId, Symbol};
+use crate::expr::ExprId;
 use crate::model::{Condition, ConditionKind, Input};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Expr, ItemKind, Name};
@@ -121,7 +122,9 @@ impl Checker<'_> {
     /// What an input is; of a part whose user says what it is, its own formula gives its dimension.
     pub(super) fn input(&mut self, k: usize) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
+        let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(formula) else { return };
+        let needs = Needs { before, behind_own: self.model.conditions.len() };
         if self.bound_inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
             return;
@@ -136,6 +139,7 @@ impl Checker<'_> {
             (_, _, Some(formula)) => self.told(name, formula, in_file.dim),
             _ => Some(in_file),
         };
+        let value = self.led_input(name, in_file, value, &needs);
         self.inputs[k].value = value;
         if let Some(value) = value {
             self.model.inputs.push(Input { declared: self.declared(name), value: value.id });
@@ -182,7 +186,8 @@ impl Checker<'_> {
         let points: Vec<[ExprId; 2]> =
             times.iter().zip(&column.values).map(|(&t, &value)| [t, value].map(|x| graph.constant(x))).collect();
         let table = graph.spline(&column.name, false, &points);
-        let t = graph.symbol(Symbol::Time);
+        let t = self.time();
+        let graph = &mut self.model.graph;
         let id = graph.table(table, 0, t);
         let (first, last) = (graph.constant(times[0]), graph.constant(times[times.len() - 1]));
         // both ends are within, whatever rounding says

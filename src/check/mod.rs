@@ -16,6 +16,7 @@ mod instances;
 mod instead;
 mod joints;
 mod kinds;
+mod lead;
 mod lengths;
 mod library;
 mod meaning;
@@ -39,6 +40,7 @@ mod table_file;
 mod tables;
 
 pub use inputs::Given;
+pub use lead::Lead;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
@@ -76,6 +78,8 @@ pub struct Surroundings {
     pub files: TableFiles,
     /// What inputs are told to be.
     pub given: Given,
+    /// Where it is led, if that is all that is asked for.
+    pub lead: Option<Lead>,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -238,6 +242,7 @@ struct Checker<'a> {
     settings: &'a [Setting],
     files: &'a TableFiles,
     given: &'a Given,
+    lead: Option<&'a Lead>,
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -328,6 +333,7 @@ impl<'a> Checker<'a> {
             settings: &surroundings.settings,
             files: &surroundings.files,
             given: &surroundings.given,
+            lead: surroundings.lead.as_ref(),
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
@@ -392,6 +398,7 @@ impl<'a> Checker<'a> {
         self.list_measures();
         self.equations();
         self.analysis();
+        self.leave_what_leads();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !has_broken(self.tree) {
             self.report(errors::empty(&self.tree.name));

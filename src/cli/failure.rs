@@ -45,7 +45,7 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
         return 0;
     };
     // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time
-    let on_the_way = (Code::E0601..=Code::E0611).contains(&first.code);
+    let on_the_way = (Code::E0601..=Code::E0612).contains(&first.code);
     if !on_the_way && first.labels.first().is_some_and(|label| sources.get(label.span.file).is_option) {
         return USAGE;
     }

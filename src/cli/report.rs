@@ -2,8 +2,9 @@
 
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
-use crate::diag::{Color, Diagnostics, Fix, Format, Severity, render, render_made};
+use crate::diag::{Code, Color, Diagnostics, Fix, Format, Severity, render, render_made};
 use crate::source::{FileId, Sources};
+use std::cell::Cell;
 use std::io::{IsTerminal, Write};
 
 /// Prints diagnostics as the user wants them, and knows the texts that they speak of.
@@ -11,6 +12,8 @@ pub(super) struct Reporter {
     pub sources: Sources,
     format: Format,
     color: Color,
+    /// The exit code of a command that did its work, and had to say that not all is as it should be.
+    exit: Cell<u8>,
 }
 
 impl Reporter {
@@ -30,7 +33,7 @@ impl Reporter {
             }
         };
         let color = if colored { Color::Always } else { Color::Never };
-        Reporter { sources: Sources::default(), format, color }
+        Reporter { sources: Sources::default(), format, color, exit: Cell::new(0) }
     }
 
     pub fn print(&self, diagnostics: &Diagnostics) {
@@ -52,6 +55,10 @@ impl Reporter {
             None => Err(said.into()),
             Some(made) => {
                 self.print(&said);
+                // a start that was not led has been made another way
+                if said.iter().any(|said| said.code == Code::E0612) {
+                    self.exit.set(exit_code(&said, &self.sources));
+                }
                 Ok(made)
             }
         }
@@ -83,7 +90,7 @@ impl Reporter {
     /// Says why a command ended, and gives its exit code.
     pub fn finish(&self, result: Result<(), Failure>) -> u8 {
         match result {
-            Ok(()) | Err(Failure::ReaderGone) => 0,
+            Ok(()) | Err(Failure::ReaderGone) => self.exit.get(),
             Err(Failure::Said(diagnostics)) => {
                 self.print(&diagnostics);
                 exit_code(&diagnostics, &self.sources)

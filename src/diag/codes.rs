@@ -124,6 +124,7 @@ catalogue! {
         E0609 Error "a motion that jumps"
         E0610 Error "a position that is too near to a singular one"
         E0611 Error "a redundant equation that ceases to hold"
+        E0612 Error "a way to the inputs given that ends before"
         W0601 Warning "an acceleration that jumps"
         W0602 Warning "a bifurcation that was passed"
         W0603 Warning "a measure without a value"

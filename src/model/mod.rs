@@ -86,6 +86,8 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
+    /// The inputs that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
+    pub led: Vec<Led>,
     /// Each behind the one that it is a part of.
     pub parts: Vec<Part>,
     /// In order of declaration, those of a part where it is declared.
@@ -121,6 +123,7 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
+            led: Vec::new(),
             parts: Vec::new(),
             bodies: Vec::new(),
             points: Vec::new(),
@@ -220,6 +223,17 @@ pub struct Input {
     pub declared: Declared,
     /// What it is, as a formula of time, in SI.
     pub value: ExprId,
+}
+
+/// An input on its way from one value to another.
+#[derive(Clone, Debug)]
+pub struct Led {
+    /// Its name.
+    pub declared: Declared,
+    /// From and to, in SI.
+    pub line: [f64; 2],
+    /// Of its value.
+    pub dimension: Dimension,
 }
 
 /// The declarations of another mechanism, once more.

@@ -1,5 +1,6 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
+use super::lead::Leading;
 use super::used::{self, Used};
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
@@ -43,6 +44,8 @@ pub struct Checked {
     number: Option<usize>,
     library: Library,
     model: Option<Arc<Mechanism>>,
+    /// What leads it to the inputs that it is told, if it is told any.
+    leading: Option<Arc<Leading>>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
 }
@@ -101,7 +104,8 @@ impl Checked {
         let settings = settings(&choice.set, &mut sources);
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
-        let mut model = None;
+        let (mut model, mut leading) = (None, None);
+        let is_told = !choice.inputs.is_empty() || choice.samples.is_some();
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -109,13 +113,15 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let surroundings = Surroundings { settings, library: library.clone(), files, given };
+                let surroundings = Surroundings { settings, library: library.clone(), files, given, lead: None };
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
+                let sources = sources.clone();
+                leading = is_told.then(|| Arc::new(Leading { read: parsed.shared(), number, surroundings, sources }));
             }
         }
-        Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics)
+        Checked { leading, ..Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics) }
     }
 
     fn with(
@@ -126,7 +132,15 @@ impl Checked {
         mut diagnostics: Diagnostics,
     ) -> Checked {
         diagnostics.sort_by_place();
-        Checked { parsed, number, library, model, diagnostics: Arc::new(diagnostics), symbols: Arc::default() }
+        Checked {
+            parsed,
+            number,
+            library,
+            model,
+            leading: None,
+            diagnostics: Arc::new(diagnostics),
+            symbols: Arc::default(),
+        }
     }
 
     /// The texts that its diagnostics speak of.
@@ -184,7 +198,9 @@ impl Checked {
     pub fn compile(&self, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
         match &self.model {
             None => (None, Diagnostics::default()),
-            Some(model) => Compiled::of(self.sources().clone(), lower::lower(model), redundant, cancel),
+            Some(model) => {
+                Compiled::of(self.sources().clone(), lower::lower(model), redundant, self.leading.clone(), cancel)
+            }
         }
     }
 }
@@ -306,5 +322,26 @@ impl NamedFormulas {
             }
         }
         if diagnostics.is_empty() { Ok(formulas) } else { Err(diagnostics) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::outermost;
+
+    #[test]
+    fn the_outermost_mechanism_is_the_one_that_is_no_part_of_another() {
+        let of = |mechanisms: &[(&str, &[&str])]| {
+            let mechanisms: Vec<_> = mechanisms.iter().map(|(name, parts)| (*name, parts.to_vec())).collect();
+            outermost(&mechanisms)
+        };
+        assert_eq!(of(&[("leg", &[])]), Some(0));
+        assert_eq!(of(&[("leg", &[]), ("walker", &[])]), None);
+        assert_eq!(of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
+        assert_eq!(of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
+        // one that contains itself is no part of another, and of two that contain each other none is outermost
+        assert_eq!(of(&[("leg", &["leg"])]), Some(0));
+        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), None);
+        assert_eq!(of(&[]), None);
     }
 }

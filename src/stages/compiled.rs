@@ -1,5 +1,6 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
+use super::lead::Leading;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
@@ -42,6 +43,8 @@ pub struct Compiled {
     sources: Sources,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
+    /// Where it begins, if it is told other inputs than its own.
+    leading: Option<(Arc<Leading>, Redundant)>,
 }
 
 impl Compiled {
@@ -49,6 +52,7 @@ impl Compiled {
         sources: Sources,
         system: ConstraintSystem,
         redundant: Redundant,
+        leading: Option<Arc<Leading>>,
         cancel: &Cancel,
     ) -> (Option<Compiled>, Diagnostics) {
         if cancel.is_cancelled() {
@@ -59,7 +63,8 @@ impl Compiled {
             Err(why) => (None, why),
             Ok((determined, said)) => {
                 let determined = Arc::new(determined);
-                (Some(Compiled { sources, determined, program: Arc::default() }), said)
+                let leading = leading.map(|leading| (leading, redundant));
+                (Some(Compiled { sources, determined, program: Arc::default(), leading }), said)
             }
         }
     }
@@ -139,6 +144,11 @@ impl Compiled {
     #[must_use]
     pub fn json(&self, file: &str) -> String {
         emit::json(self.system(), &self.sources, file)
+    }
+
+    /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
+    pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
+        self.leading.as_ref().map(|(leading, redundant)| (&**leading, *redundant == Redundant::LeftOut))
     }
 
     pub(crate) fn system(&self) -> &ConstraintSystem {

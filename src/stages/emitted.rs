@@ -2,11 +2,9 @@
 
 use super::{Compiled, RunOptions};
 use crate::analysis::{self, Times};
-use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, File, LARGEST_STRAIGHT, Motion, Reference, Unit};
 use crate::solver::BlockTables;
-use std::sync::Arc;
 
 /// Rows and numbers at most that a crate is tested against.
 const MOST_ROWS: usize = 20;
@@ -75,8 +73,9 @@ impl Compiled {
     /// What it takes to follow the motion from the start of the file's analysis, or from 0 s.
     fn motion(&self, said: &mut Diagnostics) -> Result<Motion, Box<Diagnostic>> {
         let from = self.analysis().map_or(0.0, |[from, ..]| from);
-        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        let mut started = analysis::start(determined, program, from, analysis::TOLERANCE, &Cancel::default())?;
+        let (started, remarks) = self.start(from, &RunOptions::default());
+        said.extend(remarks);
+        let mut started = started?;
         said.extend(started.remarks());
         let solver = started.solver_for_code().ok_or_else(|| Box::new(too_large()))?;
         Ok(Motion {

@@ -12,6 +12,7 @@ mod constant;
 mod emitted;
 mod formula;
 mod imported;
+mod lead;
 mod parsed;
 mod run;
 mod used;

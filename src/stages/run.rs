@@ -1,7 +1,7 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
-use crate::analysis::{self, ColumnUnit, Motion, Times};
+use crate::analysis::{self, ColumnUnit, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
@@ -74,18 +74,36 @@ impl Compiled {
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         Run::of(self, times, options)
     }
+
+    /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
+    /// said of the way.
+    pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
+        let (from, said) = match self.leading() {
+            None => (None, Diagnostics::default()),
+            Some((leading, leave_out)) => {
+                let own = self.analysis().map_or(0.0, |[from, ..]| from);
+                let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
+                leading.lead(t, leave_out, &options)
+            }
+        };
+        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        (analysis::start_from(determined, program, t, from.as_deref(), tolerance, cancel), said)
+    }
 }
 
 impl Run {
     fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
-        let (determined, program) = (Arc::clone(compiled.determined()), Arc::clone(compiled.program()));
-        let started = analysis::start(determined, program, times.from(), options.tolerance, &options.cancel);
+        let (started, mut said) = compiled.start(times.from(), options);
         let mut started = match started {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
-            Err(why) => return (None, (*why).into()),
+            Err(why) => {
+                said.push(*why);
+                return (None, said);
+            }
         };
-        let remarks = started.remarks();
+        said.extend(started.remarks());
         let assembly = assembly(compiled, &mut started, times.from());
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
@@ -93,7 +111,7 @@ impl Run {
         }
         let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
-        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), remarks)
+        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), said)
     }
 
     /// The names of the numbers of a row.

@@ -1,0 +1,230 @@
+//! A mechanism that is told other inputs than its own begins where these lead it: along the straight line from its own, on the branch of
+//! its estimates.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+use mechc::rooms::math::{acos, cos, sin};
+use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
+
+/// Lengths of a four-bar's links (mm), ground first, and the angles (deg) at which coupler and rocker are drawn: near to where they are with
+/// the crank at 30 deg.
+struct Links {
+    lengths: [f64; 4],
+    angles: [f64; 2],
+}
+
+/// The crank turns around, and the rocker does not; drawn on one side of the line from crank pin to rocker pivot or on the other.
+const CRANK_ROCKER: [Links; 2] = [
+    Links { lengths: [100.0, 30.0, 90.0, 70.0], angles: [40.0, 80.0] },
+    Links { lengths: [100.0, 30.0, 90.0, 70.0], angles: [-70.0, -110.0] },
+];
+
+/// Every link turns around, so that no estimate serves for all of the motion.
+const DRAG_LINK: [Links; 2] = [
+    Links { lengths: [30.0, 70.0, 80.0, 60.0], angles: [181.0, 145.0] },
+    Links { lengths: [30.0, 70.0, 80.0, 60.0], angles: [-83.0, -48.0] },
+];
+
+/// No link turns around.
+const ROCKING: Links = Links { lengths: [150.0, 30.0, 90.0, 70.0], angles: [40.0, 80.0] };
+
+fn four_bar(links: &Links, declarations: &str, driver: &str) -> String {
+    let ([ground, crank, coupler, rocker], [coupler_angle, rocker_angle]) = (links.lengths, links.angles);
+    let (x, y) = (crank * cos(30_f64.to_radians()), crank * sin(30_f64.to_radians()));
+    format!(
+        "mechanism four_bar {{
+            {declarations}
+            ground {{ point O = (0, 0)  point C = ({ground} mm, 0) }}
+            body crank at (0, 0, 30 deg) {{ point O = (0, 0)  point A = ({crank} mm, 0) }}
+            body coupler at ({x} mm, {y} mm, {coupler_angle} deg) {{ point A = (0, 0)  point B = ({coupler} mm, 0) }}
+            body rocker at ({ground} mm, 0, {rocker_angle} deg) {{ point C = (0, 0)  point B = ({rocker} mm, 0) }}
+            joint main:  revolute(ground.O, crank.O)
+            joint left:  revolute(crank.A, coupler.A)
+            joint right: revolute(coupler.B, rocker.B)
+            joint back:  revolute(ground.C, rocker.C)
+            driver motor: rotation(main) = {driver}
+            analysis from 0 s to 1 s every 0.5 s
+        }}"
+    )
+}
+
+fn compiled(text: &str, inputs: &[&str], samples: Option<&str>) -> Compiled {
+    let world = samples.map_or_else(Memory::default, |text| Memory::default().with("samples.csv", text));
+    let inputs = inputs.iter().map(|input| (*input).to_owned()).collect();
+    let choice = Choice { inputs, samples: samples.map(|_| "samples.csv".into()), ..Choice::default() };
+    let checked = Parsed::of("four_bar.mech", text).check(&choice, &world);
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()))
+}
+
+/// The rows of some times, as far as they come, and what is said.
+fn run(compiled: &Compiled, times: &Times) -> (Vec<Vec<f64>>, Diagnostics) {
+    let (run, mut said) = compiled.run(times, &RunOptions::default());
+    let Some(mut run) = run else { return (Vec::new(), said) };
+    let rows = run.by_ref().map_while(Result::ok).collect();
+    said.extend(run.take_remarks());
+    (rows, said)
+}
+
+/// The first row, of which nothing is said.
+fn first_row(compiled: &Compiled, t: f64) -> Vec<f64> {
+    let (mut rows, said) = run(compiled, &Times::listed(t, vec![t]));
+    assert!(said.is_empty(), "{said:?}");
+    rows.remove(0)
+}
+
+fn codes(said: &Diagnostics) -> Vec<&'static str> {
+    said.iter().map(|said| said.code.as_str()).collect()
+}
+
+/// Positions agree; velocities are of other motions.
+fn same_place(a: &[f64], b: &[f64]) -> bool {
+    a[1..10].iter().zip(&b[1..10]).all(|(a, b)| (a - b).abs() < 1e-11)
+}
+
+const TURN: &str = "input turn = 30 deg";
+
+/// Where the motion of a driver comes to that goes from the own input to another one.
+fn followed(text: impl Fn(&str, &str) -> String, target: f64) -> Vec<f64> {
+    let text = text("", &format!("30 deg + ({target} deg - 30 deg) * t / 1 s"));
+    let (rows, said) = run(&compiled(&text, &[], None), &Times::listed(0.0, vec![0.0, 1.0]));
+    assert!(said.is_empty() && rows.len() == 2, "{said:?}");
+    rows[1].clone()
+}
+
+#[test]
+fn the_start_is_on_the_branch_of_the_file() {
+    let mut elsewhere = 0;
+    for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
+        let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
+        for target in [31.0, 100.0, 180.0, 250.0, 359.0, 800.0, -75.0, -500.0] {
+            let led = compiled(&text(TURN, "turn"), &[&format!("turn={target} deg")], None);
+            let wanted = followed(text, target);
+            assert!(same_place(&first_row(&led, 0.0), &wanted), "{target} deg, {:?}", links.lengths);
+            // from the estimates alone
+            let alone = compiled(&text("", &format!("{target} deg + 0 rad/s * t")), &[], None);
+            let (rows, _) = run(&alone, &Times::listed(0.0, vec![0.0]));
+            elsewhere += usize::from(rows.first().is_none_or(|row| !same_place(row, &wanted)));
+        }
+    }
+    assert!(elsewhere > 4, "{elsewhere}: estimates alone would have done as well, and this shows nothing");
+}
+
+#[test]
+fn samples_lead_to_where_they_begin() {
+    let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
+    let samples = "t,turn [deg]\n0,250\n1,300\n2,310\n";
+    let sampled = compiled(&text(TURN, "turn"), &[], Some(samples));
+    assert!(same_place(&first_row(&sampled, 0.0), &followed(text, 250.0)));
+    assert!(same_place(&first_row(&sampled, 1.0), &followed(text, 300.0)));
+    // a time outside of them is told as ever, and not that something on the way to it went wrong
+    let (rows, said) = run(&sampled, &Times::listed(-1.0, vec![-1.0]));
+    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0608"]));
+}
+
+#[test]
+fn time_goes_along_with_the_inputs() {
+    let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
+    let both = text("input turn = 30 deg + 5 deg/s * t\n fn more(u) = 20 deg/s * u", "turn + more(t)");
+    // 30 deg at 0 s by its own input, 300 deg - 100 deg at 5 s by the other
+    let led = compiled(&both, &["turn=300 deg - 40 deg/s * t"], None);
+    assert!(same_place(&first_row(&led, 5.0), &followed(text, 200.0)));
+    // what nobody is told keeps its formula
+    let two = text("input turn = 30 deg\n input more = 20 deg/s * t", "turn + more");
+    assert!(same_place(&first_row(&compiled(&two, &["turn=100 deg"], None), 5.0), &followed(text, 200.0)));
+}
+
+#[test]
+fn who_is_told_what_is_so_anyway_gets_the_same_rows() {
+    let text = four_bar(&CRANK_ROCKER[1], "input turn = 30 deg + 90 deg/s * t", "turn");
+    let times = Times::grid(0.0, 1.0, 0.01).expect("a grid");
+    let (own, said) = run(&compiled(&text, &[], None), &times);
+    let (told, _) = run(&compiled(&text, &["turn=30 deg + 90 deg/s * t"], None), &times);
+    assert!(own.len() == 101 && said.is_empty(), "{said:?}");
+    assert!(own == told, "the rows differ");
+}
+
+/// A crank that cannot turn all around: its ground is too long.
+fn rocking(declarations: &str, driver: &str) -> String {
+    four_bar(&ROCKING, declarations, driver)
+}
+
+#[test]
+fn a_dead_point_on_the_way_is_told_and_the_estimates_alone_are_tried() {
+    // -30 deg is there, and so is 330 deg, but not on the way round
+    let text = rocking(TURN, "turn");
+    assert!(run(&compiled(&text, &["turn=-30 deg"], None), &Times::listed(0.0, vec![0.0])).1.is_empty());
+    let (rows, said) = run(&compiled(&text, &["turn=330 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&said)), (1, vec!["E0612"]));
+    let told = said.iter().next().expect("a diagnostic");
+    assert!(told.message.starts_with("on the way to the inputs that are given there is a dead point at `turn` = "));
+    // the pins are in one line with the pivots where (90 + 70)² = 30² + 150² - 2·30·150 cos(turn)
+    let limit = acos((30.0 * 30.0 + 150.0 * 150.0 - 160.0 * 160.0) / (2.0 * 30.0 * 150.0));
+    let part = told.data["part"].as_f64().expect("a number");
+    let (from, to) = (30_f64.to_radians(), 330_f64.to_radians());
+    assert!((from + (to - from) * part - limit).abs() < 1e-6, "{part}");
+    assert_eq!(told.labels[0].text, "led from 0.5235987756 to 5.759586532, and got to 1.817743041");
+    // where there is no position, that is told too
+    let (rows, said) = run(&compiled(&text, &["turn=180 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0612", "E0601"]));
+}
+
+#[test]
+fn a_kink_on_the_way_is_passed_and_a_jump_is_not() {
+    let text = |declarations: &str, driver: &str| four_bar(&CRANK_ROCKER[1], declarations, driver);
+    let kinked = text(TURN, "30 deg + abs(turn - 90 deg) * 2 - 120 deg");
+    let led = compiled(&kinked, &["turn=190 deg"], None);
+    assert!(same_place(&first_row(&led, 0.0), &followed(text, 110.0)));
+    // many of them, one right at the end
+    let many = text("input turn = 0", "30 deg + abs(mod(turn + 0.5, 1) - 0.5) * 100 deg");
+    assert!(same_place(&first_row(&compiled(&many, &["turn=20.5"], None), 0.0), &followed(text, 80.0)));
+    let jumping = text(TURN, "if turn < 90 deg then turn else turn + 20 deg");
+    let (rows, said) = run(&compiled(&jumping, &["turn=150 deg"], None), &Times::listed(0.0, vec![0.0]));
+    assert!(rows.len() == 1 && codes(&said)[0] == "E0612", "{said:?}");
+}
+
+#[test]
+fn a_file_that_does_not_stand_alone_begins_from_its_estimates() {
+    // its own input has no value, or no position
+    for own in ["1 / (1 - 1) * 1 deg", "sqrt(-1 - 0 * t / 1 s)", "120 deg"] {
+        let text = rocking(&format!("input turn = {own}"), "turn");
+        let world = Memory::default();
+        let choice = Choice { inputs: vec!["turn=30 deg".to_owned()], ..Choice::default() };
+        let checked = Parsed::of("a.mech", &text).check(&choice, &world);
+        if !checked.is_sound() {
+            assert_eq!(codes(checked.diagnostics()), ["E0404"], "{own}");
+            continue;
+        }
+        assert_eq!(run(&compiled(&text, &["turn=30 deg"], None), &Times::listed(0.0, vec![0.0])).0.len(), 1, "{own}");
+    }
+}
+
+#[test]
+fn estimates_that_are_far_off_are_told_of_the_file_s_own_start() {
+    let text = four_bar(&Links { angles: [40.0, -100.0], ..CRANK_ROCKER[0] }, TURN, "turn");
+    let (rows, said) = run(&compiled(&text, &["turn=100 deg"], None), &Times::listed(3.0, vec![3.0]));
+    assert_eq!((rows.len(), codes(&said)), (1, vec!["N0601"]));
+    assert!(said.iter().all(|said| said.message.ends_with("at t = 0 s")), "{said:?}");
+}
+
+#[test]
+fn code_begins_where_a_run_does() {
+    let text = four_bar(&DRAG_LINK[1], TURN, "turn");
+    let led = compiled(&text, &["turn=250 deg + 0 rad/s * t"], None);
+    let (code, said) = led.rust(&mechc::RustOptions::of("four_bar"));
+    assert!(said.is_empty(), "{said:?}");
+    let code = code.expect("code");
+    for value in &first_row(&led, 0.0)[4..10] {
+        let digits = format!("{value:?}");
+        assert!(code.contains(&digits[..digits.len().min(14)]), "{value} is not in the code");
+    }
+}
+
+#[test]
+fn what_is_cancelled_says_nothing() {
+    let cancel = Cancel::default();
+    let led = compiled(&rocking(TURN, "turn"), &["turn=330 deg"], None);
+    cancel.cancel();
+    let (run, said) = led.run(&Times::listed(0.0, vec![0.0]), &RunOptions { cancel, ..RunOptions::default() });
+    assert!(run.is_none() && said.is_empty());
+}
