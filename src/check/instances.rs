@@ -98,7 +98,10 @@ pub(super) fn instance_of<'t>(
         diagnostics: Diagnostics::default(),
         is_too_large: false,
     };
-    let instance = builder.instance(tree, "", &[]);
+    let deciding = builder.deciding(tree);
+    let bound: Vec<(String, f64)> =
+        surroundings.bound.iter().filter(|(name, _)| deciding.contains(name)).cloned().collect();
+    let instance = builder.instance(tree, "", &bound);
     (instance, builder.diagnostics)
 }
 

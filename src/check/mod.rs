@@ -78,6 +78,8 @@ pub struct Surroundings {
     pub files: TableFiles,
     /// What inputs are told to be.
     pub given: Given,
+    /// Of a part that stands alone: what is bound of its params (SI).
+    pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
 }
@@ -114,6 +116,7 @@ pub fn check(
 ) -> (Option<Mechanism>, Diagnostics) {
     let (instance, told) = instances::instance_of(tree, surroundings, sources);
     let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
+    checker.bind_numbers(&surroundings.bound);
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);

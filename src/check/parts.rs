@@ -351,6 +351,36 @@ impl<'a> Checker<'a> {
         Some(point)
     }
 
+    /// What is bound of its params, as far as it could be read.
+    fn bound_numbers(&self) -> Vec<(String, ExprId)> {
+        let numbers = |bound: &BoundParam<'_>| match bound.bound {
+            Bound::Number(value, _) => vec![(bound.name.to_owned(), value.id)],
+            Bound::Point(Drawn { at: [x, y], .. }) => {
+                vec![(format!("{}.x", bound.name), x), (format!("{}.y", bound.name), y)]
+            }
+            Bound::Coordinate(axis, value, _) => vec![(format!("{}.{}", bound.name, ["x", "y"][axis]), value.id)],
+        };
+        self.bound_params.iter().flat_map(numbers).collect()
+    }
+
+    /// Params that are known as numbers (SI), as if they were bound: those of a part that stands alone.
+    pub(super) fn bind_numbers(&mut self, numbers: &'a [(String, f64)]) {
+        for (name, value) in numbers {
+            let bound = self.number_bound(*value);
+            let coordinate = name.rsplit_once('.').zip(match bound {
+                Bound::Number(value, _) => Some(value),
+                _ => None,
+            });
+            let param = match coordinate {
+                Some(((owner, axis), value)) => {
+                    BoundParam { name: owner, bound: Bound::Coordinate(usize::from(axis == "y"), value, false), span: None }
+                }
+                None => BoundParam { name, bound, span: None },
+            };
+            self.bound_params.push(param);
+        }
+    }
+
     // ---- frames
 
     /// The ground of a part, and what stands in it.
@@ -361,7 +391,11 @@ impl<'a> Checker<'a> {
         let zero = self.model.graph.constant(0.0);
         let declared = self.declared(&written.name);
         let is_turned_over = written.mirrored.is_some();
+        let text = self.parts[part].tree.name.span;
         let id = self.model.add_part(Part {
+            text,
+            params: self.parts[part].bound_numbers(),
+            inputs: Vec::new(),
             ground_name: format!("{}.ground", declared.name),
             declared,
             within: self.part,
@@ -449,8 +483,23 @@ impl<'a> Checker<'a> {
                 let value = self.input_bound(part, k, binding);
                 self.parts[part].inputs[k].value = value;
             }
+            self.tell_inputs(part);
             self.in_part(part, Checker::bind_inputs);
         }
+    }
+
+    /// Writes down what the inputs of a part are in the end, those of parts within it that nobody binds by their paths there.
+    fn tell_inputs(&mut self, part: usize) {
+        let Some(id) = self.parts[part].part else { return };
+        let child = &self.parts[part];
+        let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
+        let mut inputs: Vec<(String, ExprId)> = own.collect();
+        let deeper = self.model.inputs.iter().filter_map(|input| {
+            let name = input.declared.name.strip_prefix(child.path.as_str())?;
+            name.contains('.').then(|| (name.to_owned(), input.value))
+        });
+        inputs.extend(deeper);
+        self.model.parts[id.index()].inputs = inputs;
     }
 
     fn input_bound(&mut self, part: usize, k: usize, binding: &Binding) -> Option<Value> {

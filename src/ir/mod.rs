@@ -25,6 +25,7 @@ pub use rims::Rim;
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
+use std::ops::Range;
 
 /// A mechanism as equations.
 #[derive(Clone, Debug)]
@@ -67,6 +68,8 @@ pub struct ConstraintSystem {
     pub rims: Vec<Rim>,
     /// Distances that gears and racks are made for, but do not hold themselves.
     pub fits: Vec<Fit>,
+    /// The parts of the mechanism, as far as their start asks for it.
+    pub parts: Vec<PartStart>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
     /// The file's analysis: first time, last time, step (s).
@@ -289,6 +292,29 @@ pub enum WatchKind {
     Tangents,
     /// The relative curvature at a contact; zero where the contact is singular.
     Curvature,
+}
+
+/// What the start of a part needs: it is assembled alone, led to what its inputs are, and carried to where its mount is.
+#[derive(Clone, Debug)]
+pub struct PartStart {
+    /// Its name.
+    pub name: String,
+    /// Where that stands.
+    pub span: Span,
+    /// The name of its mechanism, in the text of that.
+    pub text: Span,
+    /// What its params are that are bound (SI), by their names there; a coordinate of a point has its own.
+    pub params: Vec<(String, ExprId)>,
+    /// What its inputs are (SI), over the coordinates and time.
+    pub inputs: Vec<(String, ExprId)>,
+    /// Where its ground is: x (m), y (m), phi (rad).
+    pub mount: [ExprId; 3],
+    /// Whether its text is mirrored.
+    pub is_mirrored: bool,
+    /// Its bodies.
+    pub bodies: Range<usize>,
+    /// The coordinates that its joints bring along.
+    pub own: Range<usize>,
 }
 
 /// A distance in the assembled start, and what it should be.

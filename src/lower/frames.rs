@@ -78,7 +78,7 @@ impl Lowering<'_> {
     }
 
     /// Where a frame is in that of the ground.
-    fn absolute(&mut self, frame: Frame) -> Placement {
+    pub(super) fn absolute(&mut self, frame: Frame) -> Placement {
         match frame {
             Frame::Ground => Placement::identity(&mut self.graph),
             Frame::Body(body) => {

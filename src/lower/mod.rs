@@ -7,6 +7,7 @@ mod estimates;
 mod frames;
 mod gears;
 mod joints;
+mod parts;
 mod quantities;
 mod size;
 mod uses;
@@ -52,6 +53,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     lowering.conditions();
     let points = lowering.points();
     let measures = lowering.measures();
+    let parts = lowering.part_starts();
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
             .into_iter()
@@ -91,6 +93,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         watches: lowering.watches,
         rims: Vec::new(),
         fits: lowering.fits,
+        parts,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };

@@ -143,6 +143,11 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
+    /// The ids of the parts, in order.
+    pub fn part_ids(&self) -> impl Iterator<Item = PartId> + use<> {
+        (0..self.parts.len() as u32).map(PartId)
+    }
+
     /// The grounds of the parts, in order.
     pub fn part_frames(&self) -> impl Iterator<Item = Frame> {
         (0..self.parts.len() as u32).map(|part| Frame::Part(PartId(part)))
@@ -241,6 +246,12 @@ pub struct Led {
 pub struct Part {
     /// Its name, with those of the parts around it.
     pub declared: Declared,
+    /// The name of its mechanism, in the text of that.
+    pub text: Span,
+    /// What is bound of its params, by their names there; a coordinate of a point has its own.
+    pub params: Vec<(String, ExprId)>,
+    /// What its inputs are.
+    pub inputs: Vec<(String, ExprId)>,
     /// What its ground is called.
     pub ground_name: String,
     /// The part in whose text it is declared.

@@ -1,0 +1,177 @@
+//! Where parts begin: each where it comes to alone, carried to where its mount is.
+//!
+//! What a part is led by, and what carries it, must be known before. So equations of the mechanism around are solved block by block, as
+//! far as parts need it, and parts are placed as soon as all is known that they follow. A part that follows what cannot be known before it
+//! is placed where it is without having been led.
+
+use super::kinematics::Kinematics;
+use super::search::levenberg_marquardt;
+use crate::cancel::Cancel;
+use crate::expr::{ExprId, Symbol};
+use crate::ir::PartStart;
+use crate::math;
+use crate::program::Program;
+use crate::structure::{Block, Determined};
+use std::sync::Arc;
+
+/// Blocks up to this size are solved for the sake of parts.
+const LARGEST: usize = 300;
+
+/// Gives the coordinates of a part, by its number, as it is alone with its inputs led to these (SI), or without having been led.
+pub type Leader<'l> = dyn FnMut(usize, Option<&[f64]>) -> Option<Vec<f64>> + 'l;
+
+/// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
+#[must_use]
+pub fn with_parts(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    t: f64,
+    estimates: Vec<f64>,
+    leader: &mut Leader<'_>,
+    cancel: &Cancel,
+) -> Vec<f64> {
+    let kinematics = Kinematics::new(Arc::clone(determined), Arc::clone(program), f64::INFINITY, cancel.clone());
+    let mut placing = Placing::new(kinematics, determined, t, estimates);
+    while !placing.open.is_empty() && !cancel.is_cancelled() {
+        let next = placing.open.iter().position(|&part| placing.is_known(part));
+        if let Some(at) = next {
+            let part = placing.open.remove(at);
+            placing.place(part, true, leader);
+        } else if !placing.solve_what_is_needed() {
+            // it depends on itself
+            let part = placing.open.remove(0);
+            placing.place(part, false, leader);
+        }
+    }
+    placing.q
+}
+
+struct Placing<'d> {
+    kinematics: Kinematics,
+    determined: &'d Determined,
+    parts: &'d [PartStart],
+    t: f64,
+    q: Vec<f64>,
+    /// By coordinate.
+    is_settled: Vec<bool>,
+    block_of: Vec<u32>,
+    /// By part: the coordinates that it follows.
+    needs: Vec<Vec<u32>>,
+    /// Not placed yet.
+    open: Vec<usize>,
+}
+
+impl<'d> Placing<'d> {
+    fn new(mut kinematics: Kinematics, determined: &'d Determined, t: f64, q: Vec<f64>) -> Placing<'d> {
+        kinematics.set_time(t);
+        let system = determined.system();
+        let mut block_of = vec![0; q.len()];
+        for (number, block) in determined.blocks().iter().enumerate() {
+            block.columns.iter().for_each(|&column| block_of[column as usize] = number as u32);
+        }
+        let needs = |part: &PartStart| {
+            let formulas: Vec<ExprId> = part.inputs.iter().map(|(_, id)| *id).chain(part.mount).collect();
+            let symbols = system.graph.symbols_of_all(&formulas).into_iter();
+            symbols.filter_map(coordinate).collect::<Vec<u32>>()
+        };
+        let parts = &system.parts;
+        Placing {
+            kinematics,
+            determined,
+            parts,
+            t,
+            is_settled: vec![false; q.len()],
+            q,
+            block_of,
+            needs: parts.iter().map(needs).collect(),
+            open: (0..parts.len()).collect(),
+        }
+    }
+
+    fn is_known(&self, part: usize) -> bool {
+        self.needs[part].iter().all(|&k| self.is_settled[k as usize])
+    }
+
+    fn value(&self, id: ExprId) -> f64 {
+        let system = self.determined.system();
+        system.graph.value(id, |symbol| match symbol {
+            Symbol::Param(k) => system.params[k as usize].value,
+            Symbol::Time => self.t,
+            Symbol::Coordinate { index, order: 0 } => self.q[index as usize],
+            _ => f64::NAN,
+        })
+    }
+
+    /// Puts a part to where it comes to alone, on its mount.
+    fn place(&mut self, part: usize, is_led: bool, leader: &mut Leader<'_>) {
+        let start = &self.parts[part];
+        let inputs: Vec<f64> = start.inputs.iter().map(|(_, id)| self.value(*id)).collect();
+        let [x, y, phi] = start.mount.map(|id| self.value(id));
+        let is_whole = inputs.iter().chain(&[x, y, phi]).all(|value| value.is_finite());
+        let alone = leader(part, Some(inputs.as_slice()).filter(|_| is_led && is_whole));
+        let Some(alone) = alone.filter(|q| q.len() == 3 * start.bodies.len() + start.own.len() && is_whole) else {
+            return;
+        };
+        let (sin, cos) = math::sin_cos(phi);
+        let side = if start.is_mirrored { -1.0 } else { 1.0 };
+        let first = 3 * start.bodies.start;
+        for (k, pose) in alone[..3 * start.bodies.len()].chunks_exact(3).enumerate() {
+            let (along, across) = (pose[0], side * pose[1]);
+            let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * pose[2]];
+            self.q[first + 3 * k..first + 3 * k + 3].copy_from_slice(&placed);
+        }
+        self.q[start.own.clone()].copy_from_slice(&alone[3 * start.bodies.len()..]);
+        self.is_settled[first..first + 3 * start.bodies.len()].fill(true);
+        self.is_settled[start.own.clone()].fill(true);
+    }
+
+    /// Solves blocks that parts need, each once those before it are settled; whether there was one.
+    fn solve_what_is_needed(&mut self) -> bool {
+        let mut wanted: Vec<u32> = self.open.iter().flat_map(|&part| self.needs[part].iter().copied()).collect();
+        let mut numbers: Vec<u32> = Vec::new();
+        let mut is_wanted = vec![false; self.determined.blocks().len()];
+        while let Some(column) = wanted.pop() {
+            let number = self.block_of[column as usize];
+            if self.is_settled[column as usize] || std::mem::replace(&mut is_wanted[number as usize], true) {
+                continue;
+            }
+            numbers.push(number);
+            wanted.extend(self.behind(&self.determined.blocks()[number as usize]));
+        }
+        numbers.sort_unstable();
+        let mut was_solved = false;
+        for number in numbers {
+            let block = &self.determined.blocks()[number as usize];
+            let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part(column as usize));
+            let is_ready = self.behind(block).all(|column| self.is_settled[column as usize]);
+            if is_ready && !holds_open_part && block.columns.len() <= LARGEST {
+                levenberg_marquardt(&mut self.kinematics, &mut self.q, &block.rows, &block.columns);
+                block.columns.iter().for_each(|&column| self.is_settled[column as usize] = true);
+                was_solved = true;
+            }
+        }
+        was_solved
+    }
+
+    fn is_of_an_open_part(&self, column: usize) -> bool {
+        self.open.iter().any(|&part| {
+            let start = &self.parts[part];
+            (3 * start.bodies.start..3 * start.bodies.end).contains(&column) || start.own.contains(&column)
+        })
+    }
+
+    /// The coordinates of other blocks that the equations of a block hold.
+    fn behind(&self, block: &'d Block) -> impl Iterator<Item = u32> + use<'d> {
+        let system = self.determined.system();
+        let own = &block.columns;
+        let of_row = move |&row: &'d u32| system.phi_q.row(row as usize).iter().map(|&(column, _)| column);
+        block.rows.iter().flat_map(of_row).filter(move |column| !own.contains(column))
+    }
+}
+
+fn coordinate(symbol: Symbol) -> Option<u32> {
+    match symbol {
+        Symbol::Coordinate { index, .. } => Some(index),
+        _ => None,
+    }
+}
