@@ -411,3 +411,25 @@ fn a_mended_file_is_replaced_as_results_are() {
     assert_eq!(fs::read_to_string(&file).unwrap(), mended_draft());
     assert_eq!(fs::metadata(&file).unwrap().permissions().mode() & 0o777, 0o640);
 }
+
+#[cfg(unix)]
+#[test]
+fn a_link_to_a_file_that_is_used_is_that_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let inside = |name: &str| folder.path().join(name).to_string_lossy().into_owned();
+    let mechanism = |name: &str| {
+        format!(
+            "mechanism {name} {{ ground {{ point O = (0, 0) }} body b {{ point O = (0, 0) }} \
+             joint j: revolute(ground.O, b.O) driver d: rotation(j) = t }}\n"
+        )
+    };
+    std::os::unix::fs::symlink("leg.mech", inside("link.mech")).unwrap();
+    std::os::unix::fs::symlink(".", inside("here")).unwrap();
+    fs::write(inside("leg.mech"), mechanism("leg")).unwrap();
+    fs::write(inside("walker.mech"), format!("use \"leg.mech\"\nuse \"link.mech\"\n{}", mechanism("walker"))).unwrap();
+    mechc().args(["check", &inside("walker.mech")]).assert().success();
+    // each link leads one folder deeper, and to the same file
+    fs::write(inside("leg.mech"), format!("use \"here/leg.mech\"\n{}", mechanism("leg"))).unwrap();
+    let circle = failure(&["check", &inside("walker.mech")], 1);
+    assert!(circle.contains("E0206") && circle.contains("uses itself"), "{circle}");
+}

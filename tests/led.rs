@@ -3,8 +3,12 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
+use mechc::rooms::analysis::{self, LeadOptions};
 use mechc::rooms::math::{acos, cos, sin};
-use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
+use mechc::rooms::program::Program;
+use mechc::rooms::{check, lower, syntax};
+use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Sources, Times};
+use std::sync::Arc;
 
 /// Lengths of a four-bar's links (mm), ground first, and the angles (deg) at which coupler and rocker are drawn: near to where they are with
 /// the crank at 30 deg.
@@ -218,6 +222,28 @@ fn code_begins_where_a_run_does() {
         let digits = format!("{value:?}");
         assert!(code.contains(&digits[..digits.len().min(14)]), "{value} is not in the code");
     }
+}
+
+#[test]
+fn an_input_is_led_to_a_number_too() {
+    let text = four_bar(&DRAG_LINK[1], "input turn = 30 deg\n input more = 20 deg/s * t", "turn + more + 1 deg/s * t");
+    let mut sources = Sources::default();
+    let file = sources.add("four_bar.mech", text);
+    let tree = syntax::parse(&sources, file).tree;
+    // time goes from 1 s to 3 s, and nobody says anything of the other input: 21 deg are added at first, and 63 deg at last
+    let lead = Some(check::Lead { times: [1.0, 3.0], inputs: vec![("turn".to_owned(), 250_f64.to_radians())] });
+    let surroundings = check::Surroundings { lead, ..check::Surroundings::default() };
+    let (model, said) = check::check(&tree.mechanisms[0], &surroundings, &sources);
+    let model = model.unwrap_or_else(|| panic!("{said:?}"));
+    let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
+    assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
+    let (determined, _) = analysis::determine(lower::lower(&model), false).expect("determined");
+    let program = Arc::new(Program::new(determined.system()));
+    let (cancel, t) = (Cancel::default(), 1.0);
+    let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
+    let Ok(arrived) = analysis::lead(&Arc::new(determined), &program, &options) else { panic!("it is led") };
+    let q = [&[0.0][..], &arrived.q].concat();
+    assert!(same_place(&q, &followed(|d, driver| four_bar(&DRAG_LINK[1], d, driver), 313.0)));
 }
 
 #[test]

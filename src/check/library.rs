@@ -104,6 +104,12 @@ impl Library {
         Err(NotKnown::Told(Box::new(told)))
     }
 
+    /// The first file that holds a mechanism of a name.
+    #[must_use]
+    pub fn file_of(&self, name: &str) -> Option<FileId> {
+        self.files.iter().find(|file| mechanism_of(file, name).is_some()).map(|file| file.id)
+    }
+
     /// What is wrong with how files use each other: names that are there twice, and circles.
     #[must_use]
     pub fn faults(&self, sources: &Sources) -> Diagnostics {

@@ -79,7 +79,7 @@ impl Parsed {
 impl Checked {
     fn of(parsed: &Parsed, choice: &Choice, world: &dyn World) -> Checked {
         let used = used::read(parsed, world);
-        match chosen(parsed, choice.mechanism.as_deref()) {
+        match chosen(parsed, &used, choice.mechanism.as_deref()) {
             Ok(number) => Checked::of_number(parsed, &used, number, choice, world),
             Err(why) => {
                 let mut diagnostics = parsed.faults().clone();
@@ -212,7 +212,7 @@ fn outermost(mechanisms: &[(&str, Vec<&str>)]) -> Option<usize> {
     others.next().filter(|_| others.next().is_none())
 }
 
-fn chosen(parsed: &Parsed, wanted: Option<&str>) -> Result<usize, Box<Diagnostic>> {
+fn chosen(parsed: &Parsed, used: &Used, wanted: Option<&str>) -> Result<usize, Box<Diagnostic>> {
     let names: Vec<&str> = parsed.mechanisms().collect();
     let with_parts: Vec<(&str, Vec<&str>)> = parsed.tree().mechanisms.iter().map(with_own_parts).collect();
     let listed = format!("the mechanisms are {}", names.join(", "));
@@ -225,7 +225,9 @@ fn chosen(parsed: &Parsed, wanted: Option<&str>) -> Result<usize, Box<Diagnostic
         Some(name) => names.iter().position(|known| *known == name).ok_or_else(|| {
             let meant = nearest(&name, names.iter().copied()).map(|name| format!("was `{name}` meant?"));
             let said = Diagnostic::new(Code::E0704, format!("`{file}` holds no mechanism `{name}`"));
-            Box::new(said.help(meant.unwrap_or(listed)))
+            let elsewhere = used.library.file_of(&name).map(|other| &used.sources.get(other).name);
+            let elsewhere = elsewhere.map(|other| format!("`{other}`, which it uses, holds it: name that file"));
+            Box::new(said.help(elsewhere.or(meant).unwrap_or(listed)))
         }),
     }
 }

@@ -70,6 +70,9 @@ pub struct Run {
 impl Compiled {
     /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
     /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
+    ///
+    /// A mechanism that is told its inputs begins where these lead it. An error may stand beside a run: no way leads there (E0612), and it
+    /// was assembled from the file's estimates alone.
     #[must_use]
     pub fn run(&self, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
         Run::of(self, times, options)
