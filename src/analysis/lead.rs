@@ -2,7 +2,7 @@
 //! where others do, along the branch.
 
 use super::errors;
-use super::{Started, Times, start, start_from};
+use super::{Started, Times, start_from};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
@@ -51,16 +51,21 @@ pub enum NotLed {
     },
 }
 
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates to the end of the way.
+/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from others, to the end of the way.
 ///
 /// # Errors
 /// It cannot be assembled at 0, or its motion ends before 1. A velocity that jumps on the way is no reason: there is no time.
-pub fn lead(determined: &Arc<Determined>, program: &Arc<Program>, options: &LeadOptions) -> Result<Arrived, NotLed> {
+pub fn lead(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    from: Option<&[f64]>,
+    options: &LeadOptions,
+) -> Result<Arrived, NotLed> {
     let LeadOptions { tolerance, cancel, .. } = options;
     let again = |part: f64, from: &[f64]| {
         start_from(Arc::clone(determined), Arc::clone(program), part, Some(from), *tolerance, cancel)
     };
-    let started = start(Arc::clone(determined), Arc::clone(program), 0.0, *tolerance, cancel);
+    let started = start_from(Arc::clone(determined), Arc::clone(program), 0.0, from, *tolerance, cancel);
     let mut started = started.map_err(NotLed::NotStarted)?;
     let remarks = started.far_estimates_at(options.t);
     let mut from = (0.0, started.q().to_vec());

@@ -28,6 +28,7 @@ mod limits;
 mod linear;
 mod march;
 mod open_loop;
+mod parts;
 mod reach;
 mod redundancy;
 mod rims;
@@ -45,6 +46,7 @@ pub use assembly::Moved;
 pub use determine::determine;
 pub use lead::{Arrived, LeadOptions, NotLed, lead};
 pub use march::Motion;
+pub use parts::with_parts;
 pub use times::Times;
 
 use crate::cancel::Cancel;

@@ -68,6 +68,13 @@ impl Library {
         &self.files[mechanism.file].read.tree.mechanisms[mechanism.number]
     }
 
+    /// The mechanism whose name stands at a place.
+    #[must_use]
+    pub fn mechanism_at(&self, name: Span) -> Option<&Mechanism> {
+        let file = &self.files[self.number_of(name.file)?];
+        file.read.tree.mechanisms.iter().find(|mechanism| mechanism.name.span == name)
+    }
+
     /// Beside which the files are that a text names; for a text that is not here, the current folder.
     #[must_use]
     pub fn path_of(&self, file: FileId) -> &Path {

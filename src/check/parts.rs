@@ -372,9 +372,11 @@ impl<'a> Checker<'a> {
                 _ => None,
             });
             let param = match coordinate {
-                Some(((owner, axis), value)) => {
-                    BoundParam { name: owner, bound: Bound::Coordinate(usize::from(axis == "y"), value, false), span: None }
-                }
+                Some(((owner, axis), value)) => BoundParam {
+                    name: owner,
+                    bound: Bound::Coordinate(usize::from(axis == "y"), value, false),
+                    span: None,
+                },
                 None => BoundParam { name, bound, span: None },
             };
             self.bound_params.push(param);

@@ -59,7 +59,7 @@ fn ranges(list: &[Option<PartId>], parts: usize) -> Vec<Range<usize>> {
     for (k, part) in list.iter().enumerate() {
         if let Some(part) = part {
             let range = &mut ranges[part.index()];
-            *range = if range.is_empty() { k..k + 1 } else { range.start..k + 1 };
+            *range = if range.start == range.end { k..k + 1 } else { range.start..k + 1 };
         }
     }
     ranges

@@ -113,12 +113,16 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let surroundings = Surroundings { settings, library: library.clone(), files, given, lead: None };
+                let library = library.clone();
+                let surroundings = Surroundings { settings, library, files, given, bound: Vec::new(), lead: None };
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
                 let sources = sources.clone();
-                leading = is_told.then(|| Arc::new(Leading { read: parsed.shared(), number, surroundings, sources }));
+                let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
+                let read = parsed.shared();
+                leading =
+                    (is_told || has_parts).then(|| Arc::new(Leading { read, number, surroundings, sources, is_told }));
             }
         }
         Checked { leading, ..Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics) }

@@ -87,7 +87,7 @@ impl Compiled {
             Some((leading, leave_out)) => {
                 let own = self.analysis().map_or(0.0, |[from, ..]| from);
                 let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
-                leading.lead(t, leave_out, &options)
+                leading.begin((self.determined(), self.program()), t, leave_out, &options)
             }
         };
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
