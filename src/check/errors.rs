@@ -1,5 +1,9 @@
 //! What is said of a mechanism that does not pass.
 
+mod results;
+
+pub use results::{derivative_of_result, outside_reduction, reduction_in, result_in};
+
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
 use super::rates::{Part, polar, rate_mended};

@@ -29,6 +29,7 @@ mod profiles;
 mod quantities;
 mod rates;
 mod repetition;
+mod results;
 mod samples;
 mod sites;
 mod symbols;
@@ -51,6 +52,7 @@ use formula::{Context, Dim, Value};
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
+use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use sites::{Drawn, Scope};
 use tables::TableState;
@@ -261,6 +263,7 @@ struct Checker<'a> {
     tables: Vec<TableState<'a>>,
     inputs: Vec<InputState<'a>>,
     measures: Vec<MeasureState<'a>>,
+    results: Vec<ResultState<'a>>,
     bodies: Vec<BodyId>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
@@ -316,6 +319,7 @@ impl<'a> Checker<'a> {
             tables: Vec::new(),
             inputs: Vec::new(),
             measures: Vec::new(),
+            results: Vec::new(),
             bodies: Vec::new(),
             joints: Vec::new(),
             features: FxHashMap::default(),
@@ -338,12 +342,13 @@ impl<'a> Checker<'a> {
 
     fn run(&mut self) {
         self.collect(self.tree);
-        let measures = self.definitions();
+        let [measures, results] = self.definitions();
         self.features();
         self.joints();
         self.measures(&measures);
         self.equations();
         self.analysis();
+        self.results(&results);
         self.warn_of_plain_lengths();
         if self.bodies.is_empty() && !has_broken(self.tree) {
             self.report(errors::empty(&self.tree.name));
@@ -373,8 +378,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; returns the measures' order.
-    fn definitions(&mut self) -> Vec<usize> {
+    /// and functions looked over; returns the order of the measures, and that of the results.
+    fn definitions(&mut self) -> [Vec<usize>; 2] {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
             match &item.kind {
@@ -403,6 +408,11 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
+                ItemKind::Result { name, value, unit } => {
+                    entities.push(Entity::Result(self.results.len()));
+                    definitions.push((name, vec![value]));
+                    self.results.push(ResultState::of(name, value, unit.as_ref()));
+                }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
                     definitions.push((
@@ -422,7 +432,7 @@ impl<'a> Checker<'a> {
         let uses = self.uses(&definitions, &entities);
         self.look_over_given();
         let samples = self.samples();
-        let mut measures = Vec::new();
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -444,10 +454,14 @@ impl<'a> Checker<'a> {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
                 }
+                Entity::Result(k) => {
+                    self.results[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    results.push(k);
+                }
                 _ => {}
             }
         }
-        measures
+        [measures, results]
     }
 
     fn uses<'d>(
@@ -475,7 +489,8 @@ impl<'a> Checker<'a> {
                         |name| self.hidden.contains(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`
-                            if is_called && self.quantity_word(used).is_some() {
+                            let is_of_motion = self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());

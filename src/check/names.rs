@@ -19,6 +19,7 @@ pub(super) enum Entity {
     Equation,
     Measure(usize),
     Trace,
+    Result(usize),
     /// Its declaration does not follow the grammar, which has been said.
     Broken,
 }
@@ -36,15 +37,19 @@ impl Entity {
             Entity::Equation => "a constraint or driver",
             Entity::Measure(_) => "a measure",
             Entity::Trace => "a trace",
+            Entity::Result(_) => "a result",
             Entity::Broken => "a declaration that cannot be read",
         }
     }
 
     fn kind_of_name(self) -> KindOfName {
         match self {
-            Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Trace | Entity::Broken => {
-                KindOfName::Value
-            }
+            Entity::Param(_)
+            | Entity::Input(_)
+            | Entity::Measure(_)
+            | Entity::Trace
+            | Entity::Result(_)
+            | Entity::Broken => KindOfName::Value,
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
             Entity::Body(_) => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
@@ -117,7 +122,7 @@ impl Checker<'_> {
     /// Fills the mechanism's space; a name that is taken twice keeps its first meaning.
     pub(super) fn collect(&mut self, mechanism: &Mechanism) {
         let (mut params, mut functions, mut tables) = (0, 0, 0);
-        let (mut inputs, mut bodies, mut joints, mut measures) = (0, 0, 0, 0);
+        let (mut inputs, mut bodies, mut joints, mut measures, mut results) = (0, 0, 0, 0, 0);
         let next = |count: &mut usize| {
             *count += 1;
             *count - 1
@@ -133,6 +138,7 @@ impl Checker<'_> {
                 ItemKind::Equation { name, .. } => (name, Entity::Equation),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut measures))),
                 ItemKind::Trace { name, .. } => (name, Entity::Trace),
+                ItemKind::Result { name, .. } => (name, Entity::Result(next(&mut results))),
                 ItemKind::Broken { names, .. } => {
                     self.collect_broken(names);
                     continue;

@@ -88,6 +88,7 @@ impl Checker<'_> {
                     Some(Entity::Param(k)) if !self.angle_params.contains_key(&k) => return true,
                     Some(Entity::Function(_) | Entity::Table(_)) => return true,
                     Some(Entity::Measure(k)) if self.measures[k].holds_plain_number => return true,
+                    Some(Entity::Result(k)) if self.results[k].holds_plain_number => return true,
                     _ => {}
                 },
                 _ => {}
@@ -112,7 +113,7 @@ impl Checker<'_> {
             ExprKind::Name(name) => self.angle_power_of_name(name),
             ExprKind::Call { name, arguments } => match name.text.as_str() {
                 "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
-                "der" | "abs" | "min" | "max" | "mod" => most(arguments),
+                "der" | "abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last" | "at" => most(arguments),
                 _ => 0,
             },
             ExprKind::Sum(first, rest) => {
@@ -138,6 +139,7 @@ impl Checker<'_> {
         match self.entity(name) {
             Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
             Some(Entity::Measure(k)) => self.measures[k].angle,
+            Some(Entity::Result(k)) => self.results[k].angle,
             Some(_) => 0,
             None => match Constant::named(&name.text) {
                 Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,

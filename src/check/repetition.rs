@@ -233,6 +233,9 @@ impl<'t> Writer<'t, '_> {
             ItemKind::Trace { name, point, unit } => {
                 ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
             }
+            ItemKind::Result { name, value, unit } => {
+                ItemKind::Result { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+            }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
                 name: own(name),
@@ -399,7 +402,8 @@ fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
         | ItemKind::Measure { name, .. }
-        | ItemKind::Trace { name, .. } => Some(name),
+        | ItemKind::Trace { name, .. }
+        | ItemKind::Result { name, .. } => Some(name),
         ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }
 }

@@ -62,6 +62,8 @@ pub enum NameKind {
     Measure,
     /// `trace`
     Trace,
+    /// `result`
+    Result,
     /// What cannot be read.
     Broken,
 }
@@ -224,6 +226,7 @@ impl Walk<'_> {
             ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
             ItemKind::Trace { name, .. } => (name, NameKind::Trace),
+            ItemKind::Result { name, .. } => (name, NameKind::Result),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -278,7 +281,9 @@ impl Walk<'_> {
         let plain = Scope { indices: &indices, ..Scope::default() };
         match &item.kind {
             ItemKind::Param { value, .. } | ItemKind::Input { value, .. } => self.formula(value, plain),
-            ItemKind::Measure { value: formula, unit, .. } | ItemKind::Trace { point: formula, unit, .. } => {
+            ItemKind::Measure { value: formula, unit, .. }
+            | ItemKind::Trace { point: formula, unit, .. }
+            | ItemKind::Result { value: formula, unit, .. } => {
                 self.formula(formula, plain);
                 if let Some(unit) = unit {
                     self.compound(unit);

@@ -100,6 +100,12 @@ impl Compiled {
         analysis::units(self.system())
     }
 
+    /// The names of the results, numbers for the whole analysis, with the units in which they are told.
+    #[must_use]
+    pub fn results(&self) -> Vec<(String, ColumnUnit)> {
+        analysis::results(self.system())
+    }
+
     /// How many coordinates and equations there are, by body and declaration, as a table.
     #[must_use]
     pub fn counts(&self) -> String {

@@ -326,6 +326,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::constraint
         | Rule::measure
         | Rule::trace
+        | Rule::result
         | Rule::analysis
         | Rule::kw_param
         | Rule::kw_fn
@@ -337,6 +338,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_constraint
         | Rule::kw_measure
         | Rule::kw_trace
+        | Rule::kw_result
         | Rule::kw_analysis => "a declaration",
         Rule::point
         | Rule::axis

@@ -11,7 +11,7 @@ use super::{
 const WIDTH: usize = 100;
 
 /// The kinds of words that have a page, by their names.
-pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "joints", "units", "keywords", "constants"];
+pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
 /// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
 #[must_use]
@@ -27,6 +27,7 @@ impl Category {
             Category::Function => "a function",
             Category::Motion => "a motion function",
             Category::Quantity => "a kinematic quantity",
+            Category::Reduction => "a reduction, in results",
             Category::Joint => "a joint",
             Category::Unit => "a unit",
             Category::Constant => "a constant",
@@ -105,7 +106,7 @@ fn details(word: &Word) -> Vec<String> {
     if !word.more.is_empty() {
         details.push(word.more.to_owned());
     }
-    if Function::named(word.name).is_some_and(|function| function.gives_way) {
+    if word.category == Category::Function && Function::named(word.name).is_some_and(|function| function.gives_way) {
         details.push("A function or table of the file that is called so hides it.".to_owned());
     }
     let quantity = QuantityWord::named(word.name).filter(|_| word.category == Category::Quantity);

@@ -109,6 +109,9 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Trace { name, point, unit } => {
             format!("trace {} {} {}", name.text, shape(point), unit_shape(unit.as_ref()))
         }
+        ItemKind::Result { name, value, unit } => {
+            format!("result {} {} {}", name.text, shape(value), unit_shape(unit.as_ref()))
+        }
         ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }
