@@ -449,8 +449,7 @@ impl Motion {
 pub(super) fn quintic(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
     let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);
     // what is left of value, slope and half the curvature at the end
-    let (value, first, second) =
-        (way - slope - bend, h * b.qd[k] - slope - 2.0 * bend, 0.5 * h * h * b.qdd[k] - bend);
+    let (value, first, second) = (way - slope - bend, h * b.qd[k] - slope - 2.0 * bend, 0.5 * h * h * b.qdd[k] - bend);
     let cubic = 10.0 * value - 4.0 * first + second;
     let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
     let quintic = 6.0 * value - 3.0 * first + second;

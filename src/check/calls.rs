@@ -67,7 +67,10 @@ impl<'a> Checker<'a> {
             if context.results {
                 return self.reduction(e, word, arguments, context);
             }
-            if matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_))) {
+            // with one argument too few it compares
+            if !self.is_of_language(&name.text)
+                && matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)))
+            {
                 self.report(errors::reduction_in(context.place, word, e.span));
                 return None;
             }
@@ -139,8 +142,7 @@ impl<'a> Checker<'a> {
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner =
-            Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
+        let inner = Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 

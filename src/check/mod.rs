@@ -489,7 +489,8 @@ impl<'a> Checker<'a> {
                         |name| self.hidden.contains(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`
-                            let is_of_motion = self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            let is_of_motion =
+                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
                             if is_called && is_of_motion {
                                 return;
                             }

@@ -111,8 +111,7 @@ impl Checker<'_> {
     /// Whether a formula is one number for the whole analysis: it holds reductions, and nothing else that changes.
     pub(super) fn is_of_whole_analysis(&self, id: ExprId) -> bool {
         let symbols = self.model.graph.symbols(id);
-        let is_reduction =
-            |k: u32| matches!(self.model.named.get(k as usize), Some(Named::Reduction(_)));
+        let is_reduction = |k: u32| matches!(self.model.named.get(k as usize), Some(Named::Reduction(_)));
         let changes = |symbol: &Symbol| match symbol {
             Symbol::Param(_) => false,
             Symbol::Named(k) => !is_reduction(*k),
@@ -124,9 +123,9 @@ impl Checker<'_> {
     /// The time of `at`, a constant.
     fn time_of_at(&mut self, time: &Expr) -> Option<ExprId> {
         let judged = self.is_dimensional(time);
-        let context = Context { judged, ..Context::constant("the time of `at`") };
+        let context = Context { judged, ..Context::constant("the second argument of `at`") };
         let value = self.number(time, &context)?;
-        self.demand("the time of `at`", Dimension::TIME, time.span, value.dim, &context)?;
+        self.demand("the second argument of `at`", Dimension::TIME, time.span, value.dim, &context)?;
         Some(value.id)
     }
 }

@@ -30,7 +30,9 @@ pub(super) fn write(output: &mut Output, names: &[(String, ColumnUnit)], answers
     let lines: Vec<String> = names
         .iter()
         .zip(&answers.values)
-        .map(|((name, _), value)| format!("{}: {}", serde_json::Value::from(name.as_str()), serde_json::Value::from(*value)))
+        .map(|((name, _), value)| {
+            format!("{}: {}", serde_json::Value::from(name.as_str()), serde_json::Value::from(*value))
+        })
         .collect();
     let written = output.writer().write_all(format!("{{{}}}\n", lines.join(",\n ")).as_bytes());
     written.map_err(|error| output.failure(&error))

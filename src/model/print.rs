@@ -1,7 +1,8 @@
 //! The model as readable text: names resolved, values in SI.
 
 use super::{
-    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity, Reduction, Side,
+    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
+    Reduction, Side,
 };
 use crate::expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;

@@ -244,7 +244,11 @@ pub(super) fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, 
             let (first, last) = (at(piece).low, at(piece).high);
             let one = picked(program, table, column, first, v);
             // several pieces where the argument goes over a knot: all between
-            let all = if first.total_cmp(&last).is_eq() { one } else { picked_of_all(program, table, column, [first, last], v) };
+            let all = if first.total_cmp(&last).is_eq() {
+                one
+            } else {
+                picked_of_all(program, table, column, [first, last], v)
+            };
             (to, all)
         }
         // both results are written where it is met

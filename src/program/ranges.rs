@@ -116,7 +116,8 @@ impl Ranges {
 fn is_bounded(op: Op) -> bool {
     matches!(
         op,
-        Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, .. } | Op::Binary { function: Binary::Atan2, .. }
+        Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, .. }
+            | Op::Binary { function: Binary::Atan2, .. }
     )
 }
 
@@ -130,14 +131,18 @@ fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
     };
     match op {
         Op::SinCos { a, .. } => width(a) <= WIDEST,
-        Op::Unary { function: Unary::Sin | Unary::Cos | Unary::Tan | Unary::Exp | Unary::Sinh | Unary::Cosh, a, .. } => {
-            width(a) <= WIDEST
-        }
+        Op::Unary {
+            function: Unary::Sin | Unary::Cos | Unary::Tan | Unary::Exp | Unary::Sinh | Unary::Cosh,
+            a,
+            ..
+        } => width(a) <= WIDEST,
         Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10, a, .. } => width(a) == 0.0 || ratio(a),
         Op::Recip { a, .. } | Op::Div { b: a, .. } | Op::Binary { function: Binary::Pow, a, .. } => {
             width(a) == 0.0 || ratio(a)
         }
-        Op::Binary { function: Binary::Hypot, a, b, .. } => (width(a) == 0.0 && width(b) == 0.0) || ratio(a) || ratio(b),
+        Op::Binary { function: Binary::Hypot, a, b, .. } => {
+            (width(a) == 0.0 && width(b) == 0.0) || ratio(a) || ratio(b)
+        }
         Op::Binary { function: Binary::Min | Binary::Max, a, b, .. } => {
             let (a, b) = (v[a as usize], v[b as usize]);
             a.high <= b.low || b.high <= a.low

@@ -287,7 +287,9 @@ pub static KEYWORDS: &[Keyword] = &[
          e is a formula of a measure, and over params, functions, tables and other results. `mechc run` tells it, and \
          `--results OUT.json` writes it. It depends on no output step. The word begins a declaration only where one begins, \
          and is a name elsewhere.",
-        Example::Arm("result reach = max(x(arm.tip)) - min(x(arm.tip)) in mm\nresult when  = argmax(y(arm.tip))\nanalysis from 0 s to 1 s every 10 ms"),
+        Example::Arm(
+            "result reach = max(x(arm.tip)) - min(x(arm.tip)) in mm\nresult when  = argmax(y(arm.tip))\nanalysis from 0 s to 1 s every 10 ms",
+        ),
     ),
     keyword(
         Role::Opener,

@@ -11,7 +11,8 @@ use super::{
 const WIDTH: usize = 100;
 
 /// The kinds of words that have a page, by their names.
-pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
+pub const OVERVIEWS: &[&str] =
+    &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
 /// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
 #[must_use]

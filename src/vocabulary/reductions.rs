@@ -28,15 +28,8 @@ const fn reduction(
     more: &'static str,
     example: &'static str,
 ) -> ReductionWord {
-    let word = Word {
-        name,
-        category: Category::Reduction,
-        forms,
-        letters: "",
-        meaning,
-        more,
-        example: Example::Arm(example),
-    };
+    let word =
+        Word { name, category: Category::Reduction, forms, letters: "", meaning, more, example: Example::Arm(example) };
     ReductionWord { word, takes: "one argument", arguments: 1 }
 }
 

@@ -10,9 +10,10 @@ use crate::source::Span;
 pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diagnostic {
     let name = &outcome.name;
     let (message, label) = match trouble {
-        Some(Trouble::Missing(t)) => {
-            (format!("result `{name}` has no value: what it speaks of has none at {}", at(t)), "infinite or undefined there")
-        }
+        Some(Trouble::Missing(t)) => (
+            format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
+            "infinite or undefined there",
+        ),
         Some(Trouble::Unknown(t)) => {
             (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
         }

@@ -104,8 +104,7 @@ impl Formula {
             .collect();
         coordinates.sort_unstable();
         coordinates.dedup();
-        let (program, roots) =
-            Program::of_formulas(graph, system.params.len(), system.coordinates.len(), &formulas);
+        let (program, roots) = Program::of_formulas(graph, system.params.len(), system.coordinates.len(), &formulas);
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);

@@ -13,8 +13,8 @@ mod quadrature;
 mod search;
 
 use super::Started;
-use super::errors;
 use super::edges::shortly_after;
+use super::errors;
 use super::kinematics::{Kinematics, State};
 use super::march::Motion;
 use super::stretches::Stretch;
@@ -22,6 +22,7 @@ use super::times::Times;
 use crate::diag::Diagnostic;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
+use crate::program::Range;
 use crate::solver::Solver;
 use crate::structure::Determined;
 use formulas::{Cell, Formula, Point};
@@ -39,6 +40,14 @@ const MOST_CELLS: usize = 4_000_000;
 const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// A stretch in which nothing can be solved for may be so long, as a part of the span.
 const OPAQUE: f64 = 1e-6;
+
+/// A formula may go beyond what has been seen of it by this part of that before it is compared with its size; and so many cells are
+/// looked at for that.
+const SEEN: f64 = 0.25;
+const MOST_LOOKS: usize = 1000;
+
+/// Where nothing is known.
+const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false };
 
 /// What results are computed from: an assembled mechanism and the times of its analysis.
 pub struct Asked {
@@ -116,7 +125,15 @@ struct Survey<'r> {
     stretch: &'r Stretch,
     trouble: &'r mut Option<Trouble>,
     cells: &'r mut usize,
+    seen: &'r mut [f64; 2],
     shortest: f64,
+}
+
+/// A stretch as a formula sees it.
+struct Root {
+    whole: Cell,
+    /// Its halves with what the formula can be in them; none where its middle cannot be had.
+    parts: Vec<(Cell, Range)>,
 }
 
 impl Survey<'_> {
@@ -142,11 +159,26 @@ impl Survey<'_> {
             State { t, ..a.clone() }
         };
         let point = self.formula.at(state);
-        if !point.sample.value.is_finite() {
-            self.meet(Trouble::Missing(t));
-            return None;
+        self.see(&point).then_some(point)
+    }
+
+    /// Takes note of a value; says whether there is one.
+    fn see(&mut self, point: &Point) -> bool {
+        let value = point.sample.value;
+        if !value.is_finite() {
+            self.meet(Trouble::Missing(point.state.t));
+            return false;
         }
-        Some(point)
+        *self.seen = [self.seen[0].min(value), self.seen[1].max(value)];
+        true
+    }
+
+    /// What the formula can be in a cell; anything where the states at its ends do not tell the motion between.
+    fn range(&mut self, cell: &Cell) -> Range {
+        self.formula.look_at(cell);
+        let range = self.formula.range(0);
+        let is_known = !self.formula.moves() || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]);
+        if is_known { range } else { ANYTHING }
     }
 
     /// Whether a cell may be cut in two. One that is too short for that, and in which the formula may be anything, has no value.
@@ -224,7 +256,7 @@ impl Reduced {
             self.trouble = Some(Trouble::Missing(state.t));
             return;
         }
-        self.see(value);
+        self.seen = [value; 2];
         let scale = self.scale(span);
         self.extremes.iter_mut().flatten().for_each(|extreme| extreme.note_edge(state.t, value, scale));
     }
@@ -232,11 +264,6 @@ impl Reduced {
     fn scale(&self, span: f64) -> Scale {
         let [low, high] = self.seen;
         Scale { range: f64::max(high - low, 0.0), largest: f64::max(low.abs(), high.abs()), span }
-    }
-
-    fn see(&mut self, value: f64) {
-        self.seen = [self.seen[0].min(value), self.seen[1].max(value)];
-        self.extremes.iter_mut().flatten().for_each(|extreme| extreme.note(value));
     }
 
     /// What a reduction is, once all has been seen.
@@ -281,73 +308,104 @@ impl Reduced {
 
     /// Looks at some stretches.
     fn look(&mut self, stretches: &[Stretch], places: &mut Places, span: f64) {
-        let middles: Vec<[Option<Rc<Point>>; 3]> = stretches.iter().map(|stretch| self.sampled(stretch, places)).collect();
-        let scale = self.scale(span);
-        for (stretch, points) in stretches.iter().zip(&middles) {
+        let mut roots: Vec<Option<Root>> = stretches.iter().map(|stretch| self.root(stretch, places, span)).collect();
+        self.explore(stretches, &roots, places, span);
+        for (stretch, root) in stretches.iter().zip(&mut roots) {
             if self.trouble.is_some() {
                 return;
             }
-            places.enter(stretch);
-            self.look_into(stretch, points, places, scale);
+            if let Some(root) = root {
+                places.enter(stretch);
+                self.look_into(stretch, root, places, span);
+            }
         }
     }
 
-    /// The formula at the ends and in the middle of a stretch.
-    fn sampled(&mut self, stretch: &Stretch, places: &mut Places) -> [Option<Rc<Point>>; 3] {
+    /// The formula at the ends and in the middle of a stretch, and what it can be between; none where nobody asks.
+    fn root(&mut self, stretch: &Stretch, places: &mut Places, span: f64) -> Option<Root> {
         places.enter(stretch);
         self.take_times(stretch, places);
         if self.extremes.iter().all(Option::is_none) && self.integral.is_none() {
-            return [None, None, None];
+            return None;
         }
-        let t = 0.5 * stretch.from.t + 0.5 * stretch.to.t;
-        let is_within = t > stretch.from.t && t < stretch.to.t;
+        let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone()));
+        let mut survey = self.survey(stretch, places, span);
+        for point in [&from, &to] {
+            survey.see(point);
+        }
+        let whole = Cell::unknown(survey.formula, &from, &to);
         let middle = match &stretch.middle {
-            Some(state) => Some(state.clone()),
-            None if is_within => places.solve(stretch, [&stretch.from, &stretch.to], t),
-            None => None,
-        };
-        [Some(stretch.from.clone()), middle, Some(stretch.to.clone())].map(|state| {
-            let point = self.formula.at(state?);
-            if point.sample.value.is_finite() {
-                self.see(point.sample.value);
-            } else if self.trouble.is_none() {
-                self.trouble = Some(Trouble::Missing(point.state.t));
+            Some(state) => {
+                let point = survey.formula.at(state.clone());
+                survey.see(&point);
+                Some(point)
             }
-            Some(point)
-        })
+            None => survey.middle(&whole),
+        };
+        let Some(middle) = middle else {
+            if whole.length() > OPAQUE * span {
+                survey.meet(Trouble::Unknown(from.state.t));
+            }
+            return Some(Root { whole, parts: Vec::new() });
+        };
+        let halves = whole.halves(survey.formula, &middle);
+        let parts = halves.map(|cell| {
+            let range = survey.range(&cell);
+            (cell, range)
+        });
+        Some(Root { whole, parts: parts.into() })
     }
 
-    fn look_into(&mut self, stretch: &Stretch, points: &[Option<Rc<Point>>; 3], places: &mut Places, scale: Scale) {
-        let [Some(from), middle, Some(to)] = points else { return };
-        let root = Cell::unknown(&self.formula, from, to);
-        if middle.is_none() && root.length() > OPAQUE * scale.span {
-            self.trouble = Some(Trouble::Unknown(from.state.t));
-            return;
+    /// Looks for values where the ranges allow much more than has been seen: what is a peak in no time has to be known before
+    /// anything is compared with its size.
+    fn explore(&mut self, stretches: &[Stretch], roots: &[Option<Root>], places: &mut Places, span: f64) {
+        for sign in [1.0, -1.0] {
+            let top = |range: &Range| if sign > 0.0 { range.high } else { -range.low };
+            let parts = roots.iter().enumerate().filter_map(|(k, root)| Some((k, root.as_ref()?)));
+            let mut open: Vec<(f64, usize, Cell)> = parts
+                .flat_map(|(k, root)| root.parts.iter().map(move |(cell, range)| (top(range), k, cell.clone())))
+                .collect();
+            for _ in 0..MOST_LOOKS {
+                let best = (0..open.len()).max_by(|&a, &b| open[a].0.total_cmp(&open[b].0));
+                let Some((upper, k, cell)) = best.map(|best| open.swap_remove(best)) else { break };
+                let seen = if sign > 0.0 { self.seen[1] } else { -self.seen[0] };
+                if upper - seen <= SEEN * (self.seen[1] - self.seen[0]) || self.trouble.is_some() {
+                    break;
+                }
+                places.enter(&stretches[k]);
+                let mut survey = self.survey(&stretches[k], places, span);
+                let Some(middle) = survey.middle(&cell) else { continue };
+                for half in cell.halves(survey.formula, &middle) {
+                    let range = survey.range(&half);
+                    open.push((top(&range), k, half));
+                }
+            }
         }
+    }
+
+    fn look_into(&mut self, stretch: &Stretch, root: &Root, places: &mut Places, span: f64) {
+        let scale = self.scale(span);
+        let [from, to] = [&root.whole.a, &root.whole.b];
         let mut extremes = self.extremes.clone();
         for extreme in extremes.iter_mut().flatten() {
             if stretch.begins_at_edge {
                 extreme.note_edge(from.state.t, from.sample.value, scale);
             }
-            let mut survey = self.survey(stretch, places, scale);
-            if let Some(middle) = middle {
-                let halves = root.halves(survey.formula, middle);
-                survey.search(halves, extreme, scale);
-            }
+            self.survey(stretch, places, span).search(&root.parts, extreme, scale);
             if stretch.ends_at_edge {
                 extreme.note_edge(to.state.t, to.sample.value, scale);
             }
         }
         self.extremes = extremes;
         if let Some(integral) = self.integral {
-            let more = self.survey(stretch, places, scale).integral(&root, middle.as_ref(), scale);
+            let more = self.survey(stretch, places, span).integral(root, scale);
             self.integral = Some(integral + more);
         }
     }
 
-    fn survey<'r>(&'r mut self, stretch: &'r Stretch, places: &'r mut Places, scale: Scale) -> Survey<'r> {
-        let Reduced { formula, trouble, cells, .. } = self;
-        Survey { formula, places, stretch, trouble, cells, shortest: SHORTEST * scale.span }
+    fn survey<'r>(&'r mut self, stretch: &'r Stretch, places: &'r mut Places, span: f64) -> Survey<'r> {
+        let Reduced { formula, trouble, cells, seen, .. } = self;
+        Survey { formula, places, stretch, trouble, cells, seen, shortest: SHORTEST * span }
     }
 }
 

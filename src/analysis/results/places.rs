@@ -82,7 +82,8 @@ impl Places {
             self.has_bounds = true;
         }
         if let Some((solver, lanes)) = &mut self.solver {
-            let batch = Batch { times: [t], from: a.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
+            let batch =
+                Batch { times: [t], from: a.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
             let (program, registers) = self.kinematics.program();
             let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
             let layout = solver.layout();

@@ -1,39 +1,37 @@
 //! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin).
 
 use super::formulas::{Cell, Point};
-use super::{Scale, Survey};
-use std::rc::Rc;
+use super::{Root, Scale, Survey};
+use crate::program::Range;
 
 /// An integral may be off by this part of range times time.
 const ACCURACY: f64 = 1e-11;
 /// A cell in which no value matters more than this part of range times span is as good as it need be.
 const NEGLIGIBLE: f64 = 1e-13;
+/// As little as that is nothing.
+const NOTHING: f64 = 1e-290;
 /// What rounding makes of a value.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Survey<'_> {
     /// The integral of the formula over a stretch.
-    pub(super) fn integral(&mut self, root: &Cell, middle: Option<&Rc<Point>>, scale: Scale) -> f64 {
+    pub(super) fn integral(&mut self, root: &Root, scale: Scale) -> f64 {
         let mut sum = 0.0;
-        let mut open = vec![(root.clone(), middle.map(Rc::clone))];
-        while let Some((cell, middle)) = open.pop() {
-            let Some(middle) = middle.or_else(|| self.middle(&cell)) else {
+        let known = <[(Cell, Range); 2]>::try_from(root.parts.clone()).ok();
+        let mut open = vec![(root.whole.clone(), known)];
+        while let Some((cell, parts)) = open.pop() {
+            let Some([first, second]) = parts.or_else(|| self.parts(&cell)) else {
                 sum += self.rule(&cell.a, &cell.b);
                 continue;
             };
             let h = cell.length();
-            let halves = cell.halves(self.formula, &middle);
+            let is_resolved = first.1.is_resolved && second.1.is_resolved;
+            let widest = f64::max(first.1.high, second.1.high) - f64::min(first.1.low, second.1.low);
+            let halves = [first.0, second.0];
             let (found, error) = self.both_rules(&cell, &halves);
             let rounding = ROUNDING * scale.largest * h;
-            self.formula.look_at(&halves[0]);
-            let first = self.formula.range(0);
-            self.formula.look_at(&halves[1]);
-            let second = self.formula.range(0);
-            let is_resolved =
-                first.is_resolved && second.is_resolved && self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]);
             let is_exact = is_resolved && error <= f64::max(ACCURACY * scale.range * h, rounding);
-            let widest = f64::max(first.high, second.high) - f64::min(first.low, second.low);
-            let is_negligible = widest * h <= NEGLIGIBLE * scale.range * scale.span;
+            let is_negligible = widest * h <= f64::max(NEGLIGIBLE * scale.range * scale.span, NOTHING);
             if is_exact || is_negligible || !self.goes_on(&cell, widest) {
                 sum += found;
                 continue;
@@ -43,6 +41,16 @@ impl Survey<'_> {
             open.push((left, None));
         }
         sum
+    }
+
+    /// The halves of a cell with what the formula can be in them.
+    fn parts(&mut self, cell: &Cell) -> Option<[(Cell, Range); 2]> {
+        let middle = self.middle(cell)?;
+        let halves = cell.halves(self.formula, &middle);
+        Some(halves.map(|half| {
+            let range = self.range(&half);
+            (half, range)
+        }))
     }
 
     /// The integral over a cell by its halves, made better by what the whole says, and how far off it may be.

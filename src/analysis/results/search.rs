@@ -6,6 +6,7 @@
 
 use super::formulas::{Cell, Point, between};
 use super::{Scale, Survey};
+use crate::program::Range;
 use std::rc::Rc;
 
 /// Values that differ by no more than this part of the range are the same.
@@ -49,9 +50,9 @@ impl Extreme {
         Extreme { sign, best: f64::NEG_INFINITY, extrema: Vec::new(), largest: f64::NEG_INFINITY }
     }
 
-    /// Takes note of a value that there is.
-    pub fn note(&mut self, value: f64) {
-        self.best = self.best.max(self.sign * value);
+    /// Takes note of the least and the largest value that there is.
+    fn note_all(&mut self, [low, high]: [f64; 2]) {
+        self.best = self.best.max(if self.sign > 0.0 { high } else { -low });
     }
 
     /// Takes note of an edge or an end.
@@ -93,29 +94,35 @@ impl Extreme {
 }
 
 impl Survey<'_> {
-    /// Looks for the extreme in a stretch.
-    pub(super) fn search(&mut self, root: [Cell; 2], extreme: &mut Extreme, scale: Scale) {
-        let [left, right] = root;
-        let mut open = vec![right, left];
-        while let Some(cell) = open.pop() {
-            if self.is_done(&cell, extreme, scale) {
-                continue;
+    /// Looks for the extreme in the halves of a stretch, with what the formula can be in them.
+    pub(super) fn search(&mut self, parts: &[(Cell, Range)], extreme: &mut Extreme, scale: Scale) {
+        extreme.note_all(*self.seen);
+        let mut open = Vec::new();
+        for (cell, range) in parts {
+            open.push((cell.clone(), Some(*range)));
+            while let Some((cell, range)) = open.pop() {
+                if self.is_done(&cell, range, extreme, scale) {
+                    continue;
+                }
+                let Some(middle) = self.middle(&cell) else { continue };
+                extreme.note_all(*self.seen);
+                let [left, right] = cell.halves(self.formula, &middle);
+                open.push((right, None));
+                open.push((left, None));
             }
-            let Some(middle) = self.middle(&cell) else { continue };
-            extreme.note(middle.sample.value);
-            let [left, right] = cell.halves(self.formula, &middle);
-            open.push(right);
-            open.push(left);
         }
     }
 
     /// Whether a cell holds nothing more of interest; what it holds has been noted.
-    fn is_done(&mut self, cell: &Cell, extreme: &mut Extreme, scale: Scale) -> bool {
+    fn is_done(&mut self, cell: &Cell, known: Option<Range>, extreme: &mut Extreme, scale: Scale) -> bool {
         let sign = extreme.sign;
         let gap = f64::max(GAP * scale.range, ROUNDING * scale.largest);
         let (least, enough) = (extreme.best - ALIKE * scale.range - gap, extreme.largest + gap);
         let is_hopeless = |upper: f64| upper < least || upper <= enough;
         let oriented = |low: f64, high: f64| if sign > 0.0 { [low, high] } else { [-high, -low] };
+        if known.is_some_and(|range| is_hopeless(oriented(range.low, range.high)[1])) {
+            return true;
+        }
         let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.value);
         if !self.goes_on(cell, f64::INFINITY) {
             // an edge of the formula, to neighbouring times
@@ -123,13 +130,8 @@ impl Survey<'_> {
             extreme.add(Extremum { t: cell.b.state.t, value: b, is_edge: true }, scale);
             return true;
         }
-        let is_known = self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]);
-        self.formula.look_at(cell);
-        let range = self.formula.range(0);
-        if !(is_known || !self.formula.moves()) {
-            return false;
-        }
-        let [_, mut upper] = oriented(range.low, range.high);
+        let range = self.range(cell);
+        let upper = oriented(range.low, range.high)[1];
         if is_hopeless(upper) {
             return true;
         }
@@ -147,32 +149,24 @@ impl Survey<'_> {
             return is_small;
         }
         let first = self.formula.range(1);
-        let [falls, rises] = oriented(first.low, first.high);
-        if falls >= 0.0 || rises <= 0.0 {
+        let slopes @ [falls, rises] = oriented(first.low, first.high);
+        let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
+        // at a kink it may come to rest
+        if (falls >= 0.0 || rises <= 0.0) && !(turns && first.may_switch) {
             return true;
         }
-        upper = upper.min(between(a, b, [falls, rises], cell.length())[1]);
+        let upper = upper.min(between(a, b, slopes, cell.length())[1]);
         if is_hopeless(upper) {
             return true;
         }
-        let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
-        if derivatives == 2 && !first.may_switch {
-            let second = self.formula.range(2);
-            let [bends_down, bends_up] = oriented(second.low, second.high);
-            if bends_up < 0.0 || bends_down > 0.0 {
-                if turns && bends_up < 0.0 {
-                    self.solve_for_turn(cell, extreme, scale);
-                }
-                return true;
-            }
+        let is_small = upper <= f64::max(a, b) + gap;
+        let bends = (derivatives == 2 && !first.may_switch && !is_small).then(|| self.formula.range(2));
+        let [bends_down, bends_up] = bends.map_or([0.0; 2], |range| oriented(range.low, range.high));
+        let turns_once = bends_up < 0.0;
+        if turns && (is_small || turns_once) {
+            self.solve_for_turn(cell, extreme, scale);
         }
-        if upper <= f64::max(a, b) + gap {
-            if turns {
-                self.solve_for_turn(cell, extreme, scale);
-            }
-            return true;
-        }
-        false
+        is_small || turns_once || bends_down > 0.0
     }
 
     /// Where the slope, times the sign, passes from above zero to zero or below: by Newton between bounds.
@@ -181,7 +175,8 @@ impl Survey<'_> {
         let slope = |point: &Point| sign * point.sample.first;
         let (mut low, mut high) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
         let mut guess = chord(&low, &high, slope(&low), slope(&high));
-        let mut top = if sign * low.sample.value > sign * high.sample.value { Rc::clone(&low) } else { Rc::clone(&high) };
+        let mut top =
+            if sign * low.sample.value > sign * high.sample.value { Rc::clone(&low) } else { Rc::clone(&high) };
         for iteration in 0..ITERATIONS {
             let (from, to) = (low.state.t, high.state.t);
             // where the guesses do not close in the middle does

@@ -5,6 +5,9 @@ use crate::source::Span;
 use crate::syntax::ast::Name;
 use crate::vocabulary::ReductionWord;
 
+/// Of `max` and `min`, beside what is wrong with the number of their arguments.
+pub const REDUCES: &str = "with one argument it takes the whole analysis, in a `result`";
+
 /// A reduction where there is no whole analysis to take together.
 pub fn reduction_in(place: &str, word: &ReductionWord, span: Span) -> Diagnostic {
     let name = word.word.name;
@@ -33,4 +36,3 @@ pub fn derivative_of_result(span: Span) -> Diagnostic {
         .at(span, "one number for the whole analysis")
         .help("take the derivative inside: `max(der(e))`")
 }
-
