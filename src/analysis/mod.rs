@@ -77,7 +77,7 @@ pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2
         if let ReductionKind::At(at) = reduction.kind {
             let t = system.value_at(at, &[]);
             if !(from <= t && t <= to) {
-                diagnostics.push(errors::at_outside(reduction.span, t, interval));
+                diagnostics.push(errors::at_outside(reduction, t, interval));
             }
         }
     }

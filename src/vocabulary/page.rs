@@ -3,8 +3,8 @@
 use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
 use super::{
-    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, Role,
-    Synonym, UNITS, Unit, Word, words,
+    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
+    Role, Synonym, UNITS, Unit, Word, words,
 };
 
 /// Lines of prose are not longer (in characters).
@@ -159,6 +159,12 @@ fn overview(name: &str) -> Option<String> {
             let intro = "Numbers that depend on where the bodies are. An equation between them is a `constraint`, one with time a \
                          `driver`, and a formula of them a `measure`.";
             list("Kinematic quantities", intro, &quantities)
+        }
+        "reductions" => {
+            let reductions: Vec<&Word> = REDUCTIONS.iter().map(|reduction| &reduction.word).collect();
+            let intro = "What a `result` asks of a formula over the whole analysis; they stand in results alone. But for `max` and `min`, a \
+                         `fn` or `table` of the mechanism that is called so is meant where it is called.";
+            list("Reductions", intro, &reductions)
         }
         "joints" => {
             let joints: Vec<&Word> = JOINTS.iter().map(|joint| &joint.word).collect();

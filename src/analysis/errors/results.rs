@@ -3,8 +3,7 @@
 use super::at;
 use crate::analysis::results::Trouble;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::Outcome;
-use crate::source::Span;
+use crate::ir::{Outcome, Reduction};
 
 /// A formula in it has no value at some time, or it could not be found out; or else its own formula is not finite.
 pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diagnostic {
@@ -35,8 +34,8 @@ pub fn results_without_motion(first: &Outcome, count: usize, why: &Diagnostic) -
 }
 
 /// `at` a time that does not belong to the analysis.
-pub fn at_outside(span: Span, t: f64, [from, to]: [f64; 2]) -> Diagnostic {
+pub fn at_outside(reduction: &Reduction, t: f64, [from, to]: [f64; 2]) -> Diagnostic {
     Diagnostic::new(Code::E0422, format!("{} is outside the analysis", at(t)))
-        .at(span, format!("the analysis goes from {} to {}", at(from), at(to)))
+        .at(reduction.span, format!("the analysis goes from {} to {}", at(from), at(to)))
         .datum("t", t)
 }

@@ -198,13 +198,15 @@ impl Survey<'_> {
             if !guess.is_finite() {
                 guess = chord(&low, &high, slope(&low), slope(&high));
             }
-            let is_close = (guess - t).abs() <= CERTAIN * scale.span && guess >= low.state.t && guess <= high.state.t;
+            let is_inside = guess > low.state.t && guess < high.state.t;
+            let is_close = is_inside && (guess - t).abs() <= CERTAIN * scale.span;
             if is_close || high.state.t - low.state.t <= CERTAIN * scale.span {
                 break;
             }
         }
         // its time is where the slope turns, whatever the last digits of the values say
-        let turn = if guess >= low.state.t && guess <= high.state.t { guess } else { high.state.t };
+        let is_inside = guess > low.state.t && guess < high.state.t;
+        let turn = if is_inside { guess } else { high.state.t };
         extreme.add(Extremum { t: turn, value: sign * top.sample.value, is_edge: false }, scale);
     }
 }
