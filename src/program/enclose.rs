@@ -377,7 +377,8 @@ fn picked(program: &Program, table: u32, column: Column, piece: f64, v: &[Interv
 
 /// The same of all pieces from one to another.
 fn picked_of_all(program: &Program, table: u32, column: Column, [first, last]: [f64; 2], v: &[Interval]) -> Interval {
-    if !(last - first <= MOST_PIECES) {
+    let count = last - first;
+    if count.is_nan() || count > MOST_PIECES {
         return WHOLE;
     }
     let mut all = picked(program, table, column, first, v);

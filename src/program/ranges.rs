@@ -130,16 +130,16 @@ fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
         least > 0.0 && largest <= WIDEST_RATIO * least
     };
     match op {
-        Op::SinCos { a, .. } => width(a) <= WIDEST,
-        Op::Unary {
+        Op::SinCos { a, .. }
+        | Op::Unary {
             function: Unary::Sin | Unary::Cos | Unary::Tan | Unary::Exp | Unary::Sinh | Unary::Cosh,
             a,
             ..
         } => width(a) <= WIDEST,
-        Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10, a, .. } => width(a) == 0.0 || ratio(a),
-        Op::Recip { a, .. } | Op::Div { b: a, .. } | Op::Binary { function: Binary::Pow, a, .. } => {
-            width(a) == 0.0 || ratio(a)
-        }
+        Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10, a, .. }
+        | Op::Recip { a, .. }
+        | Op::Div { b: a, .. }
+        | Op::Binary { function: Binary::Pow, a, .. } => width(a) == 0.0 || ratio(a),
         Op::Binary { function: Binary::Hypot, a, b, .. } => {
             (width(a) == 0.0 && width(b) == 0.0) || ratio(a) || ratio(b)
         }

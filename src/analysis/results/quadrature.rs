@@ -1,7 +1,7 @@
 //! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin).
 
 use super::formulas::{Cell, Point};
-use super::{Root, Scale, Survey};
+use super::survey::{Root, Scale, Survey};
 use crate::program::Range;
 
 /// An integral may be off by this part of range times time.

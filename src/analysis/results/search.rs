@@ -5,7 +5,7 @@
 //! slope passes zero in it just once, at a place that is then solved for.
 
 use super::formulas::{Cell, Point, between};
-use super::{Scale, Survey};
+use super::survey::{Scale, Survey};
 use crate::program::Range;
 use std::rc::Rc;
 
