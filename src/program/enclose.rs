@@ -338,7 +338,8 @@ fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
         Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
         Binary::Pow if a.low > 0.0 || (a.low >= 0.0 && b.low > 0.0) => loosened(corners(a, b, value)),
-        Binary::Atan2 if b.low > 0.0 => loosened(corners(a, b, value)),
+        // beside the line where it jumps it rises or falls with each operand alone
+        Binary::Atan2 if b.low > 0.0 || a.low > 0.0 || a.high < 0.0 => loosened(corners(a, b, value)),
         Binary::Atan2 => Interval { low: -PI, high: PI },
         // the last is laid out as other operations
         Binary::Pow | Binary::Mod => WHOLE,

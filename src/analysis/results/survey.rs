@@ -8,7 +8,7 @@ use crate::program::Range;
 use std::rc::Rc;
 
 /// Looking at one formula, so many cells are cut at most: what needs more is not meant.
-const MOST_CELLS: usize = 4_000_000;
+const MOST_CELLS: usize = 1_000_000;
 /// No cell is shorter than this part of the span.
 pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// A stretch in which nothing can be solved for may be so long, as a part of the span.
