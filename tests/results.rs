@@ -151,9 +151,9 @@ fn results_do_not_depend_on_the_output_step() {
     );
     let (first, _) = answers(&text, [1.0, 0.1]);
     assert!(first.values.iter().all(Option::is_some), "{:?}", first.notes);
-    for every in [0.033, 0.01, 1e-3, 1e-4] {
+    for (every, count) in [(0.033, 31), (0.01, 101), (1e-3, 1001), (1e-4, 10_001)] {
         let (other, rows) = answers(&text, [1.0, every]);
-        assert_eq!(rows.len(), (1.0_f64 / every + 1e-9) as usize + 1);
+        assert_eq!(rows.len(), count);
         assert_eq!(first.values, other.values, "every {every} s");
     }
 }
@@ -251,7 +251,7 @@ fn formulas_with_kinks_and_jumps_are_reduced() {
             (0.37, 1e-9),
             (4.5, 1e-9),
             (1.0, 1e-9),
-            (2.0 * 2.0 / 3.0 * 0.5_f64.powf(1.5), 1e-9),
+            (2.0 * 2.0 / 3.0 * 0.5 * 0.5_f64.sqrt(), 1e-9),
         ],
     );
 }
@@ -362,6 +362,142 @@ fn words_of_reductions_are_names_elsewhere_and_give_way_to_functions() {
          result mean_of = mean(max(last)) result rms = rms(argmax) result trace = result",
     );
     check(&text, 1.0, &[(106.0, 1e-12), (4.0, 1e-12), (2.0, 0.0)]);
+}
+
+#[test]
+fn angles_at_a_point_are_reduced_in_all_quadrants() {
+    let text = arm(
+        "2 * t",
+        "measure corner = angle(ground.R, ground.O, arm.tip) measure turned = atan2(y(arm.tip), x(arm.tip))
+         result a = max(corner) result b = argmax(corner) result c = mean(corner) result d = mean(turned) result e = min(turned)",
+    )
+    .replace("point O = (0, 0) }\n    body", "point O = (0, 0) point R = (1 m, 0) }\n    body");
+    // 0 to 3 rad, and no farther
+    check(&text, 1.5, &[(3.0, 1e-12), (1.5, 1e-11), (1.5, 1e-11), (1.5, 1e-11), (0.0, 1e-12)]);
+}
+
+#[test]
+fn a_driver_in_quick_ripples_hides_nothing() {
+    // what follows without iteration is stepped over in large steps
+    let text = arm(
+        "0.3 * sin(800 * t) + t",
+        "result a = max(angle(arm)) result b = argmax(angle(arm)) result c = mean(angle(arm)) result d = max(der(angle(arm)))",
+    );
+    // the last ripple but the end: 240 cos 800 t = −1
+    let first = (mechc::rooms::math::acos(-1.0 / 240.0)) / 800.0;
+    let period = TAU / 800.0;
+    let last = (0..200).map(|k| first + f64::from(k) * period).filter(|t| *t <= 1.0).last().expect("a ripple");
+    check(
+        &text,
+        1.0,
+        &[
+            (0.3 * sin(800.0 * last) + last, 1e-10),
+            (last, 1e-9),
+            (0.5 + 0.3 * (1.0 - cos(800.0)) / 800.0, 1e-10),
+            (241.0, 1e-8),
+        ],
+    );
+}
+
+#[test]
+fn a_speed_that_comes_to_rest_has_its_mean_and_its_least_value() {
+    // a point of a wheel that rolls on the ground: its speed is 2 |sin(t/2)|
+    let text = "mechanism m {
+    ground { point O = (0, 0) axis way = (0, 1 m) along (1, 0) }
+    body frame { axis way = (0, 0) along (1, 0) point hub = (0, 0) }
+    body wheel at (0, 1 m, 0) { point hub = (0, 0) point foot = (0, -1 m) }
+    joint guide: translational(ground.way, frame.way)
+    joint hub: revolute(frame.hub, wheel.hub)
+    driver roll: rotation(hub) = -1 rad/s * t
+    driver go: displacement(guide) = 1 m/s * t
+    result a = min(speed(wheel.foot)) result b = mean(speed(wheel.foot)) result c = integral(speed(wheel.foot))
+    result d = max(speed(wheel.foot)) result e = argmax(speed(wheel.foot)) result f = max(curvature(wheel.foot))
+}";
+    let (found, _) = answers(text, [10.0, 0.7]);
+    let way = 8.0 + 4.0 * (1.0 + cos(5.0)) - 0.0;
+    let wanted = [0.0, way / 10.0, way, 2.0, PI];
+    for (found, wanted) in found.values.iter().zip(wanted) {
+        let found = found.expect("a number");
+        assert!((found - wanted).abs() < 1e-8, "{found} instead of {wanted}");
+    }
+    // at rest there is no curvature
+    assert_eq!(found.values[5], None);
+}
+
+#[test]
+fn a_long_analysis_is_as_good_as_a_short_one() {
+    let text = four_bar(
+        "result a = max(rotation(pivot)) - min(rotation(pivot)) result b = argmax(y(coupler.P)) result c = mean(y(coupler.P))",
+    );
+    let (one, _) = answers(&text, [1.0, 0.5]);
+    let (many, _) = answers(&text, [150.0, 50.0]);
+    for (k, (one, many)) in one.values.iter().zip(&many.values).enumerate() {
+        let (one, many) = (one.expect("a number"), many.expect("a number"));
+        assert!((one - many).abs() < 1e-9, "result {k}: {one} once, {many} in many turns");
+    }
+}
+
+#[test]
+fn a_bifurcation_that_is_passed_is_looked_over() {
+    let text = "mechanism m {
+    ground { point A = (0, 0) point D = (1 m, 0) }
+    body crank at (0, 0, 60 deg) { point A = (0, 0) point B = (0.4 m, 0) }
+    body rod at (0.2 m, 0.346 m, 0) { point B = (0, 0) point C = (1 m, 0) point P = (0.5 m, 0) }
+    body rocker at (1 m, 0, 60 deg) { point D = (0, 0) point C = (0.4 m, 0) }
+    joint main: revolute(ground.A, crank.A)
+    joint pin: revolute(crank.B, rod.B)
+    joint knee: revolute(rod.C, rocker.C)
+    joint pivot: revolute(ground.D, rocker.D)
+    driver motor: rotation(main) = 60 deg + 1 rad/s * t
+    result a = max(x(rod.P)) result b = min(x(rod.P)) result c = mean(y(rod.P)) result d = argmin(x(rod.P))
+}";
+    let compiled = compiled("m", text);
+    let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
+    let mut run = compiled.run(&Times::grid(0.0, TAU, 0.1).expect("a grid"), &options).0.expect("it assembles");
+    while run.next_row().is_some_and(|row| row.is_ok()) {}
+    let answers = run.results().expect("results");
+    for (found, wanted) in answers.values.iter().zip([0.9, 0.1, 0.0, PI - PI / 3.0]) {
+        let found = found.unwrap_or_else(|| panic!("{:?}", answers.notes));
+        assert!((found - wanted).abs() < 1e-8, "{found} instead of {wanted}");
+    }
+}
+
+/// What the command line says on standard error and writes, in a folder with a file `m.mech`.
+fn said(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let output = command.current_dir(folder).args(arguments).output().expect("it runs");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn the_command_line_tells_results_and_writes_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = arm(
+        "1 rad/s * t",
+        "result high = max(y(arm.tip)) in mm result turned[k in 0..2] = last(angle(arm)) * k in deg
+         analysis from 0 s to 2 s every 0.1 s",
+    );
+    std::fs::write(folder.path().join("m.mech"), text).expect("it is written");
+    let run = |more: &[&str]| said(folder.path(), &[&["run", "m.mech", "-o", "m.csv"], more].concat());
+    let (code, told) = run(&["--results", "r.json"]);
+    let degrees = 2.0_f64.to_degrees();
+    assert_eq!((code, told), (Some(0), format!("high      = 1000 mm\nturned[0] = 0 deg\nturned[1] = {degrees} deg\n")));
+    let written = std::fs::read_to_string(folder.path().join("r.json")).expect("results");
+    assert_eq!(written, "{\"high\": 1.0,\n \"turned[0]\": 0.0,\n \"turned[1]\": 2.0}\n");
+    // diagnostics for programs are not mixed with anything else
+    assert_eq!(run(&["--message-format", "json"]), (Some(0), String::new()));
+    // times alone have no results
+    assert_eq!(run(&["--at", "1", "--results", "r.json"]), (Some(0), String::new()));
+    assert_eq!(std::fs::read_to_string(folder.path().join("r.json")).expect("results"), "{}\n");
+    // the interval is the one of the command line
+    let (_, told) = run(&["--from", "0", "--to", "0.5"]);
+    assert!(told.starts_with(&format!("high      = {} mm\n", sin(0.5) * 1e3)), "{told}");
+    for refused in [["--results", "m.csv"], ["--results", "./m.csv"], ["--results", "r.txt"], ["--results", "m.mech"]] {
+        assert_eq!(run(&refused).0, Some(2), "{refused:?}");
+    }
+    assert_eq!(run(&["--results", "nowhere/r.json"]).0, Some(4));
+    let (_, told) = said(folder.path(), &["run", "m.mech", "--results", "-"]);
+    assert!(told.contains("both go to standard output"), "{told}");
 }
 
 /// The reference results of a case, to 1e-9 of the numbers.

@@ -143,11 +143,6 @@ fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
         Op::Binary { function: Binary::Hypot, a, b, .. } => {
             (width(a) == 0.0 && width(b) == 0.0) || ratio(a) || ratio(b)
         }
-        Op::Binary { function: Binary::Min | Binary::Max, a, b, .. } => {
-            let (a, b) = (v[a as usize], v[b as usize]);
-            a.high <= b.low || b.high <= a.low
-        }
-        Op::Unary { function: Unary::Abs, a, .. } => v[a as usize].low >= 0.0 || v[a as usize].high <= 0.0,
         _ => true,
     }
 }

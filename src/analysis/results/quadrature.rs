@@ -48,7 +48,7 @@ impl Survey<'_> {
         let middle = self.middle(cell)?;
         let halves = cell.halves(self.formula, &middle);
         Some(halves.map(|half| {
-            let range = self.range(&half);
+            let range = self.smooth_range(&half);
             (half, range)
         }))
     }

@@ -149,6 +149,7 @@ impl Reduced {
         if self.extremes.iter().all(Option::is_none) && self.integral.is_none() {
             return None;
         }
+        let is_integrated = self.integral.is_some();
         let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone()));
         let mut survey = self.survey(stretch, places, span);
         for point in [&from, &to] {
@@ -171,7 +172,7 @@ impl Reduced {
         };
         let halves = whole.halves(survey.formula, &middle);
         let parts = halves.map(|cell| {
-            let range = survey.range(&cell);
+            let range = if is_integrated { survey.smooth_range(&cell) } else { survey.range(&cell) };
             (cell, range)
         });
         Some(Root { whole, parts: parts.into() })

@@ -108,6 +108,13 @@ impl Survey<'_> {
         if is_known { range } else { ANYTHING }
     }
 
+    /// The same, resolved only where the slope does not jump either.
+    pub fn smooth_range(&mut self, cell: &Cell) -> Range {
+        let range = self.range(cell);
+        let is_smooth = !range.is_resolved || self.formula.derivatives() == 0 || !self.formula.range(1).may_switch;
+        Range { is_resolved: range.is_resolved && is_smooth, ..range }
+    }
+
     /// Whether a cell may be cut in two. One that is too short for that, and in which the formula may be anything, has no value.
     pub fn goes_on(&mut self, cell: &Cell, widest: f64) -> bool {
         if *self.cells > MOST_CELLS {
