@@ -386,7 +386,7 @@ fn a_driver_in_quick_ripples_hides_nothing() {
     // the last ripple but the end: 240 cos 800 t = −1
     let first = (mechc::rooms::math::acos(-1.0 / 240.0)) / 800.0;
     let period = TAU / 800.0;
-    let last = (0..200).map(|k| first + f64::from(k) * period).filter(|t| *t <= 1.0).last().expect("a ripple");
+    let last = (0..200).map(|k| first + f64::from(k) * period).rfind(|t| *t <= 1.0).expect("a ripple");
     check(
         &text,
         1.0,
