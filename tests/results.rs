@@ -500,6 +500,27 @@ fn the_command_line_tells_results_and_writes_them() {
     assert!(told.contains("both go to standard output"), "{told}");
 }
 
+#[test]
+fn names_in_results_have_their_meanings() {
+    use mechc::{Category, Choice, Meaning, Memory, Parsed};
+    let text = arm("1 rad/s * t", "param mean = 2 measure high = y(arm.tip) result r = mean(high) + max(high) * mean");
+    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
+    assert!(checked.is_sound(), "{:?}", checked.diagnostics());
+    let line = text.find("result r").expect("a result");
+    let symbols = checked.symbols();
+    let of = |word: &str, after: &str| {
+        let at = line + text[line..].find(after).expect("it is there") + after.find(word).unwrap_or(0);
+        let found = symbols.uses().find(|found| found.span.start as usize == at).expect("a use");
+        match found.meaning {
+            Meaning::Word(word) => Some(word.category),
+            Meaning::Declared(_) => None,
+        }
+    };
+    assert_eq!(of("mean", "mean(high)"), Some(Category::Reduction));
+    assert_eq!(of("max", "max(high)"), Some(Category::Reduction));
+    assert_eq!(of("mean", "* mean"), None);
+}
+
 /// The reference results of a case, to 1e-9 of the numbers.
 fn reference(name: &str) {
     let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases2");

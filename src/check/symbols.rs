@@ -10,7 +10,9 @@ use crate::syntax::ast::{
     Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows, WrittenUnit,
 };
 use crate::syntax::keywords_in;
-use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
+use crate::vocabulary::{
+    Constant, Function, JointWord, Keyword, QuantityWord, ReductionWord, Role, StandsFor, Unit, Word,
+};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A declaration, by its number in the order of the text.
@@ -378,7 +380,7 @@ impl Walk<'_> {
                 ExprKind::Name(name) => self.name(name, scope, wanted),
                 ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
                 ExprKind::Path(segments) => self.path(segments, scope, wanted),
-                ExprKind::Call { name, .. } => self.called(name),
+                ExprKind::Call { name, arguments } => self.called(name, arguments.len()),
                 _ => {}
             }
             open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
@@ -488,13 +490,16 @@ impl Walk<'_> {
     }
 
     /// What is called: the language's own functions before the user's, unless they give way.
-    fn called(&mut self, name: &Name) {
+    fn called(&mut self, name: &Name, arguments: usize) {
         let declared = self.names.get(&name.text);
         let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
         let hides = declared.is_some_and(is_callable);
         let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
-        let word = function.or_else(|| quantity.map(|quantity| &quantity.word));
+        // with more arguments `max` and `min` compare
+        let reduces = |_: &&ReductionWord| !hides && (function.is_none() || arguments == 1);
+        let reduction = ReductionWord::named(&name.text).filter(reduces).map(|reduction| &reduction.word);
+        let word = reduction.or(function).or_else(|| quantity.map(|quantity| &quantity.word));
         let word = word.filter(|_| !self.hidden.contains(name.text.as_str()));
         match (word, declared) {
             (Some(word), _) => self.word(name, word),
