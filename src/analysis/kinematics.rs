@@ -65,6 +65,7 @@ pub(super) enum Fault {
 }
 
 /// A mechanism's program with its registers and factors.
+#[derive(Clone)]
 pub(super) struct Kinematics {
     determined: Arc<Determined>,
     program: Arc<Program>,
@@ -83,7 +84,7 @@ pub(super) struct Kinematics {
 }
 
 /// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Doubt {
     position: Vec<f64>,
     velocity: Vec<f64>,

@@ -26,6 +26,8 @@ impl Checker<'_> {
         if arguments.len() < function.least || arguments.len() > function.most {
             let (wanted, found) = (function.takes(), arguments.len());
             let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
+            let reduces = self.reduction_word(name, found).is_some();
+            let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
             self.report_count(name, diagnostic, arguments, function.most);
             return None;
         }

@@ -63,6 +63,18 @@ pub(super) struct Calls<'a> {
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
+        if let Some(word) = self.reduction_word(name, arguments.len()) {
+            if context.results {
+                return self.reduction(e, word, arguments, context);
+            }
+            // with one argument too few it compares
+            if !self.is_of_language(&name.text)
+                && matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)))
+            {
+                self.report(errors::reduction_in(context.place, word, e.span));
+                return None;
+            }
+        }
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {
                 return None;
@@ -130,7 +142,7 @@ impl<'a> Checker<'a> {
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner = Context { time: true, quantities: false, measures: false, names: true, ..*context };
+        let inner = Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 

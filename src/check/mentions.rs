@@ -73,7 +73,8 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         ItemKind::Param { value, .. }
         | ItemKind::Input { value, .. }
         | ItemKind::Function { value, .. }
-        | ItemKind::Measure { value, .. } => {
+        | ItemKind::Measure { value, .. }
+        | ItemKind::Result { value, .. } => {
             vec![value]
         }
         ItemKind::Trace { point, .. } => vec![point],

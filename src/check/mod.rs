@@ -33,6 +33,7 @@ mod profiles;
 mod quantities;
 mod rates;
 mod repetition;
+mod results;
 mod samples;
 mod sites;
 mod symbols;
@@ -58,6 +59,7 @@ use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
 use parts::{BoundParam, Import, is_told_by};
+use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
 use sites::{Drawn, Scope};
@@ -292,6 +294,9 @@ struct Checker<'a> {
     /// The order in which measures need each other, and their values with what these ask for.
     measure_order: Vec<usize>,
     measure_values: Vec<(Option<Value>, Vec<Condition>)>,
+    results: Vec<ResultState<'a>>,
+    /// The order in which results need each other.
+    result_order: Vec<usize>,
     /// The samples that are given.
     samples: Option<Rc<Samples>>,
     /// Of bodies, and of the grounds of parts that are named.
@@ -367,6 +372,8 @@ impl<'a> Checker<'a> {
             measures: Vec::new(),
             measure_order: Vec::new(),
             measure_values: Vec::new(),
+            results: Vec::new(),
+            result_order: Vec::new(),
             samples: None,
             bodies: Vec::new(),
             frames: Vec::new(),
@@ -393,7 +400,7 @@ impl<'a> Checker<'a> {
         self.look_over_settings();
         self.look_over_given();
         self.samples = self.samples_given().map(Rc::new);
-        self.measure_order = self.definitions();
+        self.definitions();
         self.features();
         self.joints();
         self.bind_inputs();
@@ -401,6 +408,7 @@ impl<'a> Checker<'a> {
         self.list_measures();
         self.equations();
         self.analysis();
+        self.results();
         self.leave_what_leads();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !has_broken(self.tree) {
@@ -433,8 +441,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; returns the measures' order.
-    fn definitions(&mut self) -> Vec<usize> {
+    /// and functions looked over; measures and results wait for their turn.
+    fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
             match &item.kind {
@@ -464,6 +472,11 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
+                ItemKind::Result { name, value, unit } => {
+                    entities.push(Entity::Result(self.results.len()));
+                    definitions.push((name, vec![value]));
+                    self.results.push(ResultState::of(name, value, unit.as_ref()));
+                }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
                     definitions.push((
@@ -487,7 +500,7 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let mut measures = Vec::new();
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -510,10 +523,14 @@ impl<'a> Checker<'a> {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
                 }
+                Entity::Result(k) => {
+                    self.results[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    results.push(k);
+                }
                 _ => {}
             }
         }
-        measures
+        (self.measure_order, self.result_order) = (measures, results);
     }
 
     fn uses<'d>(
@@ -541,7 +558,9 @@ impl<'a> Checker<'a> {
                         |name| self.hidden.contains(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`
-                            if is_called && self.quantity_word(used).is_some() {
+                            let is_of_motion =
+                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());

@@ -4,6 +4,7 @@ use super::formula::{Context, Dim, Value};
 use super::instances::Instance;
 use super::names::Entity;
 use super::rates;
+use super::results::ResultState;
 use super::sites::{Drawn, Site};
 use super::{Checker, MeasureState, Surroundings, errors};
 use crate::diag::nearest;
@@ -136,6 +137,7 @@ impl<'a> Checker<'a> {
             Entity::Body(_) | Entity::Ground => Entity::Body(next(&mut self.count.bodies)),
             Entity::Joint(_) => Entity::Joint(next(&mut self.count.joints)),
             Entity::Measure(_) => Entity::Measure(next(&mut self.count.measures)),
+            Entity::Result(_) => Entity::Result(next(&mut self.count.results)),
             other => other,
         };
         if child.is_point_name(rest) {
@@ -212,6 +214,14 @@ impl<'a> Checker<'a> {
         }
     }
 
+    /// What is known of a result, be it of a part or not.
+    pub(super) fn result_known(&self, k: usize) -> Option<&ResultState<'a>> {
+        match self.home_of(Entity::Result(k)) {
+            (home, Entity::Result(k)) => home.results.get(k),
+            _ => None,
+        }
+    }
+
     /// What an input is, be it of a part or not.
     pub(super) fn input_known(&self, k: usize) -> Option<Value> {
         match self.home_of(Entity::Input(k)) {
@@ -229,7 +239,7 @@ impl<'a> Checker<'a> {
         self.in_part(part, |child| {
             child.bound_params = bound;
             child.samples = samples;
-            child.measure_order = child.definitions();
+            child.definitions();
         });
         self.import_params_of(part);
     }

@@ -225,6 +225,9 @@ impl<'t, 'c> Writer<'t, 'c> {
             ItemKind::Trace { name, point, unit } => {
                 ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
             }
+            ItemKind::Result { name, value, unit } => {
+                ItemKind::Result { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+            }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
                 name: own(name),
@@ -502,7 +505,8 @@ pub(super) fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
         | ItemKind::Measure { name, .. }
-        | ItemKind::Trace { name, .. } => Some(name),
+        | ItemKind::Trace { name, .. }
+        | ItemKind::Result { name, .. } => Some(name),
         ItemKind::Part(part) => Some(&part.name),
         ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }

@@ -19,8 +19,10 @@
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
 mod print;
+mod results;
 mod rims;
 
+pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
@@ -58,6 +60,8 @@ pub struct ConstraintSystem {
     pub jerk: Option<Vec<ExprId>>,
     /// What is tabulated beside the coordinates.
     pub measures: Vec<Measure>,
+    /// What is asked of the whole analysis.
+    pub results: Results,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
     /// Equations that follow from the others, and are looked at instead of solved.

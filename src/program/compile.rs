@@ -59,13 +59,16 @@ pub(super) struct Layout<'s> {
 
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
-        let n = system.coordinates.len() as u32;
-        let params = system.params.len() as u32;
+        Layout::of(&system.graph, system.params.len() as u32, system.coordinates.len() as u32)
+    }
+
+    /// For formulas of a graph over so many parameters and coordinates.
+    pub fn of(graph: &'s Graph, params: u32, n: u32) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
         Layout {
-            graph: &system.graph,
-            register_of: vec![NONE; system.graph.len()],
-            pairs: pairs(&system.graph),
+            graph,
+            register_of: vec![NONE; graph.len()],
+            pairs: pairs(graph),
             operations: STAGES.map(|_| Vec::new()).to_vec(),
             constants: Vec::new(),
             comparisons: FxHashMap::default(),
@@ -277,7 +280,7 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn finish(self, outputs: Outputs) -> Program {
+    pub fn finish(self, outputs: Outputs) -> Program {
         let switches = self
             .operations
             .iter()
