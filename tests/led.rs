@@ -241,7 +241,7 @@ fn an_input_is_led_to_a_number_too() {
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
-    let Ok(arrived) = analysis::lead(&Arc::new(determined), &program, &options) else { panic!("it is led") };
+    let Ok(arrived) = analysis::lead(&Arc::new(determined), &program, None, &options) else { panic!("it is led") };
     let q = [&[0.0][..], &arrived.q].concat();
     assert!(same_place(&q, &followed(|d, driver| four_bar(&DRAG_LINK[1], d, driver), 313.0)));
 }

@@ -2,9 +2,9 @@
 
 use super::formula::{Context, Dim, Value};
 use super::lead::Needs;
-use super::parts::is_told_by;
 use super::rates::Part;
 use super::samples::{self, Column, Samples};
+use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::diag::nearest;
 use crate::expr::ExprId;

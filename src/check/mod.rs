@@ -5,13 +5,16 @@
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
 mod arguments;
+mod bindings;
 mod builtins;
 mod calls;
 mod elements;
 mod errors;
 mod features;
 mod formula;
+mod imports;
 mod inputs;
+mod instance;
 mod instances;
 mod instead;
 mod joints;
@@ -38,6 +41,7 @@ mod sites;
 mod symbols;
 mod table_file;
 mod tables;
+mod told;
 
 pub use inputs::Given;
 pub use lead::Lead;
@@ -51,18 +55,20 @@ use crate::model::{Condition, Declared, Dimension, Frame, JointId, Mechanism, Na
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
+use bindings::BoundParam;
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
+use imports::Import;
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
-use parts::{BoundParam, Import, is_told_by};
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
 use sites::{Drawn, Scope};
 use std::rc::Rc;
 use tables::TableState;
+use told::is_told_by;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
