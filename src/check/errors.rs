@@ -1,5 +1,9 @@
 //! What is said of a mechanism that does not pass.
 
+mod variables;
+
+pub use variables::*;
+
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
 use super::rates::{Part, polar, rate_mended};

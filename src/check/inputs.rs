@@ -83,9 +83,11 @@ impl Checker<'_> {
             (None, Some(formula)) => self.told(name, formula, in_file.dim),
             (None, None) => Some(in_file),
         };
+        let declared = super::declared(name);
+        let value = value.map(|value| self.with_shift(&declared, value));
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared: super::declared(name), value: value.id });
+            self.model.inputs.push(Input { declared, value: value.id });
         }
     }
 

@@ -34,6 +34,7 @@ mod sites;
 mod symbols;
 mod table_file;
 mod tables;
+mod variables;
 
 pub use inputs::Given;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
@@ -54,6 +55,7 @@ use names::{Entity, Space};
 use rustc_hash::{FxHashMap, FxHashSet};
 use sites::{Drawn, Scope};
 use tables::TableState;
+use variables::Variables;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
@@ -67,6 +69,8 @@ pub struct Surroundings {
     pub files: TableFiles,
     /// What inputs are told to be.
     pub given: Given,
+    /// Names by which all columns are differentiated.
+    pub by: Vec<String>,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -237,10 +241,13 @@ struct Checker<'a> {
     settings: &'a [Setting],
     files: &'a TableFiles,
     given: &'a Given,
+    by: &'a [String],
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
     space: Space<Entity>,
+    /// What derivatives are taken by.
+    variables: Variables,
     /// The params that decide what is repeated.
     deciding: FxHashSet<String>,
     /// By the parameter's position; `None` where it is broken.
@@ -300,10 +307,12 @@ impl<'a> Checker<'a> {
             settings: &surroundings.settings,
             files: &surroundings.files,
             given: &surroundings.given,
+            by: &surroundings.by,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
             space: Space::new(),
+            variables: Variables::of(tree, &surroundings.by),
             deciding: FxHashSet::default(),
             params: Vec::new(),
             drawn: Vec::new(),
@@ -339,6 +348,7 @@ impl<'a> Checker<'a> {
     fn run(&mut self) {
         self.collect(self.tree);
         let measures = self.definitions();
+        self.look_over_by();
         self.features();
         self.joints();
         self.measures(&measures);
@@ -529,7 +539,7 @@ impl<'a> Checker<'a> {
     /// A number that is a parameter of the model, unless it follows from others.
     fn settable(&mut self, declared: Declared, docs: &[String], value: Value) -> Option<Value> {
         if self.follows(value.id) {
-            return Some(value);
+            return Some(self.with_shift(&declared, value));
         }
         let number = self.constant_value(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
@@ -537,6 +547,7 @@ impl<'a> Checker<'a> {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
+        self.note_param(&declared, Symbol::Param(index), value.dim);
         self.model.params.push(Param {
             declared,
             docs: docs.to_vec(),
@@ -666,6 +677,7 @@ impl<'a> Checker<'a> {
         let params = &self.model.params;
         self.model.graph.extend_values(&mut self.values, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             _ => f64::NAN,
         });
         self.values.get(id.index()).copied()

@@ -15,6 +15,12 @@ impl ConstraintSystem {
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Named(k) => format!("named_{k}"),
+            // it is nothing, and may be varied
+            Symbol::Shift(_) => "0".to_owned(),
+            Symbol::Varied { index, order, variation } => {
+                let of = self.symbol_name(Symbol::Coordinate { index, order });
+                self.variation_name(&of, variation)
+            }
         }
     }
 

@@ -7,7 +7,7 @@ mod print;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
 
-use crate::expr::{ExprId, Graph, TableId};
+use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
 
 /// A name and the place where it is declared.
@@ -82,6 +82,10 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
+    /// What derivatives are taken by, by their number.
+    pub variables: Vec<Variable>,
+    /// The numbers of those that all columns are differentiated by, in the order of the columns.
+    pub by: Vec<u32>,
     /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
@@ -115,6 +119,8 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
+            variables: Vec::new(),
+            by: Vec::new(),
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -172,6 +178,19 @@ pub struct Input {
     pub declared: Declared,
     /// What it is, as a formula of time, in SI.
     pub value: ExprId,
+}
+
+/// An input or parameter that derivatives are taken by.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Its name; of a coordinate of a point `A.x`.
+    pub declared: Declared,
+    /// What of the formulas changes: its own parameter, or a shift that is added to its formula.
+    pub symbol: Symbol,
+    /// Of its value.
+    pub dimension: Dimension,
+    /// Whether it is an angle, as far as its words tell.
+    pub is_angle: bool,
 }
 
 /// A body.
@@ -428,6 +447,8 @@ pub enum Named {
     Quantity(Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
+    /// The derivative of a formula by a variable, by its number, at fixed time.
+    By(ExprId, u32),
     /// Above zero where a quantity of measures exists.
     Exists(Quantity),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.

@@ -23,6 +23,8 @@ pub struct Choice {
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
     pub samples: Option<PathBuf>,
+    /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
+    pub by: Vec<String>,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -94,6 +96,8 @@ impl Checked {
         let settings = settings(&choice.set, tree, &mut sources);
         let given = given(choice, tree, world, &mut sources);
         let files = table_files(parsed, tree, world, &mut sources);
+        let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
+        let by = choice.by.iter().map(spaceless).collect();
         let mut model = None;
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
@@ -102,7 +106,7 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let (found, said) = check::check(tree, &Surroundings { settings, files, given }, &sources);
+                let (found, said) = check::check(tree, &Surroundings { settings, files, given, by }, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
             }
