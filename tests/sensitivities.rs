@@ -1,0 +1,238 @@
+//! Derivatives by inputs and parameters against differences: numbers in the texts of `tests/cases` are made parameters, and what `--by`
+//! gives for them is held against motions that were solved for with other values. `cargo test --test sensitivities four_bar` does so
+//! for one text.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
+use std::fmt::Write;
+use std::fs;
+use std::path::{Path, PathBuf};
+use support::listed::Tests;
+use support::{Disk, all_rows, files, mechanisms, stem};
+
+/// Numbers of a text that are made parameters, at most.
+const MOST: usize = 6;
+/// Rows that are looked at, more or less.
+const ROWS: f64 = 12.0;
+/// A number is changed by this part of it, a half and a quarter of that.
+const CHANGE: f64 = 2e-3;
+/// A derivative may differ from the difference by this, beside its largest value or 1.
+const NEAR: f64 = 1e-6;
+/// What differences do not agree on among themselves, as beside an edge, is not looked at; but so much of all is.
+const LOOKED_AT: f64 = 0.8;
+
+const UNITS: [&str; 16] =
+    ["mm", "cm", "m", "km", "in", "ft", "um", "µm", "deg", "rad", "rev", "rpm", "s", "ms", "us", "µs"];
+
+/// A literal in a text: its bytes.
+struct Literal {
+    start: usize,
+    end: usize,
+}
+
+/// The numbers of a line that can be parameters: those with a unit, and in features and poses the others.
+fn literals(line: &str, at: usize, found: &mut Vec<Literal>) {
+    let code = line.split("//").next().unwrap_or(line);
+    let word = code.trim_start().split(' ').next().unwrap_or("");
+    if matches!(word, "param" | "analysis" | "mechanism" | "use") || code.contains("..") {
+        return;
+    }
+    let is_place = matches!(word, "point" | "body" | "circle" | "axis");
+    let bytes = code.as_bytes();
+    let is_word = |b: u8| b.is_ascii_alphanumeric() || b == b'_' || b >= 128;
+    let mut k = 0;
+    while k < bytes.len() {
+        if is_word(bytes[k]) && !bytes[k].is_ascii_digit() {
+            while k < bytes.len() && is_word(bytes[k]) {
+                k += 1;
+            }
+            continue;
+        }
+        if !bytes[k].is_ascii_digit() {
+            k += 1;
+            continue;
+        }
+        let start = k;
+        while k < bytes.len() && (bytes[k].is_ascii_digit() || bytes[k] == b'.') {
+            k += 1;
+        }
+        if k + 1 < bytes.len() && bytes[k] == b'e' && (bytes[k + 1] == b'-' || bytes[k + 1].is_ascii_digit()) {
+            k += 2;
+            while k < bytes.len() && bytes[k].is_ascii_digit() {
+                k += 1;
+            }
+        }
+        let number: f64 = code[start..k].parse().unwrap_or(0.0);
+        let mut end = k;
+        let unit: String = code[k..].trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect();
+        let has_unit = UNITS.contains(&unit.as_str());
+        if has_unit {
+            end = k + code[k..].find(&unit).unwrap_or(0) + unit.len();
+        }
+        let is_power = code[end..].trim_start().starts_with('^') || code[..start].trim_end().ends_with(['^', '.']);
+        let belongs = !unit.is_empty() && !has_unit;
+        if number != 0.0 && !is_power && !belongs && (has_unit || is_place) {
+            found.push(Literal { start: at + start, end: at + end });
+        }
+        k = end;
+    }
+}
+
+/// The text in which some numbers of one of its mechanisms are parameters `zz0`, `zz1` …
+fn with_params(text: &str, mechanism: usize) -> String {
+    let (mut found, mut at, mut number, mut head) = (Vec::new(), 0, 0, 0);
+    for line in text.split_inclusive('\n') {
+        if line.starts_with("mechanism ") {
+            number += 1;
+            if number == mechanism + 1 {
+                head = at + line.find('{').expect("a brace") + 1;
+            }
+        } else if number == mechanism + 1 {
+            literals(line, at, &mut found);
+        }
+        at += line.len();
+    }
+    let step = found.len().div_ceil(MOST).max(1);
+    let taken: Vec<&Literal> = found.iter().step_by(step).collect();
+    let (mut made, mut params, mut last) = (String::new(), String::new(), head);
+    for (k, literal) in taken.iter().enumerate() {
+        let _ = write!(params, " param zz{k} = {}\n", &text[literal.start..literal.end]);
+        made += &text[last..literal.start];
+        let _ = write!(made, "zz{k}");
+        last = literal.end;
+    }
+    format!("{}{params}{made}{}", &text[..head], &text[last..])
+}
+
+fn compile(path: &Path, text: &str, choice: &Choice) -> Option<Compiled> {
+    let mut sources = mechc::Sources::default();
+    let file = sources.add(path.display().to_string(), text);
+    let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
+    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.message.as_str()).collect();
+    assert!(checked.is_sound(), "{told:?}\n{text}");
+    checked.compile(Redundant::Refused, &Cancel::default()).0
+}
+
+/// The rows at a few times, if the motion gets to the last of them.
+fn rows(compiled: &Compiled, times: &Times) -> Option<Vec<Vec<f64>>> {
+    let (rows, stop) = all_rows(compiled, times);
+    stop.is_none().then_some(rows)
+}
+
+fn few_times(compiled: &Compiled) -> Times {
+    let [from, to, every] = compiled.analysis().expect("an analysis");
+    let step = every * ((to - from) / every / ROWS).floor().max(1.0);
+    Times::grid(from, to, step).expect("a grid")
+}
+
+/// What a parameter is set to: `zz0=0.08 * (1 m)`.
+fn setting(name: &str, value: f64, unit: &str) -> String {
+    let one = unit.strip_prefix('1').map_or_else(|| format!("1 {unit}"), |rest| format!("1{rest}"));
+    if unit == "1" { format!("{name}={value:?}") } else { format!("{name}={value:?} * ({one})") }
+}
+
+/// A text with a parameter to vary.
+struct Varied<'t> {
+    path: &'t Path,
+    text: &'t str,
+    mechanism: &'t str,
+    name: &'t str,
+    value: f64,
+    unit: &'t str,
+}
+
+impl Varied<'_> {
+    fn choice(&self, by: &[&str]) -> Choice {
+        let by = by.iter().map(|&name| name.to_owned()).collect();
+        Choice { mechanism: Some(self.mechanism.to_owned()), by, ..Choice::default() }
+    }
+
+    /// Central differences of rows, and how far those of different steps are from each other (L. F. Richardson, 1911).
+    fn differences(&self, times: &Times) -> Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)> {
+        let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs() };
+        let difference = |h: f64| {
+            let side = |value: f64| {
+                let set = vec![setting(self.name, value, self.unit)];
+                rows(&compile(self.path, self.text, &Choice { set, ..self.choice(&[]) })?, times)
+            };
+            let (above, below) = (side(self.value + h)?, side(self.value - h)?);
+            Some(with(&above, &below, |a, b| (a - b) / (2.0 * h)))
+        };
+        let h = CHANGE * size;
+        let [one, half, quarter] = [difference(h)?, difference(h / 2.0)?, difference(h / 4.0)?];
+        let better = with(&half, &one, |fine, coarse| fine + (fine - coarse) / 3.0);
+        let best = with(&quarter, &half, |fine, coarse| fine + (fine - coarse) / 3.0);
+        let doubt = with(&best, &better, |a, b| (a - b).abs());
+        Some((with(&best, &better, |fine, coarse| fine + (fine - coarse) / 15.0), doubt))
+    }
+
+    /// Holds the columns `c.by.NAME` against the differences of the columns `c`; gives how many cells there were, and how many of them
+    /// were looked at.
+    fn check(&self) -> Option<(usize, usize)> {
+        let compiled = compile(self.path, self.text, &self.choice(&[self.name])).expect("it is determined");
+        let times = few_times(&compiled);
+        let found = rows(&compiled, &times)?;
+        let (wanted, doubt) = self.differences(&times)?;
+        let (columns, ending) = (compiled.columns(), format!(".by.{}", self.name));
+        let (mut cells, mut looked_at) = (0, 0);
+        for (k, column) in columns.iter().enumerate() {
+            let Some(of) = column.strip_suffix(&ending) else { continue };
+            let own = columns.iter().position(|other| other == of).expect("what it is a derivative of");
+            let size = found.iter().map(|row| row[k].abs()).filter(|x| x.is_finite()).fold(0.0, f64::max);
+            let limit = NEAR * (1.0 + size);
+            for (row, (wanted, doubt)) in found.iter().zip(wanted.iter().zip(&doubt)) {
+                cells += 1;
+                if doubt[own] < limit && row[k].is_finite() {
+                    looked_at += 1;
+                    let off = (row[k] - wanted[own]).abs();
+                    assert!(
+                        off < 3.0 * limit,
+                        "{column} at t = {}: {} instead of {} (±{:e}), off by {off:e} of {size}",
+                        row[0],
+                        row[k],
+                        wanted[own],
+                        doubt[own]
+                    );
+                }
+            }
+        }
+        Some((cells, looked_at))
+    }
+}
+
+fn with(a: &[Vec<f64>], b: &[Vec<f64>], f: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> {
+    a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect()).collect()
+}
+
+/// All parameters of a text, and numbers of it, against differences.
+fn first_order(path: &Path) {
+    let text = fs::read_to_string(path).expect("a text");
+    let (mut variables, mut cells, mut looked_at) = (0, 0, 0);
+    for (number, mechanism) in mechanisms(&text).iter().enumerate() {
+        let text = with_params(&text, number);
+        let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
+        let compiled = compile(path, &text, &choice).expect("it is determined");
+        let (determined, _) = compiled.inside();
+        for param in &determined.system().params {
+            let varied =
+                Varied { path, text: &text, mechanism, name: &param.name, value: param.value, unit: &param.unit };
+            if let Some((all, some)) = varied.check() {
+                (variables, cells, looked_at) = (variables + 1, cells + all, looked_at + some);
+            }
+        }
+    }
+    assert!(variables > 0, "nothing of it can be varied");
+    let part = looked_at as f64 / cells as f64;
+    println!("{}: {variables} variables, {cells} cells, {part:.3} of them", stem(path));
+    assert!(part > LOOKED_AT, "only {part} of {cells} cells can be looked at");
+}
+
+fn main() {
+    let mut tests = Tests::default();
+    let all = |folder: &str| files(folder, "mech").into_iter().map(|path| (stem(&path), path)).collect::<Vec<_>>();
+    tests.each("first", all("tests/cases"), 55, |path: PathBuf| first_order(&path));
+    tests.run()
+}
