@@ -40,7 +40,7 @@ fn literals(line: &str, at: usize, found: &mut Vec<Literal>) {
     if matches!(word, "param" | "analysis" | "mechanism" | "use") || code.contains("..") {
         return;
     }
-    let is_place = matches!(word, "point" | "body" | "circle" | "axis");
+    let is_place = matches!(word, "point" | "body" | "circle" | "axis" | "driver");
     let bytes = code.as_bytes();
     let is_word = |b: u8| b.is_ascii_alphanumeric() || b == b'_' || b >= 128;
     let mut k = 0;
@@ -81,8 +81,19 @@ fn literals(line: &str, at: usize, found: &mut Vec<Literal>) {
     }
 }
 
-/// The text in which some numbers of one of its mechanisms are parameters `zz0`, `zz1` …
-fn with_params(text: &str, mechanism: usize) -> String {
+/// The text in which some numbers of one of its mechanisms are parameters `zz0`, `zz1` …; where that is none, as of numbers that have to
+/// be alike, the texts with one of them each that are.
+fn with_params(path: &Path, text: &str, (number, mechanism): (usize, &str)) -> Vec<String> {
+    let choice = Choice { mechanism: Some(mechanism.to_owned()), ..Choice::default() };
+    let is_sound = |text: &String| compile(path, text, &choice).is_some();
+    let whole = with_some_params(text, number, |_| true);
+    if is_sound(&whole) {
+        return vec![whole];
+    }
+    (0..MOST).map(|only| with_some_params(text, number, |k| k == only)).filter(is_sound).collect()
+}
+
+fn with_some_params(text: &str, mechanism: usize, is_taken: impl Fn(usize) -> bool) -> String {
     let (mut found, mut at, mut number, mut head) = (Vec::new(), 0, 0, 0);
     for line in text.split_inclusive('\n') {
         if line.starts_with("mechanism ") {
@@ -98,7 +109,7 @@ fn with_params(text: &str, mechanism: usize) -> String {
     let step = found.len().div_ceil(MOST).max(1);
     let taken: Vec<&Literal> = found.iter().step_by(step).collect();
     let (mut made, mut params, mut last) = (String::new(), String::new(), head);
-    for (k, literal) in taken.iter().enumerate() {
+    for (k, literal) in taken.iter().enumerate().filter(|(k, _)| is_taken(*k)) {
         let _ = write!(params, " param zz{k} = {}\n", &text[literal.start..literal.end]);
         made += &text[last..literal.start];
         let _ = write!(made, "zz{k}");
@@ -111,8 +122,6 @@ fn compile(path: &Path, text: &str, choice: &Choice) -> Option<Compiled> {
     let mut sources = mechc::Sources::default();
     let file = sources.add(path.display().to_string(), text);
     let checked = Parsed::of_source(sources, file, path).check(choice, &Disk::default());
-    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.message.as_str()).collect();
-    assert!(checked.is_sound(), "{told:?}\n{text}");
     checked.compile(Redundant::Refused, &Cancel::default()).0
 }
 
@@ -125,7 +134,9 @@ fn rows(compiled: &Compiled, times: &Times) -> Option<Vec<Vec<f64>>> {
 fn few_times(compiled: &Compiled) -> Times {
     let [from, to, every] = compiled.analysis().expect("an analysis");
     let step = every * ((to - from) / every / ROWS).floor().max(1.0);
-    Times::grid(from, to, step).expect("a grid")
+    // rather between edges than on them, where the later side counts, and differences show both
+    let behind = |k: u64| from + (k as f64 + 0.37) * step;
+    Times::listed(from, (0..).map(behind).take_while(|t| *t < to).collect())
 }
 
 /// What a parameter is set to: `zz0=0.08 * (1 m)`.
@@ -212,21 +223,21 @@ fn first_order(path: &Path) {
     let text = fs::read_to_string(path).expect("a text");
     let (mut variables, mut cells, mut looked_at) = (0, 0, 0);
     for (number, mechanism) in mechanisms(&text).iter().enumerate() {
-        let text = with_params(&text, number);
-        let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
-        let compiled = compile(path, &text, &choice).expect("it is determined");
-        let (determined, _) = compiled.inside();
-        for param in &determined.system().params {
-            let varied =
-                Varied { path, text: &text, mechanism, name: &param.name, value: param.value, unit: &param.unit };
-            if let Some((all, some)) = varied.check() {
-                (variables, cells, looked_at) = (variables + 1, cells + all, looked_at + some);
+        for text in with_params(path, &text, (number, mechanism)) {
+            let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
+            let compiled = compile(path, &text, &choice).expect("it is determined");
+            let (determined, _) = compiled.inside();
+            for param in &determined.system().params {
+                let varied =
+                    Varied { path, text: &text, mechanism, name: &param.name, value: param.value, unit: &param.unit };
+                if let Some((all, some)) = varied.check() {
+                    (variables, cells, looked_at) = (variables + 1, cells + all, looked_at + some);
+                }
             }
         }
     }
     assert!(variables > 0, "nothing of it can be varied");
     let part = looked_at as f64 / cells as f64;
-    println!("{}: {variables} variables, {cells} cells, {part:.3} of them", stem(path));
     assert!(part > LOOKED_AT, "only {part} of {cells} cells can be looked at");
 }
 
