@@ -10,6 +10,8 @@ use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
+use mechc::rooms::analysis;
+use mechc::rooms::ir::{ConstraintSystem, Param};
 use support::listed::Tests;
 use support::{Disk, all_rows, files, mechanisms, stem};
 
@@ -21,6 +23,8 @@ const ROWS: f64 = 12.0;
 const CHANGE: f64 = 2e-3;
 /// A derivative may differ from the difference by this, beside its largest value or 1.
 const NEAR: f64 = 1e-6;
+/// Bodies whose places are differentiated twice, at most.
+const BODIES: usize = 2;
 /// What differences do not agree on among themselves, as beside an edge, is not looked at; but so much of all is.
 const LOOKED_AT: f64 = 0.8;
 
@@ -145,7 +149,7 @@ fn setting(name: &str, value: f64, unit: &str) -> String {
     if unit == "1" { format!("{name}={value:?}") } else { format!("{name}={value:?} * ({one})") }
 }
 
-/// A text with a parameter to vary.
+/// A text with a parameter, or an input, to vary.
 struct Varied<'t> {
     path: &'t Path,
     text: &'t str,
@@ -153,6 +157,7 @@ struct Varied<'t> {
     name: &'t str,
     value: f64,
     unit: &'t str,
+    is_input: bool,
 }
 
 impl Varied<'_> {
@@ -163,11 +168,15 @@ impl Varied<'_> {
 
     /// Central differences of rows, and how far those of different steps are from each other (L. F. Richardson, 1911).
     fn differences(&self, times: &Times) -> Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)> {
-        let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs() };
+        let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs().max(1e-3) };
         let difference = |h: f64| {
             let side = |value: f64| {
-                let set = vec![setting(self.name, value, self.unit)];
-                rows(&compile(self.path, self.text, &Choice { set, ..self.choice(&[]) })?, times)
+                let told = vec![setting(self.name, value, self.unit)];
+                let choice = match self.is_input {
+                    true => Choice { inputs: told, ..self.choice(&[]) },
+                    false => Choice { set: told, ..self.choice(&[]) },
+                };
+                rows(&compile(self.path, self.text, &choice)?, times)
             };
             let (above, below) = (side(self.value + h)?, side(self.value - h)?);
             Some(with(&above, &below, |a, b| (a - b) / (2.0 * h)))
@@ -218,32 +227,154 @@ fn with(a: &[Vec<f64>], b: &[Vec<f64>], f: impl Fn(f64, f64) -> f64) -> Vec<Vec<
     a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect()).collect()
 }
 
+/// How much has been held against differences.
+#[derive(Default)]
+struct Seen {
+    variables: usize,
+    cells: usize,
+    looked_at: usize,
+}
+
+impl Seen {
+    fn take(&mut self, varied: &Varied<'_>) {
+        if let Some((cells, looked_at)) = varied.check() {
+            (self.variables, self.cells, self.looked_at) =
+                (self.variables + 1, self.cells + cells, self.looked_at + looked_at);
+        }
+    }
+
+    /// It was not too little.
+    fn is_enough(&self) {
+        assert!(self.variables > 0, "nothing of it can be varied");
+        let part = self.looked_at as f64 / self.cells as f64;
+        assert!(part > LOOKED_AT, "only {part} of {} cells can be looked at", self.cells);
+    }
+}
+
 /// All parameters of a text, and numbers of it, against differences.
 fn first_order(path: &Path) {
     let text = fs::read_to_string(path).expect("a text");
-    let (mut variables, mut cells, mut looked_at) = (0, 0, 0);
+    let mut seen = Seen::default();
     for (number, mechanism) in mechanisms(&text).iter().enumerate() {
         for text in with_params(path, &text, (number, mechanism)) {
             let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
             let compiled = compile(path, &text, &choice).expect("it is determined");
             let (determined, _) = compiled.inside();
             for param in &determined.system().params {
-                let varied =
-                    Varied { path, text: &text, mechanism, name: &param.name, value: param.value, unit: &param.unit };
-                if let Some((all, some)) = varied.check() {
-                    (variables, cells, looked_at) = (variables + 1, cells + all, looked_at + some);
+                seen.take(&varied_param(path, (&text, mechanism), param));
+            }
+        }
+    }
+    seen.is_enough();
+}
+
+fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> Varied<'t> {
+    let Param { name, value, unit, .. } = param;
+    Varied { path, text, mechanism, name, value: *value, unit, is_input: false }
+}
+
+/// The text with measures that are places and angles of its bodies, differentiated by a name.
+fn with_measures(text: &str, mechanism: &str, system: &ConstraintSystem, by: &str) -> String {
+    let mut measures = String::new();
+    let mut known: Vec<usize> = Vec::new();
+    for point in &system.points {
+        let (Some(name), Some(body)) = (&point.name, point.body.filter(|body| !known.contains(body))) else { continue };
+        let owner = &system.bodies[body].name;
+        for (k, quantity) in [format!("x({owner}.{name})"), format!("y({owner}.{name})"), format!("angle({owner})")]
+            .into_iter()
+            .enumerate()
+        {
+            let _ = write!(measures, " measure zz_{body}_{k} = der({quantity}, {by})\n");
+        }
+        known.push(body);
+        if known.len() == BODIES {
+            break;
+        }
+    }
+    let head = format!("mechanism {mechanism} {{");
+    assert!(text.contains(&head));
+    text.replace(&head, &(head.clone() + &measures))
+}
+
+/// Second derivatives by two parameters, or by one of them twice, against differences of first ones.
+fn second_order(path: &Path) {
+    let text = fs::read_to_string(path).expect("a text");
+    let mut seen = Seen::default();
+    for (number, mechanism) in mechanisms(&text).iter().enumerate() {
+        for text in with_params(path, &text, (number, mechanism)) {
+            let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
+            let (determined, _) = compile(path, &text, &choice).expect("it is determined").inside();
+            let system = determined.system();
+            let Some(first) = system.params.first() else { continue };
+            let text = with_measures(&text, mechanism, system, &first.name);
+            let other = &system.params[system.params.len() / 2];
+            seen.take(&varied_param(path, (&text, mechanism), first));
+            seen.take(&varied_param(path, (&text, mechanism), other));
+        }
+    }
+    seen.is_enough();
+}
+
+/// The text in which something is added to what a driver prescribes.
+fn with_input(text: &str, driver: usize, input: &str) -> Option<String> {
+    let mut drivers = text.match_indices("\n    driver ").map(|(at, _)| at);
+    let at = drivers.nth(driver)?;
+    let line = &text[at + 1..];
+    let line = &line[..line.find('\n')?];
+    let code = line.split("//").next()?.trim_end();
+    let end = at + 1 + code.len();
+    let equals = at + 1 + code.rfind(" = ")? + 3;
+    Some(format!("{}\n    {input}{}({}) + zin{}", &text[..at], &text[at..equals], &text[equals..end], &text[end..]))
+}
+
+/// A shift of every driver, as an input, against differences.
+fn inputs(path: &Path) {
+    let text = fs::read_to_string(path).expect("a text");
+    let mut seen = Seen::default();
+    for driver in 0..MOST {
+        for (input, unit) in [("input zin = 0", "1"), ("input zin = 0 mm", "m")] {
+            let Some(text) = with_input(&text, driver, input) else { continue };
+            for mechanism in mechanisms(&text) {
+                let choice = Choice { mechanism: Some(mechanism.clone()), ..Choice::default() };
+                let is_there = text.split("mechanism ").any(|one| one.starts_with(&mechanism) && one.contains(input));
+                if is_there && compile(path, &text, &choice).is_some() {
+                    let (mechanism, name) = (&mechanism, "zin");
+                    seen.take(&Varied { path, text: &text, mechanism, name, value: 0.0, unit, is_input: true });
                 }
             }
         }
     }
-    assert!(variables > 0, "nothing of it can be varied");
-    let part = looked_at as f64 / cells as f64;
-    assert!(part > LOOKED_AT, "only {part} of {cells} cells can be looked at");
+    seen.is_enough();
+}
+
+/// How many operations it takes to solve for a row.
+fn operations(path: &Path, text: &str, choice: &Choice) -> usize {
+    let (determined, program) = compile(path, text, choice).expect("it is determined").inside();
+    let started = analysis::start(determined, program, 0.0, mechc::TOLERANCE, &Cancel::default());
+    started.unwrap_or_else(|why| panic!("{}", why.message)).solver().expect("operations").operations()
+}
+
+/// One name costs at most as much as a row without it: it is solved for with the factors that there are.
+fn costs_no_more_than_a_row(path: &Path) {
+    let text = fs::read_to_string(path).expect("a text");
+    let mechanism = mechanisms(&text).remove(0);
+    let choice = |by: Vec<String>| Choice { mechanism: Some(mechanism.clone()), by, ..Choice::default() };
+    let plain = operations(path, &text, &choice(Vec::new()));
+    let (determined, _) = compile(path, &text, &choice(Vec::new())).expect("it is determined").inside();
+    for param in &determined.system().params {
+        let varied = operations(path, &text, &choice(vec![param.name.clone()]));
+        assert!(varied <= 2 * plain, "{varied} operations by {}, {plain} without", param.name);
+    }
 }
 
 fn main() {
     let mut tests = Tests::default();
     let all = |folder: &str| files(folder, "mech").into_iter().map(|path| (stem(&path), path)).collect::<Vec<_>>();
     tests.each("first", all("tests/cases"), 55, |path: PathBuf| first_order(&path));
+    tests.each("second", all("tests/cases"), 55, |path: PathBuf| second_order(&path));
+    tests.each("input", all("tests/cases"), 55, |path: PathBuf| inputs(&path));
+    let texts = ["andrews", "cam_roller", "drawn_four_bar", "gear_train", "jansen", "slider_crank"];
+    let texts = texts.map(|name| (name.to_owned(), PathBuf::from(format!("tests/cases/{name}.mech"))));
+    tests.each("cost", texts, 6, |path: PathBuf| costs_no_more_than_a_row(&path));
     tests.run()
 }

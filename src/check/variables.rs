@@ -228,6 +228,9 @@ impl Checker<'_> {
         let diagnostic = match self.space.get(told).or_else(|| self.space.get(whole)) {
             Some(Entity::Param(_)) if self.deciding.contains(whole) => errors::column_by_deciding(told),
             Some(Entity::Param(_) | Entity::Input(_)) if self.diagnostics.has_errors() => return,
+            Some(Entity::Param(_) | Entity::Input(_)) => {
+                errors::no_column_by(&self.tree.name.text, told, None, Some(whole))
+            }
             Some(entity) => errors::no_column_by(&self.tree.name.text, told, Some(entity.noun()), None),
             None => {
                 let meant = nearest(told, known());
