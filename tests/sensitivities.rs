@@ -1,5 +1,6 @@
 //! Derivatives by inputs and parameters against differences: numbers in the texts of `tests/cases` are made parameters, and what `--by`
-//! gives for them is held against motions that were solved for with other values. `cargo test --test sensitivities four_bar` does so
+//! gives for them is held against motions that were solved for with other values; likewise in those of `tests/sensitivities`, which hold
+//! what the others lack. `cargo test --test sensitivities four_bar` does so
 //! for one text.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
@@ -369,10 +370,13 @@ fn costs_no_more_than_a_row(path: &Path) {
 
 fn main() {
     let mut tests = Tests::default();
-    let all = |folder: &str| files(folder, "mech").into_iter().map(|path| (stem(&path), path)).collect::<Vec<_>>();
-    tests.each("first", all("tests/cases"), 55, |path: PathBuf| first_order(&path));
-    tests.each("second", all("tests/cases"), 55, |path: PathBuf| second_order(&path));
-    tests.each("input", all("tests/cases"), 55, |path: PathBuf| inputs(&path));
+    let all = || {
+        let paths = ["tests/cases", "tests/sensitivities"].into_iter().flat_map(|folder| files(folder, "mech"));
+        paths.map(|path| (stem(&path), path)).collect::<Vec<_>>()
+    };
+    tests.each("first", all(), 58, |path: PathBuf| first_order(&path));
+    tests.each("second", all(), 58, |path: PathBuf| second_order(&path));
+    tests.each("input", all(), 58, |path: PathBuf| inputs(&path));
     let texts = ["andrews", "cam_roller", "drawn_four_bar", "gear_train", "jansen", "slider_crank"];
     let texts = texts.map(|name| (name.to_owned(), PathBuf::from(format!("tests/cases/{name}.mech"))));
     tests.each("cost", texts, 6, |path: PathBuf| costs_no_more_than_a_row(&path));

@@ -8,13 +8,13 @@
 //! All have the matrix of the position. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
 //! Systems*, 1986, by direct differentiation.
 
-use super::ConstraintSystem;
+use super::{Check, ConstraintSystem};
 use crate::expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
 
-/// An equation that was left out may miss by this part of its terms, added up, where something is varied: rounding.
-const MISSES: f64 = 1e-6;
+/// An equation that was left out may miss by this where something is varied, scaled, beside how much everything changes: rounding.
+const MISSES: f64 = 1e-8;
 
 /// What derivatives are taken by, and the variations that this needs.
 #[derive(Clone, Debug, Default)]
@@ -225,37 +225,73 @@ impl ConstraintSystem {
 
     /// By variation: whether all equations that were left out go on to hold.
     fn where_checks_hold(&mut self, variations: &mut Variations) -> Vec<Option<ExprId>> {
-        let graph = &mut self.graph;
-        let phi: Vec<ExprId> = self.checks.iter().map(|check| check.phi).collect();
-        let roots = with_rates(graph, &phi).concat();
         let mut hold: Vec<Option<ExprId>> = Vec::new();
         for number in 0..variations.list.len() {
             let (first, second) = variations.list[number].by;
-            let mut slopes = variations.derivatives(graph, &roots, first);
-            if let Some(second) = second {
-                slopes = variations.derivatives(graph, &slopes, second);
+            let mut all = Vec::new();
+            for check in 0..self.checks.len() {
+                all.push(self.goes_on_to_hold(variations, check, number as u32));
+                if second.is_none() {
+                    all.push(self.goes_on_to_hold_for_a_while(variations, check, number as u32));
+                }
             }
-            let holds = slopes.into_iter().fold(None, |all, slope| {
-                let one = is_next_to_nothing(graph, slope);
-                Some(all.map_or(one, |all| graph.and(all, one)))
-            });
-            let before = [Some(first), second.filter(|second| *second != first)].into_iter().flatten();
-            let parts = before.filter(|_| second.is_some()).map(|by| variations.numbers[&(by, None)] as usize);
-            let all = parts.filter_map(|part| hold[part]).chain(holds).reduce(|a, b| graph.and(a, b));
-            hold.push(all);
+            if let Some(second) = second {
+                let parts = [first, second].map(|by| variations.numbers[&(by, None)] as usize);
+                all.extend(parts.into_iter().filter_map(|part| hold[part]));
+            }
+            hold.push(all.into_iter().reduce(|a, b| self.graph.and(a, b)));
         }
         hold
     }
-}
 
-/// Whether a sum is zero beside its terms.
-fn is_next_to_nothing(graph: &mut Graph, sum: ExprId) -> ExprId {
-    let zero = graph.constant(0.0);
-    let terms: Vec<ExprId> = graph.terms(sum).into_iter().map(|term| graph.unary(Unary::Abs, term)).collect();
-    let all = terms.into_iter().fold(zero, |all, term| graph.add(all, term));
-    let part = graph.constant(MISSES);
-    let (off, limit) = (graph.unary(Unary::Abs, sum), graph.mul(part, all));
-    graph.compare(Comparison::LessEqual, off, limit)
+    /// Whether an equation that was left out holds beside a position: `|D_p Φ| ≤ ε ‖Φ_q‖ Σ |q_p|`, all scaled, and likewise by two.
+    fn goes_on_to_hold(&mut self, variations: &mut Variations, check: usize, number: u32) -> ExprId {
+        let Check { phi, scale, .. } = self.checks[check];
+        let (first, second) = variations.list[number as usize].by;
+        let slope = variations.derivatives(&mut self.graph, &[phi], first)[0];
+        let own = self.size(|index| Symbol::Varied { index, order: 0, variation: number });
+        let Some(second) = second else {
+            return self.is_next_to_nothing(slope, scale, own);
+        };
+        let bend = variations.derivatives(&mut self.graph, &[slope], second)[0];
+        let parts = [first, second].map(|by| variations.numbers[&(by, None)]);
+        let [a, b] = parts.map(|variation| self.size(|index| Symbol::Varied { index, order: 0, variation }));
+        let product = self.graph.mul(a, b);
+        let size = self.graph.add(own, product);
+        self.is_next_to_nothing(bend, scale, size)
+    }
+
+    /// The same of its time derivative, so that it does not hold by chance: `|D_p Φ̇| ≤ ε ‖Φ_q‖ (Σ |q̇_p| + Σ |q_p| Σ |q̇|)`.
+    fn goes_on_to_hold_for_a_while(&mut self, variations: &mut Variations, check: usize, variation: u32) -> ExprId {
+        let Check { phi, scale, .. } = self.checks[check];
+        let (by, _) = variations.list[variation as usize].by;
+        let rate = ConstraintSystem::time_derivatives(&mut self.graph, &[phi], 1)[0];
+        let slope = variations.derivatives(&mut self.graph, &[rate], by)[0];
+        let [place, speed] = [0, 1].map(|order| self.size(|index| Symbol::Varied { index, order, variation }));
+        let motion = self.size(|index| Symbol::Coordinate { index, order: 1 });
+        let turned = self.graph.mul(place, motion);
+        let size = self.graph.add(speed, turned);
+        self.is_next_to_nothing(slope, scale, size)
+    }
+
+    /// `Σ |x| / s` over all coordinates, s being what a change of each is judged against.
+    fn size(&mut self, symbol: impl Fn(u32) -> Symbol) -> ExprId {
+        let graph = &mut self.graph;
+        let zero = graph.constant(0.0);
+        self.coordinates.iter().enumerate().fold(zero, |all, (index, coordinate)| {
+            let (x, scale) = (graph.symbol(symbol(index as u32)), graph.constant(coordinate.scale));
+            let size = graph.unary(Unary::Abs, x);
+            let scaled = graph.div(size, scale);
+            graph.add(all, scaled)
+        })
+    }
+
+    fn is_next_to_nothing(&mut self, off: ExprId, scale: f64, size: ExprId) -> ExprId {
+        let graph = &mut self.graph;
+        let part = graph.constant(MISSES * scale);
+        let (off, limit) = (graph.unary(Unary::Abs, off), graph.mul(part, size));
+        graph.compare(Comparison::LessEqual, off, limit)
+    }
 }
 
 /// A formula where all holds that its variations need, elsewhere nothing finite.
