@@ -264,6 +264,16 @@ fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: 
                 _ => c[k],
             }
         }
+        Symbol::Shift(_) => 0.0,
+        Symbol::Varied { index, order, variation } => {
+            // anything whose rates are its derivatives
+            let rate = |order: u32| (1.3 * f64::from(index) + 0.7 * f64::from(variation) + f64::from(order)).sin();
+            match order {
+                0 => rate(0) + tau * (rate(1) + tau * rate(2) / 2.0),
+                1 => rate(1) + tau * rate(2),
+                _ => rate(2),
+            }
+        }
         Symbol::Named(_) => unreachable!("no named symbol is left"),
     })
 }

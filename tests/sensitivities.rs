@@ -7,12 +7,12 @@
 
 mod support;
 
+use mechc::rooms::analysis;
+use mechc::rooms::ir::{ConstraintSystem, Param};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use std::fmt::Write;
 use std::fs;
 use std::path::{Path, PathBuf};
-use mechc::rooms::analysis;
-use mechc::rooms::ir::{ConstraintSystem, Param};
 use support::listed::Tests;
 use support::{Disk, all_rows, files, mechanisms, stem};
 
@@ -20,6 +20,7 @@ use support::{Disk, all_rows, files, mechanisms, stem};
 const MOST: usize = 6;
 /// Rows that are looked at, more or less.
 const ROWS: f64 = 12.0;
+const MOST_ROWS: u64 = 30;
 /// A number is changed by this part of it, a half and a quarter of that.
 const CHANGE: f64 = 2e-3;
 /// A derivative may differ from the difference by this, beside its largest value or 1.
@@ -31,6 +32,8 @@ const LOOKED_AT: f64 = 0.8;
 
 const UNITS: [&str; 16] =
     ["mm", "cm", "m", "km", "in", "ft", "um", "µm", "deg", "rad", "rev", "rpm", "s", "ms", "us", "µs"];
+
+type Rows = Vec<Vec<f64>>;
 
 /// A literal in a text: its bytes.
 struct Literal {
@@ -115,7 +118,7 @@ fn with_some_params(text: &str, mechanism: usize, is_taken: impl Fn(usize) -> bo
     let taken: Vec<&Literal> = found.iter().step_by(step).collect();
     let (mut made, mut params, mut last) = (String::new(), String::new(), head);
     for (k, literal) in taken.iter().enumerate().filter(|(k, _)| is_taken(*k)) {
-        let _ = write!(params, " param zz{k} = {}\n", &text[literal.start..literal.end]);
+        let _ = writeln!(params, " param zz{k} = {}", &text[literal.start..literal.end]);
         made += &text[last..literal.start];
         let _ = write!(made, "zz{k}");
         last = literal.end;
@@ -131,7 +134,7 @@ fn compile(path: &Path, text: &str, choice: &Choice) -> Option<Compiled> {
 }
 
 /// The rows at a few times, if the motion gets to the last of them.
-fn rows(compiled: &Compiled, times: &Times) -> Option<Vec<Vec<f64>>> {
+fn rows(compiled: &Compiled, times: &Times) -> Option<Rows> {
     let (rows, stop) = all_rows(compiled, times);
     stop.is_none().then_some(rows)
 }
@@ -141,7 +144,7 @@ fn few_times(compiled: &Compiled) -> Times {
     let step = every * ((to - from) / every / ROWS).floor().max(1.0);
     // rather between edges than on them, where the later side counts, and differences show both
     let behind = |k: u64| from + (k as f64 + 0.37) * step;
-    Times::listed(from, (0..).map(behind).take_while(|t| *t < to).collect())
+    Times::listed(from, (0..MOST_ROWS).map(behind).take_while(|t| *t < to).collect())
 }
 
 /// What a parameter is set to: `zz0=0.08 * (1 m)`.
@@ -168,15 +171,13 @@ impl Varied<'_> {
     }
 
     /// Central differences of rows, and how far those of different steps are from each other (L. F. Richardson, 1911).
-    fn differences(&self, times: &Times) -> Option<(Vec<Vec<f64>>, Vec<Vec<f64>>)> {
+    fn differences(&self, times: &Times) -> Option<(Rows, Rows)> {
         let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs().max(1e-3) };
         let difference = |h: f64| {
             let side = |value: f64| {
                 let told = vec![setting(self.name, value, self.unit)];
-                let choice = match self.is_input {
-                    true => Choice { inputs: told, ..self.choice(&[]) },
-                    false => Choice { set: told, ..self.choice(&[]) },
-                };
+                let (inputs, set) = if self.is_input { (told, Vec::new()) } else { (Vec::new(), told) };
+                let choice = Choice { inputs, set, ..self.choice(&[]) };
                 rows(&compile(self.path, self.text, &choice)?, times)
             };
             let (above, below) = (side(self.value + h)?, side(self.value - h)?);
@@ -224,7 +225,7 @@ impl Varied<'_> {
     }
 }
 
-fn with(a: &[Vec<f64>], b: &[Vec<f64>], f: impl Fn(f64, f64) -> f64) -> Vec<Vec<f64>> {
+fn with(a: &[Vec<f64>], b: &[Vec<f64>], f: impl Fn(f64, f64) -> f64) -> Rows {
     a.iter().zip(b).map(|(a, b)| a.iter().zip(b).map(|(a, b)| f(*a, *b)).collect()).collect()
 }
 
@@ -285,7 +286,7 @@ fn with_measures(text: &str, mechanism: &str, system: &ConstraintSystem, by: &st
             .into_iter()
             .enumerate()
         {
-            let _ = write!(measures, " measure zz_{body}_{k} = der({quantity}, {by})\n");
+            let _ = writeln!(measures, " measure zz_{body}_{k} = der({quantity}, {by})");
         }
         known.push(body);
         if known.len() == BODIES {

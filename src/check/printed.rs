@@ -97,7 +97,9 @@ impl Checker<'_> {
                 // an exponent is a number whatever its base is
                 ExprKind::Power(base, _) => open.push(base),
                 // nor does a derivative hold what it is taken by
-                ExprKind::Call { arguments, .. } if variables::as_derivative(e).is_some() => open.extend(arguments.first()),
+                ExprKind::Call { arguments, .. } if variables::as_derivative(e).is_some() => {
+                    open.extend(arguments.first());
+                }
                 _ => open.extend(e.children()),
             }
         }

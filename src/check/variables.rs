@@ -107,12 +107,7 @@ impl Checker<'_> {
     }
 
     /// `der(e, NAME)`
-    pub(super) fn derivative_by(
-        &mut self,
-        e: &Expr,
-        [of, by]: [&Expr; 2],
-        context: &Context<'_>,
-    ) -> Option<Value> {
+    pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
         if !context.measures {
             self.report(errors::derivative_in(context.place, e.span));
             return None;

@@ -34,14 +34,8 @@ impl Graph {
         varied: &mut Option<VariedTables>,
     ) -> Option<ExprId> {
         let tables = varied.as_mut()?;
-        let VariedTable { table: derived, period } = match tables.get(&table) {
-            Some(&known) => known,
-            None => {
-                let made = self.varied_table(table, direction);
-                tables.insert(table, made);
-                made
-            }
-        };
+        let VariedTable { table: derived, period } =
+            *tables.entry(table).or_insert_with(|| self.varied_table(table, direction));
         let by_pieces = derived.map(|derived| self.table(derived, order, x));
         let by_period = period.filter(|_| order < 3).map(|period| {
             // f(x) = P(x − n L): n stays, L changes
@@ -112,7 +106,9 @@ impl Graph {
     /// The same table is the same, whoever asks for it.
     fn known_or_added(&mut self, table: Table) -> TableId {
         let is_same = |known: &Table| {
-            known.derived_from == table.derived_from && known.name == table.name && known.coefficients == table.coefficients
+            known.derived_from == table.derived_from
+                && known.name == table.name
+                && known.coefficients == table.coefficients
         };
         match self.tables.iter().position(is_same) {
             Some(at) => TableId(at as u32),

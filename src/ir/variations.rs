@@ -145,7 +145,8 @@ impl Variations {
                     None => self.along(graph, roots, first, |symbol| is_coordinate(symbol, top)),
                     Some(second) => {
                         let inner = self.number(first, None);
-                        let roots = whole.entry((first, order)).or_insert_with(|| self.derivatives(graph, roots, first));
+                        let roots =
+                            whole.entry((first, order)).or_insert_with(|| self.derivatives(graph, roots, first));
                         let roots = std::mem::take(roots);
                         let is_solved_for = |symbol| match symbol {
                             Symbol::Varied { order, variation, .. } => order == top && variation == inner,

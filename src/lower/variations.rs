@@ -3,14 +3,14 @@
 use super::Lowering;
 use crate::expr::ExprId;
 use crate::ir::{Appended, Coordinate, Measure, Variable, Variations};
-use crate::model::Mechanism;
+use crate::model::{Mechanism, Units, quotient};
 
 /// What a mechanism is differentiated by; none where that is nothing.
 pub(super) fn variables(model: &Mechanism) -> Option<Variations> {
     let variable = |of: &crate::model::Variable| Variable {
         name: of.declared.name.clone(),
         symbol: of.symbol,
-        unit: if of.is_angle { "rad".to_owned() } else { of.dimension.unit() },
+        unit: Units::si(of.dimension, of.is_angle).si,
         span: of.declared.span,
     };
     let variables: Vec<Variable> = model.variables.iter().map(variable).collect();
@@ -51,7 +51,7 @@ impl Lowering<'_> {
         let value = self.derivative_by(id, variable);
         let Coordinate { name, kind, .. } = &self.coordinates[k];
         let unit = per_second(kind.unit(), order);
-        self.append(name.clone() + ENDINGS[order], value, variable, (unit, [1.0; 3]));
+        self.append(&(name.clone() + ENDINGS[order]), value, variable, (unit, [1.0; 3]));
     }
 
     /// One that needs too many derivatives is left out.
@@ -65,13 +65,13 @@ impl Lowering<'_> {
         let value = self.derivative_by(value, variable);
         let value = self.only_where(holds, value);
         let unit = (measure.units.printed[order].clone(), measure.units.scale);
-        self.append(format!("{}{}", measure.name, ENDINGS[order]), value, variable, unit);
+        self.append(&format!("{}{}", measure.name, ENDINGS[order]), value, variable, unit);
     }
 
-    fn append(&mut self, of: String, value: ExprId, variable: u32, (unit, scale): (String, [f64; 3])) {
+    fn append(&mut self, of: &str, value: ExprId, variable: u32, (unit, scale): (String, [f64; 3])) {
         if let Some(variations) = &mut self.variations {
             let by = &variations.variables[variable as usize];
-            let (name, unit) = (format!("{of}.by.{}", by.name), over(&unit, &by.unit));
+            let (name, unit) = (format!("{of}.by.{}", by.name), quotient(&unit, &by.unit));
             variations.appended.push(Appended { name, value, variable, unit, scale });
         }
     }
@@ -80,46 +80,4 @@ impl Lowering<'_> {
 fn per_second(unit: &str, order: usize) -> String {
     let unit = if unit.is_empty() { "1" } else { unit };
     unit.to_owned() + ["", "/s", "/s^2"][order]
-}
-
-/// The unit of a quotient: `mm/m`; `1` for no unit at all. An angle counts as a unit only where it cancels one.
-fn over(unit: &str, other: &str) -> String {
-    let mut powers = powers(unit);
-    for (name, power) in self::powers(other) {
-        match powers.iter_mut().find(|(known, _)| *known == name) {
-            Some((_, known)) => *known -= power,
-            None if name == "rad" => {}
-            None => powers.push((name, -power)),
-        }
-    }
-    let text = |name: &str, power: f64| if power == 1.0 { name.to_owned() } else { format!("{name}^{power}") };
-    let above: Vec<String> = powers.iter().filter(|(_, power)| *power > 0.0).map(|&(name, p)| text(name, p)).collect();
-    let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
-    powers.iter().filter(|(_, power)| *power < 0.0).fold(above, |all, &(name, p)| all + "/" + &text(name, -p))
-}
-
-/// The factors of a unit, as units are written: `m*rad/s^2`, `1/(m*s)`.
-fn powers(unit: &str) -> Vec<(&str, f64)> {
-    let mut powers: Vec<(&str, f64)> = Vec::new();
-    let (mut sign, mut is_group) = (1.0, false);
-    for factor in unit.split_inclusive(['*', '/']) {
-        let name = factor.trim_end_matches(['*', '/']);
-        is_group |= name.starts_with('(');
-        let closes = name.ends_with(')');
-        let (name, power) = match name.trim_matches(['(', ')']).split_once('^') {
-            Some((name, power)) => (name, power.parse().unwrap_or(1.0)),
-            None => (name.trim_matches(['(', ')']), 1.0),
-        };
-        if name != "1" {
-            match powers.iter_mut().find(|(known, _)| *known == name) {
-                Some((_, known)) => *known += sign * power,
-                None => powers.push((name, sign * power)),
-            }
-        }
-        is_group &= !closes;
-        if !is_group {
-            sign = if factor.ends_with('/') { -1.0 } else { 1.0 };
-        }
-    }
-    powers
 }

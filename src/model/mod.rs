@@ -4,8 +4,10 @@
 //! here has been found sound; nothing after `check` fails on it.
 
 mod print;
+mod quotients;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
+pub use quotients::quotient;
 
 use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;

@@ -50,5 +50,6 @@ pub fn no_column_by(mechanism: &str, name: &str, found: Option<&str>, meant: Opt
         Some(found) => format!("`{name}` is {found} of mechanism `{mechanism}`, and no input or parameter"),
     };
     let help = meant.map(|name| format!("was `{name}` meant?"));
-    Diagnostic::new(Code::E0703, message).help(help.unwrap_or_else(|| "derivatives are taken by these alone".to_owned()))
+    Diagnostic::new(Code::E0703, message)
+        .help(help.unwrap_or_else(|| "derivatives are taken by these alone".to_owned()))
 }
