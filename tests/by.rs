@@ -4,6 +4,7 @@
 
 mod support;
 
+use mechc::rooms::math;
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
@@ -74,7 +75,7 @@ fn by_an_input_its_rates_are_held() {
         measure its_rate = der(der(turn), turn)
         measure twice = der(der(turn * x(arm.tip), turn), turn)";
     let outcome = arm_at(declarations, "turn", &["turn"], 1.0);
-    let (sin, cos, rate, growth) = (3.3_f64.sin(), 3.3_f64.cos(), 4.0, 2.0);
+    let (sin, cos, rate, growth) = (math::sin(3.3), math::cos(3.3), 4.0, 2.0);
     is(&outcome, "height.by.turn", 2.0 * cos);
     is(&outcome, "height.d.by.turn", -2.0 * sin * rate);
     is(&outcome, "height.dd.by.turn", -2.0 * (cos * rate * rate + sin * growth));
@@ -94,7 +95,7 @@ fn by_a_param_it_runs_through_what_is_made_of_it_and_by_that_it_alone_varies() {
         measure pure = der(half^2 * t, half)
         measure constant = der(3 * reach, half)";
     let outcome = arm_at(declarations, "t", &["half", "reach", "more"], 1.0);
-    let cos = 1_f64.cos();
+    let cos = math::cos(1.0);
     is(&outcome, "width.by.half", 2.0 * cos + 3.0);
     is(&outcome, "width.by.reach", cos + 1.0);
     is(&outcome, "width.by.more", 1.0);
@@ -122,7 +123,7 @@ fn a_point_stands_for_its_coordinates_and_a_repeated_input_for_its_copies() {
         analysis from 0 s to 1 s every 1 s
     }";
     let outcome = rows_at(text, &["A", "turn", "turn[1]"], &[0.5], &RunOptions::default());
-    let (sin, cos) = 1_f64.sin_cos();
+    let (sin, cos) = math::sin_cos(1.0);
     is(&outcome, "width.by.A.x", cos);
     is(&outcome, "width.by.A.y", -sin);
     is(&outcome, "width.by.turn[0]", 0.0);
@@ -145,8 +146,8 @@ fn samples_and_formulas_from_outside_are_shifted_too() {
         let compiled = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
         let (rows, _) = all_rows(&compiled, &Times::listed(0.0, vec![0.7]));
         let at = |name: &str| rows[0][compiled.columns().iter().position(|column| column == name).expect("a column")];
-        let (phi, turn) = (at("arm.phi"), at("arm.phi").sqrt());
-        assert!((at("height.by.turn") - phi.cos() * 2.0 * turn).abs() < EXACT);
+        let (phi, turn) = (at("arm.phi"), math::sqrt(at("arm.phi")));
+        assert!((at("height.by.turn") - math::cos(phi) * 2.0 * turn).abs() < EXACT);
     }
 }
 
@@ -207,7 +208,7 @@ fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
     for (k, t) in times.iter().enumerate() {
         // −cot of the crank's angle
         let (turned, rate) = ((t - 1.5) * FRAC_PI_2, FRAC_PI_2);
-        let (sin, cot) = (turned.sin(), turned.cos() / turned.sin());
+        let (sin, cot) = (math::sin(turned), math::cos(turned) / math::sin(turned));
         let slope = 1.0 / (sin * sin);
         let bend = -2.0 * cot * slope;
         let wanted = [

@@ -544,7 +544,17 @@ impl<'b> Draft<'b> {
             5 => format!("atan2(x({p}), y({p}))"),
             _ => format!("x({p}, {q})"),
         };
-        let value = match self.pick(7) {
+        let param = self.declarations.iter().rev().find_map(|text| text.strip_prefix("param ")?.split(' ').next());
+        let param = param.map(str::to_owned);
+        let value = match (self.pick(8), param) {
+            (7, Some(param)) => format!("der(der(der({quantity}, {param})), {param})"),
+            (which, _) => self.measured(which, quantity),
+        };
+        self.declarations.push(format!("measure m{k} = {value}"));
+    }
+
+    fn measured(&mut self, which: usize, quantity: String) -> String {
+        match which {
             0 => format!("der({quantity})"),
             1 => format!("der(der({quantity}))"),
             2 => format!("der(der(der({quantity})))"),
@@ -552,8 +562,7 @@ impl<'b> Draft<'b> {
             4 => format!("({quantity})^2 + ({quantity})^2"),
             5 => format!("max({quantity}, {quantity} / 2)"),
             _ => quantity,
-        };
-        self.declarations.push(format!("measure m{k} = {value}"));
+        }
     }
 
     /// Now and then one declaration less, or one twice.
