@@ -284,6 +284,40 @@ fn columns_that_are_asked_for_change_no_bit_of_the_others() {
     }
 }
 
+/// What is shifted for a derivative is added nothing but 0: an input, also one that is constant, and a param that follows from others.
+#[test]
+fn shifts_change_no_bit() {
+    let text = "mechanism q {
+    param half = 15 mm
+    param crank_length = 2 * half
+    input turn = 40 deg + 5 rad/s * t + 2 rad/s^2 * t^2
+    input gain = 2
+    ground { point A = (0, 0)  point D = (80 mm, 0) }
+    body crank at (0, 0, 40 deg) { point A = (0, 0)  point B = (crank_length, 0) }
+    body coupler at (23 mm, 19 mm, 33 deg) { point B = (0, 0)  point C = (70 mm, 0) }
+    body rocker at (80 mm, 0, 88 deg) { point D = (0, 0)  point C = (60 mm, 0) }
+    body free { point F = (0, 0) }
+    joint main:  revolute(ground.A, crank.A)
+    joint pin:   revolute(crank.B, coupler.B)
+    joint knee:  revolute(coupler.C, rocker.C)
+    joint pivot: revolute(ground.D, rocker.D)
+    driver motor: rotation(main) = turn
+    driver fx: x(free.F) * gain = 1 m * sin(turn)
+    driver fy: y(free.F) = 1 m * gain
+    driver fa: angle(free) + gain * 0.1 * sin(angle(free)) = turn
+    analysis from 0 s to 1 s every 5 ms
+}";
+    let rows = |names: &[&str]| {
+        let (compiled, _) = compile(text, &by(names), Redundant::Refused);
+        all_rows(&compiled, &compiled.times().expect("times")).0
+    };
+    let (plain, varied) = (rows(&[]), rows(&["turn", "crank_length", "gain"]));
+    assert_eq!(plain.len(), varied.len());
+    for (plain, varied) in plain.iter().zip(&varied) {
+        assert!(plain.iter().zip(varied).all(|(a, b)| a.to_bits() == b.to_bits()), "at {}", plain[0]);
+    }
+}
+
 #[test]
 fn a_row_has_the_same_derivatives_whichever_others_are_asked_for() {
     let text = fs::read_to_string("tests/cases/sensitivities.mech").expect("a text");

@@ -548,21 +548,9 @@ impl<'b> Draft<'b> {
         let param = param.map(str::to_owned);
         let value = match (self.pick(8), param) {
             (7, Some(param)) => format!("der(der(der({quantity}, {param})), {param})"),
-            (which, _) => self.measured(which, quantity),
+            (which, _) => measured(which, quantity),
         };
         self.declarations.push(format!("measure m{k} = {value}"));
-    }
-
-    fn measured(&mut self, which: usize, quantity: String) -> String {
-        match which {
-            0 => format!("der({quantity})"),
-            1 => format!("der(der({quantity}))"),
-            2 => format!("der(der(der({quantity})))"),
-            3 => format!("abs({quantity})"),
-            4 => format!("({quantity})^2 + ({quantity})^2"),
-            5 => format!("max({quantity}, {quantity} / 2)"),
-            _ => quantity,
-        }
     }
 
     /// Now and then one declaration less, or one twice.
@@ -612,5 +600,18 @@ impl<'b> Draft<'b> {
         let (from, to) = (self.seconds(from), self.seconds(to));
         text += &self.declarations.join("\n");
         text + &format!("\nanalysis from {from} to {to} every {every}\n}}\n")
+    }
+}
+
+/// A formula of a kinematic quantity.
+fn measured(which: usize, quantity: String) -> String {
+    match which {
+        0 => format!("der({quantity})"),
+        1 => format!("der(der({quantity}))"),
+        2 => format!("der(der(der({quantity})))"),
+        3 => format!("abs({quantity})"),
+        4 => format!("({quantity})^2 + ({quantity})^2"),
+        5 => format!("max({quantity}, {quantity} / 2)"),
+        _ => quantity,
     }
 }
