@@ -129,7 +129,8 @@ impl<'a> Checker<'a> {
         {
             return Some(Some(Value { id: self.model.graph.constant(number), dim }));
         }
-        Some(Some(Value { id: value.id, dim }))
+        let declared = self.declared(name);
+        Some(Some(self.with_shift(&declared, Value { id: value.id, dim })))
     }
 
     /// What is said of a param where its mechanism is used.
@@ -199,7 +200,10 @@ impl<'a> Checker<'a> {
             for binding in &of_part.bindings {
                 let Some(Entity::Input(k)) = self.parts[part].space.get(&binding.name.text) else { continue };
                 let value = self.input_bound(part, k, binding);
-                self.parts[part].inputs[k].value = value;
+                self.in_part(part, |child| {
+                    let declared = child.declared(&binding.name);
+                    child.inputs[k].value = value.map(|value| child.with_shift(&declared, value));
+                });
             }
             self.tell_inputs(part);
             self.in_part(part, Checker::bind_inputs);

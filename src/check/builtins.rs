@@ -36,6 +36,9 @@ impl Checker<'_> {
         if let (Group::Derivative, [argument]) = (function.group, arguments) {
             return self.derivative(e, argument, context);
         }
+        if let (Group::Derivative, [of, by]) = (function.group, arguments) {
+            return self.derivative_by(e, [of, by], context);
+        }
         if function.group == Group::Points {
             return self.number_of_points(e, name, arguments, context);
         }

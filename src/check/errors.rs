@@ -2,8 +2,10 @@
 
 pub mod library;
 mod parts;
+mod variables;
 
 pub use parts::*;
+pub use variables::*;
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;

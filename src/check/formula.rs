@@ -601,7 +601,12 @@ impl Checker<'_> {
         if self.model.graph.dependence(inner.id).is_constant() {
             return Some(Value { id: self.model.graph.constant(0.0), dim });
         }
-        Some(Value { id: self.name_symbol(Named::Derivative(inner.id), order), dim })
+        let id = self.name_symbol(Named::Derivative(inner.id), order);
+        if !self.note_rate(inner.id, id) {
+            self.report(errors::derivative_of_jerk(e.span));
+            return None;
+        }
+        Some(Value { id, dim })
     }
 
     /// Whether a formula as written holds a kinematic quantity.

@@ -42,6 +42,7 @@ mod symbols;
 mod table_file;
 mod tables;
 mod told;
+mod variables;
 
 pub use inputs::Given;
 pub use lead::Lead;
@@ -69,6 +70,7 @@ use sites::{Drawn, Scope};
 use std::rc::Rc;
 use tables::TableState;
 use told::is_told_by;
+use variables::Variables;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
@@ -88,6 +90,8 @@ pub struct Surroundings {
     pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
+    /// Names by which all columns are differentiated.
+    pub by: Vec<String>,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -123,6 +127,8 @@ pub fn check(
     let (instance, told) = instances::instance_of(tree, surroundings, sources);
     let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
     checker.bind_numbers(&surroundings.bound);
+    checker.variables = Variables::told(&surroundings.by);
+    checker.ask_for_derivatives();
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);
@@ -252,6 +258,7 @@ struct Checker<'a> {
     files: &'a TableFiles,
     given: &'a Given,
     lead: Option<&'a Lead>,
+    by: &'a [String],
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -275,6 +282,8 @@ struct Checker<'a> {
     imported: FxHashMap<Entity, (usize, Entity)>,
     /// Of those the params that are points.
     point_paths: FxHashSet<String>,
+    /// What derivatives are taken by.
+    variables: Variables,
     /// The params that decide what is repeated.
     deciding: Rc<FxHashSet<String>>,
     /// By the parameter's position; `None` where it is broken.
@@ -343,6 +352,7 @@ impl<'a> Checker<'a> {
             files: &surroundings.files,
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
+            by: &surroundings.by,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
@@ -360,6 +370,7 @@ impl<'a> Checker<'a> {
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),
             deciding: Rc::default(),
+            variables: Variables::default(),
             params: Vec::new(),
             drawn: Vec::new(),
             point_params: kinds::point_params(tree),
@@ -400,6 +411,7 @@ impl<'a> Checker<'a> {
         self.look_over_given();
         self.samples = self.samples_given().map(Rc::new);
         self.measure_order = self.definitions();
+        self.look_over_by();
         self.features();
         self.joints();
         self.bind_inputs();
@@ -606,7 +618,7 @@ impl<'a> Checker<'a> {
     /// A number that is a parameter of the model, unless it follows from others.
     fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         if self.follows(value.id) {
-            return Some(value);
+            return Some(self.with_shift(&declared, value));
         }
         let number = self.constant_value(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
@@ -614,6 +626,7 @@ impl<'a> Checker<'a> {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
+        self.note_param(&declared, Symbol::Param(index), value.dim);
         self.model.params.push(Param {
             declared,
             docs: docs.to_vec(),
@@ -768,6 +781,7 @@ impl<'a> Checker<'a> {
         let params = &self.model.params;
         self.model.graph.extend_values(&mut self.values, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             _ => f64::NAN,
         });
         self.values.get(id.index()).copied()

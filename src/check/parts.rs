@@ -63,6 +63,13 @@ impl<'a> Checker<'a> {
         swap(&mut self.values, &mut other.values);
         swap(&mut self.dimensional_points, &mut other.dimensional_points);
         swap(&mut self.broken_poses, &mut other.broken_poses);
+        swap(&mut self.variables, &mut other.variables);
+    }
+
+    /// Takes in by what the formulas of all texts are differentiated.
+    pub(super) fn ask_for_derivatives(&mut self) {
+        self.variables.add(self.tree, &self.path);
+        self.in_parts(Checker::ask_for_derivatives);
     }
 
     /// The same work in every part.
