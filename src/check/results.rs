@@ -70,8 +70,30 @@ impl Checker<'_> {
         (compares || !is_hidden()).then_some(word)
     }
 
+    /// The value of a call, if that is one of a reduction. (What formulas inside each other pass through has no room for it.)
+    pub(super) fn call_of_reduction(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Option<Value>> {
+        let word = self.reduction_word(name, arguments.len())?;
+        if context.results {
+            return Some(self.reduction(e, word, arguments, context));
+        }
+        // with one argument too few it compares
+        let compares = self.is_of_language(&name.text);
+        let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
+        if compares || !means_itself {
+            return None;
+        }
+        self.report(errors::reduction_in(context.place, word, e.span));
+        Some(None)
+    }
+
     /// `max(e)`, `at(e, T)`: a number for the whole analysis.
-    pub(super) fn reduction(
+    fn reduction(
         &mut self,
         e: &Expr,
         word: &'static ReductionWord,
