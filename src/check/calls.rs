@@ -63,7 +63,7 @@ pub(super) struct Calls<'a> {
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
-        if let Some(reduced) = self.call_of_reduction(e, name, arguments, context) {
+        if let Ok(reduced) = self.call_of_reduction(e, name, arguments, context) {
             return reduced;
         }
         if self.is_of_language(&name.text) {

@@ -25,6 +25,9 @@ pub(super) struct ResultState<'a> {
     pub holds_plain_number: bool,
 }
 
+/// A call that is none of a reduction.
+pub(super) struct NoReduction;
+
 impl<'a> ResultState<'a> {
     pub fn of(name: &'a Name, formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
         let (dimensional, value, angle, holds_plain_number) = (false, None, 0, false);
@@ -77,19 +80,19 @@ impl Checker<'_> {
         name: &Name,
         arguments: &[Expr],
         context: &Context<'_>,
-    ) -> Option<Option<Value>> {
-        let word = self.reduction_word(name, arguments.len())?;
+    ) -> Result<Option<Value>, NoReduction> {
+        let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
         if context.results {
-            return Some(self.reduction(e, word, arguments, context));
+            return Ok(self.reduction(e, word, arguments, context));
         }
         // with one argument too few it compares
         let compares = self.is_of_language(&name.text);
         let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
         if compares || !means_itself {
-            return None;
+            return Err(NoReduction);
         }
         self.report(errors::reduction_in(context.place, word, e.span));
-        Some(None)
+        Ok(None)
     }
 
     /// `max(e)`, `at(e, T)`: a number for the whole analysis.
