@@ -66,6 +66,7 @@ pub(super) enum Fault {
 }
 
 /// A mechanism's program with its registers and factors.
+#[derive(Clone)]
 pub(super) struct Kinematics {
     determined: Arc<Determined>,
     program: Arc<Program>,
@@ -85,6 +86,7 @@ pub(super) struct Kinematics {
 }
 
 /// What is needed for derivatives by inputs and parameters.
+#[derive(Clone)]
 struct Varied {
     /// A variation of all coordinates.
     solution: Vec<f64>,
@@ -111,7 +113,7 @@ impl Varied {
 }
 
 /// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Doubt {
     position: Vec<f64>,
     velocity: Vec<f64>,

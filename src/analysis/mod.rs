@@ -31,12 +31,14 @@ mod open_loop;
 mod parts;
 mod reach;
 mod redundancy;
+mod results;
 mod rims;
 mod rows;
 mod search;
 mod signals;
 mod singular;
 mod sparse;
+mod stretches;
 mod times;
 mod touch;
 mod trust;
@@ -47,11 +49,12 @@ pub use determine::determine;
 pub use lead::{Arrived, LeadOptions, NotLed, lead};
 pub use march::Motion;
 pub use parts::with_parts;
+pub use results::{Answers, Asked};
 pub use times::Times;
 
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, Measure};
+use crate::ir::{ConstraintSystem, Measure, Outcome, ReductionKind};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -68,6 +71,21 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// How far a coordinate goes where all are moved at once, from 0.5 to 1.5: another way for each, so that nothing cancels.
 fn aslant(column: usize) -> f64 {
     0.5 + (GOLDEN * column as f64).fract()
+}
+
+/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+#[must_use]
+pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for reduction in &system.results.reductions {
+        if let ReductionKind::At(at) = reduction.kind {
+            let t = system.value_at(at, &[]);
+            if !(from <= t && t <= to) {
+                diagnostics.push(errors::at_outside(reduction, t, interval));
+            }
+        }
+    }
+    diagnostics
 }
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
@@ -224,6 +242,13 @@ pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
     }
     units.extend(system.appended().iter().map(|of| ColumnUnit { text: of.unit.clone(), scale: of.scale }));
     units
+}
+
+/// Names of the results, and the units in which they are told, in order.
+pub(crate) fn results(system: &ConstraintSystem) -> Vec<(String, ColumnUnit)> {
+    let outcomes = system.results.outcomes.iter();
+    let unit = |outcome: &Outcome| ColumnUnit { text: outcome.units.printed[0].clone(), scale: outcome.units.scale };
+    outcomes.map(|outcome| (outcome.name.clone(), unit(outcome))).collect()
 }
 
 /// Names of a result's columns, in order.

@@ -13,7 +13,7 @@ use super::singular;
 use super::times::Times;
 use super::trust::Trust;
 use crate::diag::Diagnostic;
-use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
+use crate::solver::{Batch, Bend, Lanes, Pivoting, RowLayout, Solver};
 use std::sync::Arc;
 
 /// Times that are solved at once.
@@ -152,6 +152,26 @@ pub(super) struct Bookmark {
 }
 
 impl Output {
+    /// The edge that the last step has ended at, whose later side is to be taken.
+    pub fn take_edge(&mut self) -> Option<Edge> {
+        self.edge.take()
+    }
+
+    /// Whether the last step has ended at an edge.
+    pub fn is_at_edge(&self) -> bool {
+        self.edge.is_some()
+    }
+
+    /// The last step has ended at an edge, or at none.
+    pub fn end_at(&mut self, edge: Option<Edge>) {
+        self.edge = edge;
+    }
+
+    /// Begins to count the steps anew.
+    pub fn forget_steps(&mut self) {
+        self.steps = 0;
+    }
+
     pub fn new(kinematics: &Kinematics, state: &State, solver: Option<Arc<Solver>>, times: Times) -> Output {
         // what was left out of the equations is looked at wherever a row is printed
         let may_leap = kinematics.system().checks.is_empty();
@@ -210,6 +230,14 @@ impl Rows {
             solver,
         }
     }
+}
+
+/// The state at a time that a solver's row holds, like another state.
+pub(super) fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> State {
+    let n = like.q.len();
+    let part = |order: usize| row[layout.coordinates[order] as usize..][..n].to_vec();
+    let qddd = if layout.stride > layout.printed { part(3) } else { like.qddd.clone() };
+    State { t, q: part(0), qd: part(1), qdd: part(2), qddd }
 }
 
 impl Motion {
@@ -325,7 +353,7 @@ impl Motion {
         }
     }
 
-    fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         self.output.steps += 1;
         // who cancelled does not read why
         if self.output.steps > MOST_STEPS || self.kinematics.is_cancelled() {
@@ -357,13 +385,13 @@ impl Motion {
     }
 
     /// Whether a step may go over several output times: the state is clear of singular positions.
-    fn may_leap(&self) -> bool {
+    pub(super) fn may_leap(&self) -> bool {
         let is_clear = self.clear.t.total_cmp(&self.state.t).is_eq();
         self.output.rows.is_some() && self.output.may_leap && is_clear && self.state.t >= self.output.careful_until
     }
 
     /// Tries a step over as many output times as the error allows.
-    fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
         let Output { times, next: number, .. } = &self.output;
         let (upcoming, farthest) = (times.at(*number), self.state.t + self.h);
         let behind = times.first_after(farthest, *number);
@@ -481,6 +509,20 @@ impl Motion {
             self.trial.qddd.copy_from_slice(part(3));
         }
         Some(self.kinematics.linear().largest_judged(&self.middle))
+    }
+
+    /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.
+    pub(super) fn middle_of_leap(&mut self) -> Option<State> {
+        let Output { rows: Some(rows), .. } = &mut self.output else {
+            return None;
+        };
+        let (from, length) = (rows.origin.state.t, rows.length);
+        let is_of_it = length > 0.0 && (from + length - self.state.t).abs() <= 1e-9 * length;
+        let t = 0.5 * from + 0.5 * self.state.t;
+        if !is_of_it || !rows.solve_alone(&self.kinematics, &self.curve, [from, length, t]) {
+            return None;
+        }
+        Some(state_of_row(rows.solver.layout(), &rows.alone_row, &self.state, t))
     }
 
     /// How far the curve of a step is from the motion: at the first rows within it, or where there are few, at some place.

@@ -68,6 +68,7 @@ pub(super) struct Centroid {
     pub from_origin: [f64; 2],
 }
 
+#[derive(Clone)]
 struct Part {
     rows: Range<usize>,
     entries: Range<usize>,
@@ -77,6 +78,7 @@ struct Part {
 }
 
 /// The scales of all blocks.
+#[derive(Clone)]
 pub(super) struct Yardstick {
     parts: Vec<Part>,
     /// Rows and columns in the order of blocks.

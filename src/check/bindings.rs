@@ -38,7 +38,7 @@ impl<'a> Checker<'a> {
         self.in_part(part, |child| {
             child.bound_params = bound;
             child.samples = samples;
-            child.measure_order = child.definitions();
+            child.definitions();
         });
         self.import_params_of(part);
     }

@@ -2,6 +2,7 @@
 
 use super::formula::Value;
 use super::names::Entity;
+use super::results::ResultState;
 use super::{Checker, MeasureState};
 use crate::model::{Declared, Frame};
 use crate::syntax::ast::Name;
@@ -45,6 +46,7 @@ impl<'a> Checker<'a> {
             Entity::Body(_) | Entity::Ground => Entity::Body(next(&mut self.count.bodies)),
             Entity::Joint(_) => Entity::Joint(next(&mut self.count.joints)),
             Entity::Measure(_) => Entity::Measure(next(&mut self.count.measures)),
+            Entity::Result(_) => Entity::Result(next(&mut self.count.results)),
             other => other,
         };
         if child.is_point_name(rest) {
@@ -117,6 +119,14 @@ impl<'a> Checker<'a> {
     pub(super) fn measure_known(&self, k: usize) -> Option<&MeasureState<'a>> {
         match self.home_of(Entity::Measure(k)) {
             (home, Entity::Measure(k)) => home.measures.get(k),
+            _ => None,
+        }
+    }
+
+    /// What is known of a result, be it of a part or not.
+    pub(super) fn result_known(&self, k: usize) -> Option<&ResultState<'a>> {
+        match self.home_of(Entity::Result(k)) {
+            (home, Entity::Result(k)) => home.results.get(k),
             _ => None,
         }
     }

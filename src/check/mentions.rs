@@ -78,7 +78,8 @@ pub(super) fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
         | ItemKind::Measure { name, .. }
-        | ItemKind::Trace { name, .. } => Some(name),
+        | ItemKind::Trace { name, .. }
+        | ItemKind::Result { name, .. } => Some(name),
         ItemKind::Part(part) => Some(&part.name),
         ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }
@@ -90,7 +91,8 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         ItemKind::Param { value, .. }
         | ItemKind::Input { value, .. }
         | ItemKind::Function { value, .. }
-        | ItemKind::Measure { value, .. } => {
+        | ItemKind::Measure { value, .. }
+        | ItemKind::Result { value, .. } => {
             vec![value]
         }
         ItemKind::Trace { point, .. } => vec![point],

@@ -36,6 +36,7 @@ mod profiles;
 mod quantities;
 mod rates;
 mod repetition;
+mod results;
 mod samples;
 mod sites;
 mod symbols;
@@ -64,6 +65,7 @@ use imports::Import;
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
+use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
 use sites::{Drawn, Scope};
@@ -313,6 +315,8 @@ struct Checker<'a> {
     bodies: Vec<Frame>,
     /// The bodies and the ground of this text.
     frames: Vec<(Frame, &'a [ast::Feature])>,
+    results: Vec<ResultState<'a>>,
+    result_order: Vec<usize>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
@@ -385,6 +389,8 @@ impl<'a> Checker<'a> {
             measure_order: Vec::new(),
             measure_values: Vec::new(),
             samples: None,
+            results: Vec::new(),
+            result_order: Vec::new(),
             bodies: Vec::new(),
             frames: Vec::new(),
             joints: Vec::new(),
@@ -410,7 +416,7 @@ impl<'a> Checker<'a> {
         self.look_over_settings();
         self.look_over_given();
         self.samples = self.samples_given().map(Rc::new);
-        self.measure_order = self.definitions();
+        self.definitions();
         self.look_over_by();
         self.features();
         self.joints();
@@ -419,6 +425,7 @@ impl<'a> Checker<'a> {
         self.list_measures();
         self.equations();
         self.analysis();
+        self.results();
         self.leave_what_leads();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !has_broken(self.tree) {
@@ -451,8 +458,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; returns the measures' order.
-    fn definitions(&mut self) -> Vec<usize> {
+    /// and functions looked over; the order of the measures, and that of the results, is kept.
+    fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
             match &item.kind {
@@ -482,6 +489,11 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
+                ItemKind::Result { name, value, unit } => {
+                    entities.push(Entity::Result(self.results.len()));
+                    definitions.push((name, vec![value]));
+                    self.results.push(ResultState::of(value, unit.as_ref()));
+                }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
                     definitions.push((
@@ -505,7 +517,7 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let mut measures = Vec::new();
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -528,10 +540,14 @@ impl<'a> Checker<'a> {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
                 }
+                Entity::Result(k) => {
+                    self.results[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    results.push(k);
+                }
                 _ => {}
             }
         }
-        measures
+        (self.measure_order, self.result_order) = (measures, results);
     }
 
     fn uses<'d>(
@@ -559,7 +575,9 @@ impl<'a> Checker<'a> {
                         |name| self.hidden.contains(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`
-                            if is_called && self.quantity_word(used).is_some() {
+                            let is_of_motion =
+                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());

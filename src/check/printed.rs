@@ -91,6 +91,9 @@ impl Checker<'_> {
                     Some(Entity::Measure(k)) if self.measure_known(k).is_some_and(|known| known.holds_plain_number) => {
                         return true;
                     }
+                    Some(Entity::Result(k)) if self.result_known(k).is_some_and(|known| known.holds_plain_number) => {
+                        return true;
+                    }
                     _ => {}
                 },
                 _ => {}
@@ -123,7 +126,7 @@ impl Checker<'_> {
                     let by = variables::as_derivative(e).map_or(0, |(_, by)| self.angle_power_of_variable(by));
                     self.angle_power(&arguments[0]).saturating_sub(by)
                 }
-                "der" | "abs" | "min" | "max" | "mod" => most(arguments),
+                "der" | "abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last" | "at" => most(arguments),
                 _ => 0,
             },
             ExprKind::Sum(first, rest) => {
@@ -160,6 +163,7 @@ impl Checker<'_> {
         match self.entity(name) {
             Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
             Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
+            Some(Entity::Result(k)) => self.result_known(k).map_or(0, |result| result.angle),
             Some(_) => 0,
             None => match Constant::named(&name.text) {
                 Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,

@@ -223,6 +223,9 @@ impl<'t, 'c> Writer<'t, 'c> {
             ItemKind::Trace { name, point, unit } => {
                 ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
             }
+            ItemKind::Result { name, value, unit } => {
+                ItemKind::Result { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
+            }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
                 name: own(name),

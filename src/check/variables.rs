@@ -53,7 +53,10 @@ impl Variables {
         }
         let whole = name.rsplit_once('.').map(|(point, _)| point);
         self.asked.contains(name)
-            || self.asked.iter().any(|asked| is_told_by(name, asked) || whole.is_some_and(|whole| is_told_by(whole, asked)))
+            || self
+                .asked
+                .iter()
+                .any(|asked| is_told_by(name, asked) || whole.is_some_and(|whole| is_told_by(whole, asked)))
     }
 }
 
@@ -144,6 +147,11 @@ impl Checker<'_> {
             self.variables.orders.insert(rate, (times, rates + 1));
         }
         times == 0 || rates < MOST_RATES
+    }
+
+    /// Whether a formula holds a derivative by an input or param.
+    pub(super) fn is_varied(&self, id: ExprId) -> bool {
+        self.variation_orders(id).0 > 0
     }
 
     /// By how many variables a formula is differentiated, and how often by time there.

@@ -285,6 +285,10 @@ pub(super) struct RunArguments {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Option<Format>,
 
+    /// Where the results go, as a JSON object of names and numbers in SI
+    #[arg(long, value_name = "OUT.json")]
+    pub results: Option<String>,
+
     /// First time, in seconds or with a unit
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub from: Option<String>,

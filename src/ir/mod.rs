@@ -19,9 +19,11 @@
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
 mod print;
+mod results;
 mod rims;
 mod variations;
 
+pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
 pub use variations::{Appended, Variable, Variation, Variations};
 
@@ -62,6 +64,8 @@ pub struct ConstraintSystem {
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
     pub measures: Vec<Measure>,
+    /// What is asked of the whole analysis.
+    pub results: Results,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
     /// Equations that follow from the others, and are looked at instead of solved.

@@ -1,6 +1,6 @@
 //! The constraint system as readable text.
 
-use super::{ConditionKind, ConstraintSystem, DeclarationKind, WatchKind};
+use super::{ConditionKind, ConstraintSystem, DeclarationKind, ReductionKind, WatchKind};
 use crate::expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
@@ -14,7 +14,7 @@ impl ConstraintSystem {
                 let name = &self.coordinates[index as usize].name;
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
-            Symbol::Named(k) => format!("named_{k}"),
+            Symbol::Named(k) => format!("reduction_{}", k + 1),
             // it is nothing, and may be varied
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Varied { index, order, variation } => {
@@ -58,6 +58,10 @@ impl std::fmt::Display for ConstraintSystem {
         section(f, "coordinates q, with their estimates", coordinates)?;
         self.write_equations(f, &text)?;
         section(f, "measures", self.measure_lines(&text))?;
+        section(f, "asked of the whole analysis", self.reduction_lines(&text))?;
+        let outcomes = self.results.outcomes.iter();
+        let results = outcomes.map(|outcome| (outcome.name.clone(), format!("= {}", text(outcome.value))));
+        section(f, "results", results)?;
         section(f, "conditions", self.condition_lines(&text))?;
         section(f, "watched along the way", self.watch_lines(&text))
     }
@@ -116,6 +120,27 @@ impl ConstraintSystem {
         })
     }
 
+    fn reduction_lines<'s>(
+        &'s self,
+        text: &'s dyn Fn(ExprId) -> String,
+    ) -> impl Iterator<Item = (String, String)> + 's {
+        self.results.reductions.iter().enumerate().map(|(k, reduction)| {
+            let of = text(reduction.of);
+            let said = match reduction.kind {
+                ReductionKind::Extreme { largest, when } => {
+                    let which = if largest { "largest" } else { "least" };
+                    if when { format!("the time of the {which} {of}") } else { format!("the {which} {of}") }
+                }
+                ReductionKind::Mean => format!("the mean of {of}"),
+                ReductionKind::Integral => format!("the integral of {of}"),
+                ReductionKind::First => format!("the first {of}"),
+                ReductionKind::Last => format!("the last {of}"),
+                ReductionKind::At(at) => format!("{of} at t = {} s", text(at)),
+            };
+            (self.symbol_name(Symbol::Named(k as u32)), said)
+        })
+    }
+
     fn condition_lines<'s>(
         &'s self,
         text: &'s dyn Fn(ExprId) -> String,
@@ -149,6 +174,8 @@ impl ConstraintSystem {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
         roots.extend(self.conditions.iter().map(|condition| condition.positive));
+        roots.extend(self.results.reductions.iter().map(|reduction| reduction.of));
+        roots.extend(self.results.outcomes.iter().map(|outcome| outcome.value));
         roots.extend(self.watches.iter().map(|watch| watch.value));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
         roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));

@@ -9,6 +9,7 @@ mod gears;
 mod joints;
 mod parts;
 mod quantities;
+mod results;
 mod size;
 mod uses;
 mod variations;
@@ -23,6 +24,9 @@ use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
+
+/// What holds so many time derivatives of the coordinates has one that holds a third derivative.
+const HOLDS_JERK: u8 = 2;
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
 #[must_use]
@@ -48,7 +52,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         variations: variations::variables(model),
     };
     lowering.tables();
-    lowering.named();
+    lowering.named_up_to(model.named_before_results);
     lowering.body_coordinates();
     lowering.joint_rows();
     lowering.equation_rows();
@@ -62,7 +66,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .into_iter()
             .flatten()
             .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
-    });
+    }) || model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
@@ -82,21 +86,22 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span, pose_span: body.pose_span })
             .collect(),
         points,
-        coordinates: lowering.coordinates,
-        declarations: lowering.declarations,
-        rows: lowering.rows,
-        graph: lowering.graph,
+        coordinates: std::mem::take(&mut lowering.coordinates),
+        declarations: std::mem::take(&mut lowering.declarations),
+        rows: std::mem::take(&mut lowering.rows),
+        graph: std::mem::take(&mut lowering.graph),
         phi_q: SparseRows::new(),
         nu: Vec::new(),
         gamma: Vec::new(),
         jerk: None,
-        variations: lowering.variations.map(Box::new),
+        variations: lowering.variations.take().map(Box::new),
         measures,
-        conditions: lowering.conditions,
+        conditions: std::mem::take(&mut lowering.conditions),
+        results: ir::Results::default(),
         checks: Vec::new(),
-        watches: lowering.watches,
+        watches: std::mem::take(&mut lowering.watches),
         rims: Vec::new(),
-        fits: lowering.fits,
+        fits: std::mem::take(&mut lowering.fits),
         parts,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
@@ -104,6 +109,13 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     system.derive(needs_jerk);
     system.derive_variations();
     system.find_rims();
+    if !model.outcomes.is_empty() {
+        // what is asked of the whole analysis changes nothing above
+        lowering.graph = std::mem::take(&mut system.graph);
+        lowering.coordinates.clone_from(&system.coordinates);
+        system.results = lowering.results();
+        system.graph = lowering.graph;
+    }
     system
 }
 
@@ -149,6 +161,11 @@ fn carry(
     known[&id]
 }
 
+fn units(of: &model::Units) -> Units {
+    let model::Units { si, printed, scale } = of.clone();
+    Units { si, printed, scale }
+}
+
 impl Lowering<'_> {
     /// A formula of the model in this graph.
     fn formula(&mut self, id: ExprId) -> ExprId {
@@ -160,9 +177,9 @@ impl Lowering<'_> {
         self.graph.import_tables(&self.model.graph, &mut self.known, Graph::symbol);
     }
 
-    /// Named symbols in their order: each speaks only of those before it.
-    fn named(&mut self) {
-        for k in 0..self.model.named.len() {
+    /// Named symbols up to one, in their order: each speaks only of those before it.
+    fn named_up_to(&mut self, end: usize) {
+        for k in self.named.len()..end {
             let id = match self.model.named[k] {
                 Named::Quantity(view, quantity) => self.quantity(view, quantity),
                 Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
@@ -174,6 +191,7 @@ impl Lowering<'_> {
                     let inner = self.formula(inner);
                     self.derivative_by(inner, variable)
                 }
+                Named::Reduction(k) => self.reduced(k),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),
             };
@@ -288,7 +306,7 @@ impl Lowering<'_> {
             let kind = DeclarationKind::Joint(joint.kind.word());
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
         }
-        for named in &model.named {
+        for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
                 self.declarations[joint.index()].is_spoken_of = true;
             }
@@ -356,8 +374,7 @@ impl Lowering<'_> {
                 let holds = self.all_hold(&measure.conditions);
                 let value = self.only_where(holds, value);
                 let [first, second] = [first, second].map(|id| id.map(|id| self.only_where(holds, id)));
-                let model::Units { si, printed, scale } = measure.units.clone();
-                Measure { name, value, first, second, span, units: Units { si, printed, scale } }
+                Measure { name, value, first, second, span, units: units(&measure.units) }
             })
             .collect()
     }

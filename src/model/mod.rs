@@ -6,10 +6,13 @@
 mod placement;
 mod print;
 mod quotients;
+mod results;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
 pub use placement::Placement;
 pub use quotients::quotient;
+
+pub use results::{Outcome, Reduction, ReductionKind};
 
 use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
@@ -113,6 +116,12 @@ pub struct Mechanism {
     pub equations: Vec<Equation>,
     /// In order of declaration.
     pub measures: Vec<Measure>,
+    /// Results, in order of declaration.
+    pub outcomes: Vec<Outcome>,
+    /// What they ask of the whole analysis, by the number of its symbol.
+    pub reductions: Vec<Reduction>,
+    /// So many named symbols stand for what has nothing to do with results.
+    pub named_before_results: usize,
     /// Formulas that must stay positive for others to have a meaning.
     pub conditions: Vec<Condition>,
     /// What `run` does unless told otherwise.
@@ -142,6 +151,9 @@ impl Mechanism {
             joints: Vec::new(),
             equations: Vec::new(),
             measures: Vec::new(),
+            outcomes: Vec::new(),
+            reductions: Vec::new(),
+            named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,
         }
@@ -550,6 +562,8 @@ pub enum Named {
     By(ExprId, u32),
     /// Above zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
+    /// A number for the whole analysis, by its place among the reductions.
+    Reduction(u32),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }

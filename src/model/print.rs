@@ -1,7 +1,8 @@
 //! The model as readable text: names resolved, values in SI.
 
 use super::{
-    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity, Side,
+    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
+    Reduction, Side,
 };
 use crate::expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;
@@ -88,6 +89,10 @@ impl Text<'_> {
                 Named::By(inner, variable) => {
                     let by = &self.model.variables[variable as usize].declared.name;
                     format!("der({}, {by})", self.formula_text(inner))
+                }
+                Named::Reduction(k) => {
+                    let Reduction { kind, of, .. } = &self.model.reductions[k as usize];
+                    kind.written(&self.formula_text(*of), text)
                 }
                 Named::Argument => "u".to_owned(),
             },
@@ -196,9 +201,11 @@ impl Mechanism {
             }
         }
         list.extend(self.measures.iter().map(|measure| measure.value));
+        list.extend(self.outcomes.iter().map(|outcome| outcome.value));
+        list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
             Named::Derivative(inner) | Named::By(inner, _) => Some(*inner),
-            Named::Quantity(..) | Named::Exists(..) | Named::Argument => None,
+            Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list
     }
@@ -266,6 +273,14 @@ impl std::fmt::Display for Mechanism {
             let [unit, ..] = &measure.units.printed;
             let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
             writeln!(f, "  {} = {}{unit}", measure.declared.name, text.formula_text(measure.value))?;
+        }
+        if !self.outcomes.is_empty() {
+            writeln!(f, "\nresults")?;
+        }
+        for outcome in &self.outcomes {
+            let [unit, ..] = &outcome.units.printed;
+            let unit = if *unit == outcome.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", outcome.declared.name, text.formula_text(outcome.value))?;
         }
         if let Some(analysis) = self.analysis {
             let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);

@@ -64,14 +64,18 @@ pub(super) struct Layout<'s> {
 
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
-        let n = system.coordinates.len() as u32;
-        let params = system.params.len() as u32;
+        let counts = [system.params.len(), system.coordinates.len(), system.variations().len()];
+        Layout::of(&system.graph, counts.map(|count| count as u32))
+    }
+
+    /// For formulas of a graph over so many parameters, coordinates and variations of these.
+    pub fn of(graph: &'s Graph, [params, n, variations]: [u32; 3]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
         let varied = params + 1 + 4 * n;
         Layout {
-            graph: &system.graph,
-            register_of: vec![NONE; system.graph.len()],
-            pairs: pairs(&system.graph),
+            graph,
+            register_of: vec![NONE; graph.len()],
+            pairs: pairs(graph),
             operations: STAGES.map(|_| Vec::new()).to_vec(),
             constants: Vec::new(),
             comparisons: FxHashMap::default(),
@@ -80,7 +84,7 @@ impl<'s> Layout<'s> {
             table_layouts: Vec::new(),
             reached: FxHashMap::default(),
             inputs: Inputs { params: 0, time: params, coordinates, n, varied },
-            next: varied + 3 * n * system.variations().len() as u32,
+            next: varied + 3 * n * variations,
         }
     }
 
@@ -285,7 +289,7 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn finish(self, outputs: Outputs) -> Program {
+    pub fn finish(self, outputs: Outputs) -> Program {
         let switches = self
             .operations
             .iter()

@@ -13,11 +13,14 @@
 mod compile;
 mod enclose;
 mod evaluate;
+mod formulas;
+mod ranges;
 mod signals;
 mod tables;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, either};
+pub use ranges::{Range, Ranges};
 pub use signals::Signal;
 
 use crate::expr::{Binary, Comparison, Unary};

@@ -105,6 +105,18 @@ impl Compiled {
         analysis::units(self.system())
     }
 
+    /// The names of the results, numbers for the whole analysis, with the units in which they are told.
+    #[must_use]
+    pub fn results(&self) -> Vec<(String, ColumnUnit)> {
+        analysis::results(self.system())
+    }
+
+    /// What is wrong with results of an analysis from one time to another (s).
+    #[must_use]
+    pub fn refused_results(&self, interval: [f64; 2]) -> Diagnostics {
+        analysis::refused_results(self.system(), interval)
+    }
+
     /// How many coordinates and equations there are, by body and declaration, as a table.
     #[must_use]
     pub fn counts(&self) -> String {

@@ -184,6 +184,7 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
         }
     }
     outcome.diagnostics.extend(run.take_remarks());
+    outcome.diagnostics.extend(run.results().into_iter().flat_map(|answers| answers.notes));
     outcome.diagnostics.extend(why);
     true
 }
