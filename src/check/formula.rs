@@ -337,7 +337,7 @@ impl Checker<'_> {
                 self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
                 None
             }
-            Some(Entity::Result(k)) if context.results => self.results[k].value,
+            Some(Entity::Result(k)) if context.results => self.result_known(k)?.value,
             Some(Entity::Result(_)) => {
                 self.report(errors::result_in(context.place, name));
                 None
