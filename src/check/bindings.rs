@@ -109,6 +109,7 @@ impl<'a> Checker<'a> {
     }
 
     /// A param with what is said of it where its mechanism is used.
+    #[allow(clippy::option_option)] // not bound, or broken
     pub(super) fn as_bound(&mut self, name: &Name, in_file: Value) -> Option<Option<Value>> {
         let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;

@@ -40,6 +40,9 @@ pub(super) fn instance_of<'t>(
     (instance, builder.diagnostics)
 }
 
+/// The text of a mechanism, and what is bound of what decides its ranges.
+type Key = (*const Mechanism, Vec<(String, u64)>);
+
 struct Builder<'t, 's> {
     library: &'t Library,
     surroundings: &'s Surroundings,
@@ -47,7 +50,7 @@ struct Builder<'t, 's> {
     /// By the text of a mechanism.
     deciding: FxHashMap<*const Mechanism, Rc<FxHashSet<String>>>,
     /// By the text of a mechanism, and what is bound of what decides its ranges.
-    known: FxHashMap<(*const Mechanism, Vec<(String, u64)>), Rc<Instance<'t>>>,
+    known: FxHashMap<Key, Rc<Instance<'t>>>,
     /// The mechanisms around the one at hand, the outermost first.
     around: Vec<&'t Mechanism>,
     diagnostics: Diagnostics,

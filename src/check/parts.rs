@@ -133,12 +133,12 @@ impl<'a> Checker<'a> {
     }
 
     fn carrier_of(&mut self, on: &Expr) -> Option<Frame> {
-        match &on.kind {
-            ExprKind::Name(name) => self.body(name),
-            _ => {
-                self.wrong_kind(on.span, "a body", Self::describe(on));
-                None
-            }
+        if let ExprKind::Name(name) = &on.kind {
+            return self.body(name);
+        }
+        self.wrong_kind(on.span, "a body", Self::describe(on));
+        None
+    }
         }
     }
 

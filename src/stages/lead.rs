@@ -50,7 +50,7 @@ impl Leading {
             said: Diagnostics::default(),
         };
         let led =
-            if self.is_told { starts.to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
+            if self.is_told { starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
         let system = determined.system();
         let begin = led.or_else(|| {
             let settings = &self.surroundings.settings;
@@ -90,7 +90,7 @@ struct Starts<'s> {
 }
 
 impl<'s> Starts<'s> {
-    fn to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
+    fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
         let lead = Some(Lead { times, inputs: Vec::new() });
         let led = Surroundings { lead, by: Vec::new(), ..self.surroundings.clone() };
