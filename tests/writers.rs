@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, files, mechanisms, stem};
+use support::{compile_number, compiled, emitted_cases, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
@@ -25,7 +25,7 @@ struct Emitted {
 
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
-    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let paths = [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech")].concat();
     let mut list = Vec::new();
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");

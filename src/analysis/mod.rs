@@ -240,6 +240,7 @@ pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
         let unit = |of: &Measure| ColumnUnit { text: of.units.printed[order].clone(), scale: of.units.scale };
         units.extend(measures.map(unit));
     }
+    units.extend(system.appended().iter().map(|of| ColumnUnit { text: of.unit.clone(), scale: of.scale }));
     units
 }
 
@@ -260,5 +261,6 @@ pub(crate) fn columns(system: &ConstraintSystem) -> Vec<String> {
     columns.extend(system.measures.iter().filter(|m| m.first.is_some()).map(|m| format!("{}.d", m.name)));
     columns.extend(coordinates().map(|name| name + ".dd"));
     columns.extend(system.measures.iter().filter(|m| m.second.is_some()).map(|m| format!("{}.dd", m.name)));
+    columns.extend(system.appended().iter().map(|column| column.name.clone()));
     columns
 }

@@ -46,7 +46,7 @@ pub(super) struct Output {
     /// Whether a step may go over several output times.
     may_leap: bool,
     rows: Option<Rows>,
-    /// By measure.
+    /// By measure, and then by variable that derivatives are taken by.
     missing: Vec<Missing>,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
@@ -177,7 +177,9 @@ impl Output {
         let may_leap = kinematics.system().checks.is_empty();
         let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
         let careful_until = f64::NEG_INFINITY;
-        let missing = vec![Missing::NEVER; kinematics.system().measures.len()];
+        let system = kinematics.system();
+        let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
+        let missing = vec![Missing::NEVER; system.measures.len() + variables];
         Output { times, next: 0, has_stopped: false, steps: 0, careful_until, may_leap, rows, missing, edge: None }
     }
 }
@@ -308,7 +310,10 @@ impl Motion {
         for (index, missing) in self.output.missing.iter_mut().enumerate() {
             if missing.rows > 0 && !missing.is_told {
                 missing.is_told = true;
-                self.remarks.push(errors::measure_without_value(system, index, missing.first, missing.rows));
+                self.remarks.push(match index.checked_sub(system.measures.len()) {
+                    None => errors::measure_without_value(system, index, missing.first, missing.rows),
+                    Some(variable) => errors::derivatives_without_value(system, variable, missing.first, missing.rows),
+                });
             }
         }
     }
@@ -500,7 +505,7 @@ impl Motion {
         self.trial.q.copy_from_slice(part(0));
         self.trial.qd.copy_from_slice(part(1));
         self.trial.qdd.copy_from_slice(part(2));
-        if layout.stride > layout.printed {
+        if layout.has_jerk {
             self.trial.qddd.copy_from_slice(part(3));
         }
         Some(self.kinematics.linear().largest_judged(&self.middle))
@@ -682,11 +687,19 @@ impl Motion {
             self.kinematics.restore(&self.state);
         }
         let refined = &rows.alone_row[..printed];
+        let kinematics = &self.kinematics;
         // where both do not agree the position is too near to a singular one for the grid
-        // a measure may have no value
-        let agrees = |(a, b): (&f64, &f64)| !a.is_finite() || (a - b).abs() <= REFINED * (1.0 + a.abs());
-        if is_solved && self.row.iter().zip(refined).all(agrees) {
-            self.row.copy_from_slice(refined);
+        // a measure may have no value, and what is varied does not decide about the row
+        let agrees = |(column, (a, b)): (usize, (&f64, &f64))| {
+            !a.is_finite() || kinematics.is_varied(column) || (a - b).abs() <= REFINED * (1.0 + a.abs())
+        };
+        if is_solved && self.row.iter().zip(refined).enumerate().all(agrees) {
+            for (column, (cell, refined)) in self.row.iter_mut().zip(refined).enumerate() {
+                // what could not be trusted before cannot be now
+                if cell.is_finite() || !kinematics.is_varied(column) {
+                    *cell = *refined;
+                }
+            }
         }
     }
 

@@ -363,6 +363,7 @@ impl Features {
         if !formulas.is_empty() {
             let value = |symbol| match symbol {
                 crate::expr::Symbol::Param(k) => system.params[k as usize].value,
+                crate::expr::Symbol::Shift(_) => 0.0,
                 _ => f64::NAN,
             };
             system.graph.extend_values(&mut values, value);

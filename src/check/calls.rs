@@ -63,17 +63,8 @@ pub(super) struct Calls<'a> {
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
-        if let Some(word) = self.reduction_word(name, arguments.len()) {
-            if context.results {
-                return self.reduction(e, word, arguments, context);
-            }
-            // with one argument too few it compares
-            if !self.is_of_language(&name.text)
-                && matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)))
-            {
-                self.report(errors::reduction_in(context.place, word, e.span));
-                return None;
-            }
+        if let Ok(reduced) = self.call_of_reduction(e, name, arguments, context) {
+            return reduced;
         }
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {

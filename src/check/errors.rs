@@ -3,9 +3,11 @@
 pub mod library;
 mod parts;
 mod results;
+mod variables;
 
 pub use parts::*;
-pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in};
+pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_in_reduction};
+pub use variables::*;
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;

@@ -632,7 +632,12 @@ impl Checker<'_> {
             self.report(errors::derivative_of_result(e.span));
             return None;
         }
-        Some(Value { id: self.name_symbol(Named::Derivative(inner.id), order), dim })
+        let id = self.name_symbol(Named::Derivative(inner.id), order);
+        if !self.note_rate(inner.id, id) {
+            self.report(errors::derivative_of_jerk(e.span));
+            return None;
+        }
+        Some(Value { id, dim })
     }
 
     /// Whether a formula as written holds a kinematic quantity.

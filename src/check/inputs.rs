@@ -2,9 +2,9 @@
 
 use super::formula::{Context, Dim, Value};
 use super::lead::Needs;
-use super::parts::is_told_by;
 use super::rates::Part;
 use super::samples::{self, Column, Samples};
+use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::diag::nearest;
 use crate::expr::ExprId;
@@ -140,9 +140,11 @@ impl Checker<'_> {
             _ => Some(in_file),
         };
         let value = self.led_input(name, in_file, value, &needs);
+        let declared = self.declared(name);
+        let value = value.map(|value| self.with_shift(&declared, value));
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared: self.declared(name), value: value.id });
+            self.model.inputs.push(Input { declared, value: value.id });
         }
     }
 

@@ -5,13 +5,16 @@
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
 mod arguments;
+mod bindings;
 mod builtins;
 mod calls;
 mod elements;
 mod errors;
 mod features;
 mod formula;
+mod imports;
 mod inputs;
+mod instance;
 mod instances;
 mod instead;
 mod joints;
@@ -39,6 +42,8 @@ mod sites;
 mod symbols;
 mod table_file;
 mod tables;
+mod told;
+mod variables;
 
 pub use inputs::Given;
 pub use lead::Lead;
@@ -52,19 +57,22 @@ use crate::model::{Condition, Declared, Dimension, Frame, JointId, Mechanism, Na
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
+use bindings::BoundParam;
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
+use imports::Import;
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
-use parts::{BoundParam, Import, is_told_by};
 use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
 use sites::{Drawn, Scope};
 use std::rc::Rc;
 use tables::TableState;
+use told::is_told_by;
+use variables::Variables;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
@@ -84,6 +92,8 @@ pub struct Surroundings {
     pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
+    /// Names by which all columns are differentiated.
+    pub by: Vec<String>,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -119,6 +129,8 @@ pub fn check(
     let (instance, told) = instances::instance_of(tree, surroundings, sources);
     let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
     checker.bind_numbers(&surroundings.bound);
+    checker.variables = Variables::told(&surroundings.by);
+    checker.ask_for_derivatives();
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);
@@ -248,6 +260,7 @@ struct Checker<'a> {
     files: &'a TableFiles,
     given: &'a Given,
     lead: Option<&'a Lead>,
+    by: &'a [String],
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -271,6 +284,8 @@ struct Checker<'a> {
     imported: FxHashMap<Entity, (usize, Entity)>,
     /// Of those the params that are points.
     point_paths: FxHashSet<String>,
+    /// What derivatives are taken by.
+    variables: Variables,
     /// The params that decide what is repeated.
     deciding: Rc<FxHashSet<String>>,
     /// By the parameter's position; `None` where it is broken.
@@ -294,15 +309,14 @@ struct Checker<'a> {
     /// The order in which measures need each other, and their values with what these ask for.
     measure_order: Vec<usize>,
     measure_values: Vec<(Option<Value>, Vec<Condition>)>,
-    results: Vec<ResultState<'a>>,
-    /// The order in which results need each other.
-    result_order: Vec<usize>,
     /// The samples that are given.
     samples: Option<Rc<Samples>>,
     /// Of bodies, and of the grounds of parts that are named.
     bodies: Vec<Frame>,
     /// The bodies and the ground of this text.
     frames: Vec<(Frame, &'a [ast::Feature])>,
+    results: Vec<ResultState<'a>>,
+    result_order: Vec<usize>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
@@ -342,6 +356,7 @@ impl<'a> Checker<'a> {
             files: &surroundings.files,
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
+            by: &surroundings.by,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
@@ -359,6 +374,7 @@ impl<'a> Checker<'a> {
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),
             deciding: Rc::default(),
+            variables: Variables::default(),
             params: Vec::new(),
             drawn: Vec::new(),
             point_params: kinds::point_params(tree),
@@ -372,9 +388,9 @@ impl<'a> Checker<'a> {
             measures: Vec::new(),
             measure_order: Vec::new(),
             measure_values: Vec::new(),
+            samples: None,
             results: Vec::new(),
             result_order: Vec::new(),
-            samples: None,
             bodies: Vec::new(),
             frames: Vec::new(),
             joints: Vec::new(),
@@ -401,6 +417,7 @@ impl<'a> Checker<'a> {
         self.look_over_given();
         self.samples = self.samples_given().map(Rc::new);
         self.definitions();
+        self.look_over_by();
         self.features();
         self.joints();
         self.bind_inputs();
@@ -441,7 +458,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; measures and results wait for their turn.
+    /// and functions looked over; the order of the measures, and that of the results, is kept.
     fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
@@ -475,7 +492,7 @@ impl<'a> Checker<'a> {
                 ItemKind::Result { name, value, unit } => {
                     entities.push(Entity::Result(self.results.len()));
                     definitions.push((name, vec![value]));
-                    self.results.push(ResultState::of(name, value, unit.as_ref()));
+                    self.results.push(ResultState::of(value, unit.as_ref()));
                 }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
@@ -619,7 +636,7 @@ impl<'a> Checker<'a> {
     /// A number that is a parameter of the model, unless it follows from others.
     fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         if self.follows(value.id) {
-            return Some(value);
+            return Some(self.with_shift(&declared, value));
         }
         let number = self.constant_value(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
@@ -627,6 +644,7 @@ impl<'a> Checker<'a> {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
+        self.note_param(&declared, Symbol::Param(index), value.dim);
         self.model.params.push(Param {
             declared,
             docs: docs.to_vec(),
@@ -781,6 +799,7 @@ impl<'a> Checker<'a> {
         let params = &self.model.params;
         self.model.graph.extend_values(&mut self.values, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             _ => f64::NAN,
         });
         self.values.get(id.index()).copied()

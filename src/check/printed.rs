@@ -4,6 +4,7 @@ use super::Checker;
 use super::errors;
 use super::formula::{Context, Dim, Value};
 use super::names::Entity;
+use super::variables;
 use crate::diag::Diagnostic;
 use crate::model::{Dimension, Units};
 use crate::syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
@@ -100,6 +101,10 @@ impl Checker<'_> {
             match &e.kind {
                 // an exponent is a number whatever its base is
                 ExprKind::Power(base, _) => open.push(base),
+                // nor does a derivative hold what it is taken by
+                ExprKind::Call { arguments, .. } if variables::as_derivative(e).is_some() => {
+                    open.extend(arguments.first());
+                }
                 _ => open.extend(e.children()),
             }
         }
@@ -117,6 +122,10 @@ impl Checker<'_> {
             ExprKind::Name(name) => self.angle_power_of_name(name),
             ExprKind::Call { name, arguments } => match name.text.as_str() {
                 "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
+                "der" if arguments.len() == 2 => {
+                    let by = variables::as_derivative(e).map_or(0, |(_, by)| self.angle_power_of_variable(by));
+                    self.angle_power(&arguments[0]).saturating_sub(by)
+                }
                 "der" | "abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last" | "at" => most(arguments),
                 _ => 0,
             },
@@ -135,6 +144,17 @@ impl Checker<'_> {
             ExprKind::If { arms, otherwise } => {
                 arms.iter().map(|(_, value)| self.angle_power(value)).fold(self.angle_power(otherwise), i32::max)
             }
+            _ => 0,
+        }
+    }
+
+    /// The same of what a derivative is taken by.
+    fn angle_power_of_variable(&self, by: &Expr) -> i32 {
+        match &by.bare().kind {
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(Entity::Input(k)) => self.angle_power(self.inputs[k].formula),
+                _ => self.angle_power_of_name(name),
+            },
             _ => 0,
         }
     }

@@ -11,7 +11,6 @@ use crate::vocabulary::ReductionWord;
 
 /// What is known of a result before its turn.
 pub(super) struct ResultState<'a> {
-    name: &'a Name,
     formula: &'a Expr,
     /// In what it is told, if that is said.
     unit: Option<&'a WrittenUnit>,
@@ -25,21 +24,27 @@ pub(super) struct ResultState<'a> {
     pub holds_plain_number: bool,
 }
 
+/// A call that is none of a reduction.
+pub(super) struct NoReduction;
+
 impl<'a> ResultState<'a> {
-    pub fn of(name: &'a Name, formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
+    pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
         let (dimensional, value, angle, holds_plain_number) = (false, None, 0, false);
-        ResultState { name, formula, unit, dimensional, value, angle, holds_plain_number }
+        ResultState { formula, unit, dimensional, value, angle, holds_plain_number }
     }
 }
 
 impl Checker<'_> {
-    /// Results, those of parts first, then in the order in which they need each other; listed in that of the text.
+    /// Results, which no row needs.
     pub(super) fn results(&mut self) {
         self.model.named_before_results = self.model.named.len();
-        self.result_values();
-        self.list_results();
+        if self.lead.is_none() {
+            self.result_values();
+            self.list_results();
+        }
     }
 
+    /// The values of results, those of parts first, then in the order in which they need each other.
     fn result_values(&mut self) {
         self.in_parts(Checker::result_values);
         for k in std::mem::take(&mut self.result_order) {
@@ -52,14 +57,17 @@ impl Checker<'_> {
         }
     }
 
-    /// Those of a part stand where the part is declared.
+    /// Lists the results in the order of the text, those of parts where these are declared.
     fn list_results(&mut self) {
-        let (mut results, mut parts) = (0..self.results.len(), 0..self.parts.len());
+        let (mut own, mut parts) = (0..self.results.len(), 0..self.parts.len());
         for item in self.items() {
             match &item.kind {
-                ItemKind::Result { .. } => {
-                    if let Some(k) = results.next() {
-                        self.list_result(k);
+                ItemKind::Result { name, .. } => {
+                    let Some(k) = own.next() else { continue };
+                    let Some(value) = self.results[k].value else { continue };
+                    if let Some(units) = self.units_of_result(k, value) {
+                        let declared = self.declared(name);
+                        self.model.outcomes.push(Outcome { declared, value: value.id, units });
                     }
                 }
                 ItemKind::Part(_) => {
@@ -69,14 +77,6 @@ impl Checker<'_> {
                 }
                 _ => {}
             }
-        }
-    }
-
-    fn list_result(&mut self, k: usize) {
-        let Some(value) = self.results[k].value else { return };
-        if let Some(units) = self.units_of_result(k, value) {
-            let declared = self.declared(self.results[k].name);
-            self.model.outcomes.push(Outcome { declared, value: value.id, units });
         }
     }
 
@@ -97,8 +97,30 @@ impl Checker<'_> {
         (compares || !is_hidden()).then_some(word)
     }
 
+    /// The value of a call, if that is one of a reduction. (What formulas inside each other pass through has no room for it.)
+    pub(super) fn call_of_reduction(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Result<Option<Value>, NoReduction> {
+        let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
+        if context.results {
+            return Ok(self.reduction(e, word, arguments, context));
+        }
+        // with one argument too few it compares
+        let compares = self.is_of_language(&name.text);
+        let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
+        if compares || !means_itself {
+            return Err(NoReduction);
+        }
+        self.report(errors::reduction_in(context.place, word, e.span));
+        Ok(None)
+    }
+
     /// `max(e)`, `at(e, T)`: a number for the whole analysis.
-    pub(super) fn reduction(
+    fn reduction(
         &mut self,
         e: &Expr,
         word: &'static ReductionWord,
@@ -119,6 +141,10 @@ impl Checker<'_> {
             None => None,
         };
         let of = of?;
+        if self.is_varied(of.id) {
+            self.report(errors::variation_in_reduction(e.span));
+            return None;
+        }
         let kind = kind(word.word.name, at)?;
         let dim = of.dim.settled();
         let dim = match kind {
@@ -140,9 +166,9 @@ impl Checker<'_> {
         let symbols = self.model.graph.symbols(id);
         let is_reduction = |k: u32| matches!(self.model.named.get(k as usize), Some(Named::Reduction(_)));
         let changes = |symbol: &Symbol| match symbol {
-            Symbol::Param(_) => false,
+            Symbol::Param(_) | Symbol::Shift(_) => false,
             Symbol::Named(k) => !is_reduction(*k),
-            Symbol::Time | Symbol::Coordinate { .. } => true,
+            Symbol::Time | Symbol::Coordinate { .. } | Symbol::Varied { .. } => true,
         };
         !symbols.iter().any(changes)
     }

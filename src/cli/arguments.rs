@@ -305,6 +305,10 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,
 
+    /// Differentiate every column by an input or parameter too: `--by turn` adds `crank.phi.by.turn` and so on. Repeatable
+    #[arg(long, value_name = "NAME")]
+    pub by: Vec<String>,
+
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]
     pub tolerance: f64,

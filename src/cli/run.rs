@@ -23,7 +23,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     // the process ends with the command: to take a large mechanism apart first would only take time
     let parsed = ManuallyDrop::new(input::parsed(&arguments.input, reporter)?);
     timings.end(Phase::Parse);
-    let compiled = input::compiled(&parsed, &arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
+    let asked = (&arguments.input, arguments.by.as_slice());
+    let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.sources)?;

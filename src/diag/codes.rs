@@ -77,7 +77,7 @@ catalogue! {
         E0307 Error "a kinematic quantity where it may not stand"
         E0308 Error "an equation without any kinematic quantity"
         E0309 Error "a number and a condition confused"
-        E0310 Error "a time derivative where it may not stand"
+        E0310 Error "a derivative where it may not stand"
         E0311 Error "an equation in which no body takes part"
         E0318 Error "points of two frames in one formula"
         E0322 Error "a result or reduction where it may not stand, or something else in its place"

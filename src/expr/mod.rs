@@ -12,6 +12,7 @@ mod motion;
 mod print;
 mod table;
 mod tidy;
+mod vary;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;
@@ -48,6 +49,17 @@ pub enum Symbol {
     },
     /// Something that the owner of the graph has given a meaning to.
     Named(u32),
+    /// A number that is always 0, by its number: what it is added to can be differentiated by.
+    Shift(u32),
+    /// The derivative of a coordinate, or of its time derivative of the given order, by something else than time.
+    Varied {
+        /// Number of the coordinate.
+        index: u32,
+        /// 0 for `q`, 1 for `q̇`, 2 for `q̈`.
+        order: u8,
+        /// By what; the owner of the graph gives these numbers.
+        variation: u32,
+    },
 }
 
 /// Functions of one argument.
@@ -177,7 +189,7 @@ impl Children {
 
 /// Which kinds of symbols a formula holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Dependence(u8);
+pub struct Dependence(u16);
 
 impl Dependence {
     /// On parameters.
@@ -191,6 +203,12 @@ impl Dependence {
     #[must_use]
     pub fn coordinates(order: u8) -> Dependence {
         Dependence(8 << order)
+    }
+
+    /// On what coordinates' derivatives of one order are differentiated to by something else than time.
+    #[must_use]
+    pub fn varied(order: u8) -> Dependence {
+        Dependence(128 << order)
     }
 
     /// On either.
@@ -217,12 +235,19 @@ impl Dependence {
         (0..4).rev().find(|&order| self.on(Self::coordinates(order)))
     }
 
+    /// The highest time derivative among those that are differentiated by something else too.
+    #[must_use]
+    pub fn highest_varied_order(self) -> Option<u8> {
+        (0..3).rev().find(|&order| self.on(Self::varied(order)))
+    }
+
     fn of(symbol: Symbol) -> Dependence {
         match symbol {
-            Symbol::Param(_) => Self::PARAMS,
+            Symbol::Param(_) | Symbol::Shift(_) => Self::PARAMS,
             Symbol::Time => Self::TIME,
             Symbol::Named(_) => Self::NAMED,
             Symbol::Coordinate { order, .. } => Self::coordinates(order),
+            Symbol::Varied { order, .. } => Self::varied(order),
         }
     }
 }

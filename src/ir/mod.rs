@@ -21,9 +21,11 @@
 mod print;
 mod results;
 mod rims;
+mod variations;
 
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
+pub use variations::{Appended, Variable, Variation, Variations};
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
@@ -58,6 +60,8 @@ pub struct ConstraintSystem {
     pub gamma: Vec<ExprId>,
     /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
     pub jerk: Option<Vec<ExprId>>,
+    /// Derivatives by inputs and parameters, where there are any.
+    pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
     pub measures: Vec<Measure>,
     /// What is asked of the whole analysis.
@@ -401,6 +405,9 @@ impl ConstraintSystem {
             Symbol::Coordinate { index, order } if order < highest => {
                 Some(graph.symbol(Symbol::Coordinate { index, order: order + 1 }))
             }
+            Symbol::Varied { index, order, variation } if order < highest.min(2) => {
+                Some(graph.symbol(Symbol::Varied { index, order: order + 1, variation }))
+            }
             _ => None,
         })
     }
@@ -458,6 +465,7 @@ impl ConstraintSystem {
             self.declarations[check.declaration].rows -= 1;
         }
         self.checks = checks;
+        self.leave_out_of_variations(&kept);
     }
 
     /// The body that a coordinate is of, if it is of a body.
@@ -500,6 +508,7 @@ impl ConstraintSystem {
     pub fn value_at(&self, formula: ExprId, q: &[f64]) -> f64 {
         self.graph.value(formula, |symbol| match symbol {
             Symbol::Param(k) => self.params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             Symbol::Coordinate { index, order: 0 } => q[index as usize],
             _ => f64::NAN,
         })

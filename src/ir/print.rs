@@ -15,6 +15,12 @@ impl ConstraintSystem {
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
             Symbol::Named(k) => format!("reduction_{}", k + 1),
+            // it is nothing, and may be varied
+            Symbol::Shift(_) => "0".to_owned(),
+            Symbol::Varied { index, order, variation } => {
+                let of = self.symbol_name(Symbol::Coordinate { index, order });
+                self.variation_name(&of, variation)
+            }
         }
     }
 
@@ -86,7 +92,14 @@ impl ConstraintSystem {
         section(f, "velocity, right side ν of Φ_q q̇ = ν", of_rows(&self.nu).into_iter())?;
         section(f, "acceleration, right side γ of Φ_q q̈ = γ", of_rows(&self.gamma).into_iter())?;
         let jerk = self.jerk.as_deref().map_or(Vec::new(), of_rows);
-        section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())
+        section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())?;
+        for (number, variation) in self.variations().iter().enumerate() {
+            for (of, rights) in ["q", "q̇", "q̈"].into_iter().zip(&variation.rights) {
+                let what = self.variation_name(of, number as u32);
+                section(f, &format!("variation, right side of Φ_q {what} = …"), of_rows(rights).into_iter())?;
+            }
+        }
+        Ok(())
     }
 
     fn table_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
@@ -166,6 +179,7 @@ impl ConstraintSystem {
         roots.extend(self.watches.iter().map(|watch| watch.value));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
         roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));
+        roots.extend(self.variations().iter().flat_map(|variation| variation.rights.iter().flatten()));
         roots.extend(self.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
         roots
     }

@@ -12,12 +12,13 @@ mod quantities;
 mod results;
 mod size;
 mod uses;
+mod variations;
 mod velocities;
 
 use crate::expr::{Comparison, ExprId, Graph, Symbol};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
-    Owner, Param, Row, SparseRows, Units, Watch,
+    Owner, Param, Row, SparseRows, Units, Variations, Watch,
 };
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
@@ -48,6 +49,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         known_conditions: FxHashSet::default(),
         watches: Vec::new(),
         fits: Vec::new(),
+        variations: variations::variables(model),
     };
     lowering.tables();
     lowering.named_up_to(model.named_before_results);
@@ -58,6 +60,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let points = lowering.points();
     let measures = lowering.measures();
     let parts = lowering.part_starts();
+    lowering.append_derivatives(&measures);
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
             .into_iter()
@@ -91,6 +94,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         nu: Vec::new(),
         gamma: Vec::new(),
         jerk: None,
+        variations: lowering.variations.take().map(Box::new),
         measures,
         conditions: std::mem::take(&mut lowering.conditions),
         results: ir::Results::default(),
@@ -103,6 +107,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
     system.derive(needs_jerk);
+    system.derive_variations();
     system.find_rims();
     if !model.outcomes.is_empty() {
         // what is asked of the whole analysis changes nothing above
@@ -137,6 +142,8 @@ struct Lowering<'m> {
     known_conditions: FxHashSet<ExprId>,
     watches: Vec<Watch>,
     fits: Vec<Fit>,
+    /// Where derivatives are taken by something else than time.
+    variations: Option<Variations>,
 }
 
 /// A formula of the model in another graph.
@@ -179,6 +186,10 @@ impl Lowering<'_> {
                 Named::Derivative(inner) => {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
+                }
+                Named::By(inner, variable) => {
+                    let inner = self.formula(inner);
+                    self.derivative_by(inner, variable)
                 }
                 Named::Reduction(k) => self.reduced(k),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
@@ -390,9 +401,10 @@ impl Lowering<'_> {
         self.graph.select(holds, id, none)
     }
 
-    /// The time derivative of an expression, unless that needs a fourth derivative of `q`.
+    /// The time derivative of an expression, unless that needs a fourth derivative of `q`, or a third one that is varied.
     fn along_the_motion(&mut self, id: ExprId) -> Option<ExprId> {
-        if self.graph.dependence(id).highest_order() == Some(3) {
+        let dependence = self.graph.dependence(id);
+        if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
             return None;
         }
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])

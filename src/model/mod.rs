@@ -5,14 +5,16 @@
 
 mod placement;
 mod print;
+mod quotients;
 mod results;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
 pub use placement::Placement;
+pub use quotients::quotient;
 
 pub use results::{Outcome, Reduction, ReductionKind};
 
-use crate::expr::{ExprId, Graph, TableId};
+use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
 
 /// A name and the place where it is declared.
@@ -94,6 +96,11 @@ pub struct Mechanism {
     /// Each behind the one that it is a part of.
     pub parts: Vec<Part>,
     /// In order of declaration, those of a part where it is declared.
+    /// What derivatives are taken by, by their number.
+    pub variables: Vec<Variable>,
+    /// The numbers of those that all columns are differentiated by, in the order of the columns.
+    pub by: Vec<u32>,
+    /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
     pub points: Vec<Point>,
@@ -134,6 +141,8 @@ impl Mechanism {
             inputs: Vec::new(),
             led: Vec::new(),
             parts: Vec::new(),
+            variables: Vec::new(),
+            by: Vec::new(),
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -276,6 +285,19 @@ pub struct Part {
     pub is_turned_over: bool,
     /// Whether its text is mirrored in the end.
     pub is_mirrored: bool,
+}
+
+/// An input or parameter that derivatives are taken by.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Its name; of a coordinate of a point `A.x`.
+    pub declared: Declared,
+    /// What of the formulas changes: its own parameter, or a shift that is added to its formula.
+    pub symbol: Symbol,
+    /// Of its value.
+    pub dimension: Dimension,
+    /// Whether it is an angle, as far as its words tell.
+    pub is_angle: bool,
 }
 
 /// A body.
@@ -536,6 +558,8 @@ pub enum Named {
     Quantity(Option<PartId>, Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
+    /// The derivative of a formula by a variable, by its number, at fixed time.
+    By(ExprId, u32),
     /// Above zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
     /// A number for the whole analysis, by its place among the reductions.

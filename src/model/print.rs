@@ -86,13 +86,18 @@ impl Text<'_> {
                 Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
                 Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
+                Named::By(inner, variable) => {
+                    let by = &self.model.variables[variable as usize].declared.name;
+                    format!("der({}, {by})", self.formula_text(inner))
+                }
                 Named::Reduction(k) => {
                     let Reduction { kind, of, .. } = &self.model.reductions[k as usize];
                     kind.written(&self.formula_text(*of), text)
                 }
                 Named::Argument => "u".to_owned(),
             },
-            Symbol::Coordinate { .. } => "q".to_owned(),
+            Symbol::Shift(_) => "0".to_owned(),
+            Symbol::Coordinate { .. } | Symbol::Varied { .. } => "q".to_owned(),
         })
         .with_names(&self.names);
         if whole { printer.definition(id) } else { printer.text(id) }
@@ -199,7 +204,7 @@ impl Mechanism {
         list.extend(self.outcomes.iter().map(|outcome| outcome.value));
         list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
-            Named::Derivative(inner) => Some(*inner),
+            Named::Derivative(inner) | Named::By(inner, _) => Some(*inner),
             Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list

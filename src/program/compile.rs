@@ -28,9 +28,14 @@ impl Program {
         outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        for variation in system.variations() {
+            let rights = variation.rights.each_ref();
+            outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
+        }
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
         outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
         outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));
+        outputs.appended = layout.place(Stage::Measures, system.appended().iter().map(|column| column.value));
         // rims are asked for where nothing but time and position has been evaluated
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
         outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
@@ -59,12 +64,14 @@ pub(super) struct Layout<'s> {
 
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
-        Layout::of(&system.graph, system.params.len() as u32, system.coordinates.len() as u32)
+        let counts = [system.params.len(), system.coordinates.len(), system.variations().len()];
+        Layout::of(&system.graph, counts.map(|count| count as u32))
     }
 
-    /// For formulas of a graph over so many parameters and coordinates.
-    pub fn of(graph: &'s Graph, params: u32, n: u32) -> Layout<'s> {
+    /// For formulas of a graph over so many parameters, coordinates and variations of these.
+    pub fn of(graph: &'s Graph, [params, n, variations]: [u32; 3]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
+        let varied = params + 1 + 4 * n;
         Layout {
             graph,
             register_of: vec![NONE; graph.len()],
@@ -76,8 +83,8 @@ impl<'s> Layout<'s> {
             tables: FxHashMap::default(),
             table_layouts: Vec::new(),
             reached: FxHashMap::default(),
-            inputs: Inputs { params: 0, time: params, coordinates, n },
-            next: params + 1 + 4 * n,
+            inputs: Inputs { params: 0, time: params, coordinates, n, varied },
+            next: varied + 3 * n * variations,
         }
     }
 
@@ -271,11 +278,13 @@ impl<'s> Layout<'s> {
         self.next - 1
     }
 
-    fn input(&self, symbol: Symbol) -> Register {
+    fn input(&mut self, symbol: Symbol) -> Register {
         match symbol {
             Symbol::Param(k) => self.inputs.params + k,
             Symbol::Time => self.inputs.time,
             Symbol::Coordinate { index, order } => self.inputs.coordinates[order as usize] + index,
+            Symbol::Shift(_) => self.constant(0.0),
+            Symbol::Varied { index, order, variation } => self.inputs.varied(variation, u32::from(order)) + index,
             Symbol::Named(_) => unreachable!("lowering leaves no named symbol"),
         }
     }

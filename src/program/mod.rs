@@ -33,7 +33,7 @@ impl Stage {
     /// A measure takes the branch it is on.
     #[must_use]
     pub fn can_switch(self) -> bool {
-        !matches!(self, Stage::Prologue | Stage::Measures | Stage::Rims)
+        !matches!(self, Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims)
     }
 }
 
@@ -134,6 +134,9 @@ pub enum Stage {
     Acceleration,
     /// The right side of the jerk equation; needs `q̈`.
     Jerk,
+    /// The right sides of the variations, each of which needs `q̇`, `q̈` and the variations before it. A branch is the one that the
+    /// equations are on.
+    Variation,
     /// The measures; needs all derivatives of `q`.
     Measures,
     /// The rims, where they are asked for; needs `q̇`.
@@ -141,13 +144,14 @@ pub enum Stage {
 }
 
 /// All stages, in the order in which they may be run.
-pub const STAGES: [Stage; 8] = [
+pub const STAGES: [Stage; 9] = [
     Stage::Prologue,
     Stage::Time,
     Stage::Position,
     Stage::Velocity,
     Stage::Acceleration,
     Stage::Jerk,
+    Stage::Variation,
     Stage::Measures,
     Stage::Rims,
 ];
@@ -300,6 +304,16 @@ pub struct Inputs {
     pub coordinates: [Register; 4],
     /// Number of coordinates.
     pub n: u32,
+    /// First of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    pub varied: Register,
+}
+
+impl Inputs {
+    /// First register of a variation of `q` (order 0), `q̇` or `q̈`.
+    #[must_use]
+    pub fn varied(&self, variation: u32, order: u32) -> Register {
+        self.varied + (3 * variation + order) * self.n
+    }
 }
 
 /// Where a program leaves its results.
@@ -317,6 +331,10 @@ pub struct Outputs {
     pub gamma: Vec<Register>,
     /// Right side of the jerk equation, `n`, or none.
     pub jerk: Vec<Register>,
+    /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
+    pub variations: Vec<[Vec<Register>; 3]>,
+    /// Derivatives that stand behind all other columns.
+    pub appended: Vec<Register>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.

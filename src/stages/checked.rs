@@ -25,6 +25,8 @@ pub struct Choice {
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
     pub samples: Option<PathBuf>,
+    /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
+    pub by: Vec<String>,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -106,6 +108,8 @@ impl Checked {
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let (mut model, mut leading) = (None, None);
         let is_told = !choice.inputs.is_empty() || choice.samples.is_some();
+        let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
+        let by = choice.by.iter().map(spaceless).collect();
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -114,7 +118,7 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let surroundings = Surroundings { settings, library, files, given, bound: Vec::new(), lead: None };
+                let surroundings = Surroundings { settings, library, files, given, by, bound: Vec::new(), lead: None };
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);

@@ -1,6 +1,7 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
 use super::lead::Leading;
+use super::used_at::UsedAt;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
@@ -45,6 +46,7 @@ pub struct Compiled {
     program: Arc<OnceLock<Arc<Program>>>,
     /// Where it begins, if it is told other inputs than its own.
     leading: Option<(Arc<Leading>, Redundant)>,
+    used_at: UsedAt,
 }
 
 impl Compiled {
@@ -58,13 +60,14 @@ impl Compiled {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
+        let used_at = UsedAt::of(&system);
         match analysis::determine(system, redundant == Redundant::LeftOut) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
-            Err(why) => (None, why),
+            Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {
-                let determined = Arc::new(determined);
+                let (determined, said) = (Arc::new(determined), used_at.told(said));
                 let leading = leading.map(|leading| (leading, redundant));
-                (Some(Compiled { sources, determined, program: Arc::default(), leading }), said)
+                (Some(Compiled { sources, determined, program: Arc::default(), leading, used_at }), said)
             }
         }
     }
@@ -161,6 +164,11 @@ impl Compiled {
     /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
     pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
         self.leading.as_ref().map(|(leading, redundant)| (&**leading, *redundant == Redundant::LeftOut))
+    }
+
+    /// Where its parts are used.
+    pub(super) fn used_at(&self) -> &UsedAt {
+        &self.used_at
     }
 
     pub(crate) fn system(&self) -> &ConstraintSystem {

@@ -57,7 +57,25 @@ impl Compiled {
         }
     }
 
+    /// Whether it can be written for others.
+    ///
+    /// # Errors
+    /// A measure holds a derivative by an input or parameter, which is computed by `run` alone.
+    pub(crate) fn can_be_emitted(&self) -> Result<(), Box<Diagnostic>> {
+        let system = self.system();
+        let is_varied = |id| system.graph.dependence(id).highest_varied_order().is_some();
+        match system.measures.iter().find(|measure| is_varied(measure.value)) {
+            None => Ok(()),
+            Some(measure) => {
+                let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
+                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "cannot be emitted");
+                Err(Box::new(diagnostic.help("`mechc run` computes it; leave the measure out of what is emitted")))
+            }
+        }
+    }
+
     fn unit<'u>(&'u self, options: &'u RustOptions, said: &mut Diagnostics) -> Result<Unit<'u>, Box<Diagnostic>> {
+        self.can_be_emitted()?;
         let motion = if options.with_motion { Some(self.motion(said)?) } else { None };
         let (system, program, sources) = (self.system(), &**self.program(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;

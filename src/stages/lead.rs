@@ -50,7 +50,7 @@ impl Leading {
             said: Diagnostics::default(),
         };
         let led =
-            if self.is_told { starts.to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
+            if self.is_told { starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
         let system = determined.system();
         let begin = led.or_else(|| {
             let settings = &self.surroundings.settings;
@@ -90,15 +90,16 @@ struct Starts<'s> {
 }
 
 impl<'s> Starts<'s> {
-    fn to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
+    fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let led = Surroundings { lead: Some(Lead { times, inputs: Vec::new() }), ..self.surroundings.clone() };
+        let lead = Some(Lead { times, inputs: Vec::new() });
+        let led = Surroundings { lead, by: Vec::new(), ..self.surroundings.clone() };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
         let from = if whole.0.system().parts.is_empty() {
             None
         } else {
-            let own = Surroundings { given: Given::default(), ..self.surroundings.clone() };
+            let own = Surroundings { given: Given::default(), by: Vec::new(), ..self.surroundings.clone() };
             Some(self.assembled(tree, own)?.q)
         };
         match analysis::lead(&whole.0, &whole.1, from.as_deref(), self.options) {
@@ -193,7 +194,8 @@ impl<'s> Starts<'s> {
         }
         let Surroundings { library, files, .. } = self.surroundings.clone();
         let given = Given::default();
-        let surroundings = Surroundings { settings, library, files, given, bound: params, lead: None };
+        let by = Vec::new();
+        let surroundings = Surroundings { settings, library, files, given, by, bound: params, lead: None };
         let alone = self.text_of(start).and_then(|tree| self.assembled(tree, surroundings)).map(Rc::new);
         if let Some(alone) = &alone {
             self.said.extend(alone.remarks.clone());

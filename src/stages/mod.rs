@@ -16,6 +16,7 @@ mod lead;
 mod parsed;
 mod run;
 mod used;
+mod used_at;
 
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};

@@ -1,6 +1,7 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
+use super::used_at::UsedAt;
 use crate::analysis::{self, Answers, Asked, ColumnUnit, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -69,6 +70,7 @@ pub struct Run {
     /// What results are computed from; none where there are none.
     asked: Option<Asked>,
     results: usize,
+    used_at: UsedAt,
 }
 
 impl Compiled {
@@ -110,11 +112,11 @@ impl Run {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
             Err(why) => {
-                said.push(*why);
+                said.push(compiled.used_at().tell(*why));
                 return (None, said);
             }
         };
-        said.extend(started.remarks());
+        said.extend(compiled.used_at().told(started.remarks()));
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results.outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
@@ -136,6 +138,7 @@ impl Run {
             has_stopped: false,
             asked,
             results,
+            used_at: compiled.used_at().clone(),
         };
         (Some(run), said)
     }
@@ -175,7 +178,7 @@ impl Run {
         let row = self.motion.next_row();
         self.has_ended = !matches!(row, Some(Ok(_)));
         self.has_stopped |= matches!(row, Some(Err(_)));
-        row
+        row.map(|row| row.map_err(|why| Box::new(self.used_at.tell(*why))))
     }
 
     /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for, and each without a value
@@ -190,7 +193,7 @@ impl Run {
 
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
-        self.motion.take_remarks()
+        self.used_at.told(self.motion.take_remarks())
     }
 }
 

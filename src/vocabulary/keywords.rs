@@ -111,7 +111,8 @@ mechanism lever {
     "\
 part front: lever()
 part back:  lever(reach = 60 mm, turn = angle(front.arm)) on front.arm at (80 mm, 0, 90 deg) mirrored
-trace tip = back.arm.tip",
+trace tip = back.arm.tip
+analysis from 0 s to 1 s every 0.1 s",
 );
 
 /// A rack and pinion of which no pose says on which side of the axis the pinion lies.

@@ -40,11 +40,11 @@ impl Word {
     /// The text of a mechanism that shows it.
     #[must_use]
     pub fn example(&self) -> String {
-        let mut before = "";
+        let mut used = "";
         let inside = match self.example {
             Example::Whole(inside) => inside.to_owned(),
-            Example::Using(used, inside) => {
-                before = used;
+            Example::Using(other, inside) => {
+                used = other;
                 inside.to_owned()
             }
             Example::Of(other) => return words().find(|word| word.name == other).map_or(String::new(), Word::example),
@@ -58,7 +58,7 @@ impl Word {
             }
         };
         let lines: Vec<String> = inside.lines().map(|line| format!("    {line}")).collect();
-        format!("{before}mechanism example {{\n{}\n}}\n", lines.join("\n"))
+        format!("mechanism example {{\n{}\n}}\n{used}", lines.join("\n"))
     }
 }
 

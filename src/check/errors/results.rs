@@ -36,3 +36,10 @@ pub fn derivative_of_result(span: Span) -> Diagnostic {
         .at(span, "one number for the whole analysis")
         .help("take the derivative inside: `max(der(e))`")
 }
+
+/// `max(der(e, NAME))`
+pub fn variation_in_reduction(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a derivative by an input or parameter may not stand in a reduction")
+        .at(span, "between the rows it is not known")
+        .help("a measure shows it at every time: `measure NAME = der(…)`")
+}

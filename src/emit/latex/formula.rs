@@ -288,6 +288,11 @@ impl<'s> Formulas<'s> {
                 let name = coordinate(self.system, index as usize, order);
                 Piece::new(name.text, name.width, Level::Atom)
             }
+            Symbol::Shift(_) => Piece::new("0", 0.5, Level::Atom),
+            Symbol::Varied { .. } => {
+                let name = self.system.symbol_name(symbol);
+                Piece::new(format!(r"\mathtt{{{}}}", name.replace('_', r"\_")), 0.6 * name.len() as f64, Level::Atom)
+            }
             Symbol::Named(k) => {
                 let number = self.terms.len() + 1;
                 self.terms.insert(id, number);
