@@ -74,6 +74,7 @@ impl Checker<'_> {
     /// What an input is.
     pub(super) fn input(&mut self, k: usize, samples: Option<&Samples>) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
+        let before = self.model.conditions.len();
         let Some(in_file) = self.input_value(formula) else { return };
         let column = samples.and_then(|samples| samples.columns.iter().find(|column| column.name == name.text));
         let formulas = &self.given.formulas;
@@ -85,7 +86,14 @@ impl Checker<'_> {
         };
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared: super::declared(name), value: value.id });
+            let (declared, dimension) = (super::declared(name), value.dim.settled());
+            self.model.inputs.push(Input { declared, number: k, value: value.id, dimension });
+            if self.model.has_signals {
+                // what the formula asks for is no concern of those that take what they are given
+                self.model.conditions.truncate(before);
+                let id = self.model.graph.symbol(Symbol::Signal { index: k as u32, order: 0 });
+                self.inputs[k].value = Some(Value { id, ..value });
+            }
         }
     }
 

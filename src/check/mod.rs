@@ -67,6 +67,8 @@ pub struct Surroundings {
     pub files: TableFiles,
     /// What inputs are told to be.
     pub given: Given,
+    /// Whether inputs stay signals in the model, rather than being replaced by what they are.
+    pub has_signals: bool,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -302,7 +304,10 @@ impl<'a> Checker<'a> {
             given: &surroundings.given,
             sources,
             diagnostics: Diagnostics::default(),
-            model: Mechanism::new(declared(&tree.name), tree.docs.clone()),
+            model: Mechanism {
+                has_signals: surroundings.has_signals,
+                ..Mechanism::new(declared(&tree.name), tree.docs.clone())
+            },
             space: Space::new(),
             deciding: FxHashSet::default(),
             params: Vec::new(),

@@ -4,7 +4,7 @@
 //! What the interpreter computes is handed in; this room knows of no analysis.
 
 use super::Unit;
-use super::names::{Namer, is_keyword};
+use super::names::{Case, Namer, is_keyword};
 use super::rust;
 use super::text::{lines, literal, one_line};
 use crate::ir::Measure;
@@ -195,12 +195,11 @@ impl Writer<'_> {
     /// What the example prints, and what it needs for it.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
-        let sources: Vec<&str> = system.measures.iter().map(|of| of.name.as_str()).collect();
-        if let Some(name) = Namer::default().constants(&sources).first() {
+        let names = Case::Constant.names(system.measures.iter().map(|of| of.name.as_str()));
+        if let Some(name) = names.first() {
             return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
         }
-        if let Some(body) = system.bodies.first() {
-            let name = Namer::default().camel(&body.name);
+        if let Some(name) = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str())).first() {
             return ("Body, Params, assemble, step", format!("state.pose(Body::{name})"));
         }
         ("Params, assemble, step", "state.q()".to_owned())
@@ -229,13 +228,12 @@ impl Writer<'_> {
         let Some(first) = params.first() else {
             return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
         };
-        let mut namer = Namer::default();
-        let rows = params.iter().map(|param| {
-            let unit = unit(&param.unit);
-            [format!("`{}`", namer.snake(&param.name)), format!("`{}`", param.name), unit, literal(param.value)]
+        let names = Case::Snake.names(params.iter().map(|param| param.name.as_str()));
+        let rows = params.iter().zip(&names).map(|(param, name)| {
+            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit), literal(param.value)]
         });
         let rows: String = rows.map(|cells| line(&cells)).collect();
-        let field = Namer::default().snake(&first.name);
+        let field = &names[0];
         format!(
             "Those of the file by default; `Params {{ {field}: {}, ..Params::default() }}` sets one.\n\n\
              | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}",
@@ -248,18 +246,20 @@ impl Writer<'_> {
         if bodies.is_empty() {
             return String::new();
         }
-        let mut namer = Namer::default();
+        let names = Case::Camel.names(bodies.iter().map(|body| body.name.as_str()));
         let rows: String = bodies
             .iter()
-            .map(|body| line(&[format!("`Body::{}`", namer.camel(&body.name)), format!("`{}`", body.name)]))
+            .zip(names)
+            .map(|(body, name)| line(&[format!("`Body::{name}`"), format!("`{}`", body.name)]))
             .collect();
         format!("## Bodies\n\n| name | body |\n| --- | --- |\n{rows}\n")
     }
 
     fn coordinates(&self) -> String {
-        let mut namer = Namer::default();
-        let rows = self.unit.system.coordinates.iter().map(|coordinate| {
-            let index = format!("`coordinate::{}`", namer.constant(&coordinate.name));
+        let coordinates = &self.unit.system.coordinates;
+        let names = Case::Constant.names(coordinates.iter().map(|coordinate| coordinate.name.as_str()));
+        let rows = coordinates.iter().zip(names).map(|(coordinate, name)| {
+            let index = format!("`coordinate::{name}`");
             [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit())]
         });
         rows.map(|cells| line(&cells)).collect()
@@ -272,8 +272,8 @@ impl Writer<'_> {
         }
         // those of each module, by measure
         let indices = |module: &str, has: fn(&Measure) -> bool| {
-            let sources: Vec<&str> = measures.iter().filter(|of| has(of)).map(|of| of.name.as_str()).collect();
-            let mut names = Namer::default().constants(&sources).into_iter();
+            let mut names =
+                Case::Constant.names(measures.iter().filter(|of| has(of)).map(|of| of.name.as_str())).into_iter();
             let mut index = || names.next().map_or_else(String::new, |name| format!("`{module}::{name}`"));
             measures.iter().map(|of| if has(of) { index() } else { String::new() }).collect::<Vec<String>>()
         };

@@ -38,6 +38,7 @@ impl<'s> Solution<'s> {
         for op in motion.solver.all_operations() {
             if let Op::Load { from, .. } = *op
                 && from >= unit.program.inputs.time
+                && !unit.program.inputs.all_signals().contains(&from)
                 && !equations.sides.contains_key(&from)
             {
                 solution.know(from);
@@ -192,14 +193,18 @@ impl<'s> Solution<'s> {
             format!("{}const {name}: f64 = {};\n\n", documented(docs, ""), literal(value))
         };
         let numbers = |values: &mut dyn Iterator<Item = f64>| values.map(literal).collect::<Vec<String>>();
-        let mut text = format!(
-            "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
-             pub const START_TIME: f64 = {};\n\n",
-            literal(*from)
-        );
-        text += &number("How long the file's analysis takes (s).", "SPAN", span);
-        text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
-        text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
+        let is_led = self.equations.is_led;
+        let mut text = String::new();
+        if !is_led {
+            text += &format!(
+                "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
+                 pub const START_TIME: f64 = {};\n\n",
+                literal(*from)
+            );
+            text += &number("How long the file's analysis takes (s).", "SPAN", span);
+            text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
+            text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
+        }
         let iterates = self.has_newton() || self.motion.blocks.is_some();
         if iterates {
             text += &format!("/// Iterations of Newton at most.\nconst ITERATIONS: usize = {ITERATIONS};\n\n");
@@ -237,14 +242,17 @@ impl<'s> Solution<'s> {
                 &numbers(&mut self.cells().into_iter()),
             );
         }
-        text += &constant(
-            "What a change of each coordinate is judged against.",
-            "SCALES",
-            "f64",
-            "N",
-            &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
-        );
-        text += &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
+        if !is_led {
+            text += &constant(
+                "What a change of each coordinate is judged against.",
+                "SCALES",
+                "f64",
+                "N",
+                &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
+            );
+            text +=
+                &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
+        }
         text += "/// Number of blocks of equations whose determinants change with the position.\n";
         text += &format!("const TURNS: usize = {};\n\n", solver.turns().len());
         let turned: Vec<String> = solver.turns().iter().map(|turn| turn.is_negative.to_string()).collect();
@@ -373,7 +381,10 @@ impl Scene for SolverScene<'_> {
             return format!("m{}.known[{place}]", self.lane());
         }
         match self.solution.equations.input(register) {
-            Input::Bound { value, .. } => format!("m{}.{}", self.lane(), value.replacen("p.", "params.", 1)),
+            Input::Bound { value, .. } => {
+                let of = if self.solution.equations.is_led { "way." } else { "params." };
+                format!("m{}.{}", self.lane(), value.replacen("p.", of, 1))
+            }
             Input::Text(text) if text.starts_with("sides") => {
                 text.replacen("sides", &format!("sides{}", self.lane()), 1)
             }
@@ -382,6 +393,10 @@ impl Scene for SolverScene<'_> {
     }
 
     fn place(&self, column: u32) -> String {
+        if let Some(k) = column.checked_sub(self.layout.by_signal) {
+            let n = self.solution.unit.program.inputs.n;
+            return format!("at.by_signal[{}][{}]", k / n, k % n);
+        }
         match self.kind(column) {
             (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
             (false, order, k) => {
@@ -394,6 +409,7 @@ impl Scene for SolverScene<'_> {
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
         match self.kind(column) {
+            _ if column >= self.layout.by_signal => None,
             (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
             _ => None,
         }
@@ -410,7 +426,7 @@ impl Scene for SolverScene<'_> {
 
     fn store(&self, column: u32, value: &str) -> Option<String> {
         match self.kind(column) {
-            (true, 3, _) => None,
+            (true, 3, _) if column < self.layout.by_signal => None,
             _ => match value.parse::<f64>() {
                 // +0 where it is −0
                 Ok(number) => Some(number + 0.0)

@@ -6,13 +6,14 @@ mod contacts;
 mod estimates;
 mod frames;
 mod gears;
+mod inputs;
 mod joints;
 mod quantities;
 mod size;
 mod uses;
 mod velocities;
 
-use crate::expr::{Comparison, ExprId, Graph, Symbol};
+use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Units, Watch,
@@ -68,6 +69,9 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
                 span: p.declared.span,
             })
             .collect(),
+        inputs: Vec::new(),
+        has_signals: model.has_signals,
+        by_signal: Vec::new(),
         bodies: model
             .bodies
             .iter()
@@ -91,8 +95,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
-    system.derive(needs_jerk);
+    system.derive(needs_jerk && !model.has_signals);
     system.find_rims();
+    // last, so that what is there already is as it would be without
+    inputs::add(model, &mut system);
     system
 }
 
@@ -122,9 +128,10 @@ struct Lowering<'m> {
 impl Lowering<'_> {
     /// A formula of the model in this graph.
     fn formula(&mut self, id: ExprId) -> ExprId {
-        let named = &self.named;
+        let (named, has_signals) = (&self.named, self.model.has_signals);
         self.graph.import(&self.model.graph, &[id], &mut self.known, |graph, symbol| match symbol {
             Symbol::Named(k) => named[k as usize],
+            Symbol::Time if has_signals => graph.symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 }),
             other => graph.symbol(other),
         });
         self.known[&id]

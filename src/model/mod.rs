@@ -82,6 +82,8 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
+    /// Whether formulas hold inputs as signals, rather than what these are.
+    pub has_signals: bool,
     /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
@@ -115,6 +117,7 @@ impl Mechanism {
             named: Vec::new(),
             params: Vec::new(),
             inputs: Vec::new(),
+            has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -170,8 +173,12 @@ pub struct Param {
 pub struct Input {
     /// Its name.
     pub declared: Declared,
+    /// Its place among the inputs as they are declared, which is the number of its signal.
+    pub number: usize,
     /// What it is, as a formula of time, in SI.
     pub value: ExprId,
+    /// Of its value.
+    pub dimension: Dimension,
 }
 
 /// A body.

@@ -2,7 +2,7 @@
 
 use super::tables::{Place, Reached};
 use super::{Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
-use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TableId, Unary};
+use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
 use crate::ir::{self, ConstraintSystem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -13,6 +13,7 @@ impl Program {
     #[must_use]
     pub fn new(system: &ConstraintSystem) -> Program {
         let mut layout = Layout::new(system);
+        layout.signals(system);
         let mut outputs = Outputs {
             estimates: layout.place(Stage::Prologue, system.coordinates.iter().map(|c| c.estimate)),
             phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
@@ -26,6 +27,8 @@ impl Program {
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
+        outputs.by_signal =
+            system.by_signal.iter().map(|list| layout.place(Stage::Velocity, list.iter().copied())).collect();
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
@@ -62,6 +65,9 @@ impl<'s> Layout<'s> {
         let n = system.coordinates.len() as u32;
         let params = system.params.len() as u32;
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
+        let count = if system.has_signals { system.inputs.len() as u32 } else { 0 };
+        let signals = params + 1 + 4 * n;
+        let by_signal = signals + 3 * count;
         Layout {
             graph: &system.graph,
             register_of: vec![NONE; system.graph.len()],
@@ -73,8 +79,8 @@ impl<'s> Layout<'s> {
             tables: FxHashMap::default(),
             table_layouts: Vec::new(),
             reached: FxHashMap::default(),
-            inputs: Inputs { params: 0, time: params, coordinates, n },
-            next: params + 1 + 4 * n,
+            inputs: Inputs { params: 0, time: params, coordinates, n, signals, by_signal, count },
+            next: by_signal + n * count,
         }
     }
 
@@ -98,6 +104,17 @@ impl<'s> Layout<'s> {
             }
         }
         roots.iter().map(|id| self.register_of[id.index()]).collect()
+    }
+
+    /// What signals are by the text, for those who run the program as it is.
+    fn signals(&mut self, system: &ConstraintSystem) {
+        for (signal, input) in system.inputs.iter().enumerate().take(self.inputs.count as usize) {
+            let formulas = self.place(Stage::Time, input.formulas);
+            for (order, a) in formulas.into_iter().enumerate() {
+                let to = self.inputs.signal(signal as u32, order as u32);
+                self.operations[Stage::Time as usize].push(Op::Copy { to, a });
+            }
+        }
     }
 
     fn rim(&mut self, rim: &ir::Rim) -> Rim {
@@ -272,6 +289,10 @@ impl<'s> Layout<'s> {
         match symbol {
             Symbol::Param(k) => self.inputs.params + k,
             Symbol::Time => self.inputs.time,
+            Symbol::Signal { index, order } => {
+                let signal = if index == TIME_SIGNAL { self.inputs.count - 1 } else { index };
+                self.inputs.signal(signal, u32::from(order))
+            }
             Symbol::Coordinate { index, order } => self.inputs.coordinates[order as usize] + index,
             Symbol::Named(_) => unreachable!("lowering leaves no named symbol"),
         }

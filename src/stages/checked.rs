@@ -4,6 +4,7 @@ use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Given, Setting, Surroundings, Symbols, TableFiles};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
+use crate::ir::ConstraintSystem;
 use crate::lower;
 use crate::model::Mechanism;
 use crate::source::Sources;
@@ -41,6 +42,8 @@ pub struct Checked {
     /// Its number in the file.
     number: Option<usize>,
     model: Option<Arc<Mechanism>>,
+    /// What it was checked with.
+    surroundings: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
 }
@@ -94,7 +97,7 @@ impl Checked {
         let settings = settings(&choice.set, tree, &mut sources);
         let given = given(choice, tree, world, &mut sources);
         let files = table_files(parsed, tree, world, &mut sources);
-        let mut model = None;
+        let (mut model, mut surroundings) = (None, Surroundings::default());
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -102,12 +105,22 @@ impl Checked {
                 diagnostics.extend(more);
             }
             (Ok(settings), Ok(given)) => {
-                let (found, said) = check::check(tree, &Surroundings { settings, files, given }, &sources);
+                surroundings = Surroundings { settings, files, given, has_signals: false };
+                let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
             }
         }
-        Checked::with(parsed.with_sources(sources), Some(number), model, diagnostics)
+        let checked = Checked::with(parsed.with_sources(sources), Some(number), model, diagnostics);
+        Checked { surroundings: Arc::new(surroundings), ..checked }
+    }
+
+    /// The model in which inputs are signals, where there are any.
+    fn with_signals(&self) -> Option<WithSignals> {
+        let has_inputs = self.model.as_ref().is_some_and(|model| !model.inputs.is_empty());
+        let surroundings = Surroundings { has_signals: true, ..(*self.surroundings).clone() };
+        let number = self.number.filter(|_| has_inputs)?;
+        Some(WithSignals { parsed: self.parsed.clone(), number, surroundings: Arc::new(surroundings) })
     }
 
     fn with(
@@ -117,7 +130,8 @@ impl Checked {
         mut diagnostics: Diagnostics,
     ) -> Checked {
         diagnostics.sort_by_place();
-        Checked { parsed, number, model, diagnostics: Arc::new(diagnostics), symbols: Arc::default() }
+        let (diagnostics, surroundings, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
+        Checked { parsed, number, model, surroundings, diagnostics, symbols }
     }
 
     /// The texts that its diagnostics speak of.
@@ -167,8 +181,29 @@ impl Checked {
     pub fn compile(&self, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
         match &self.model {
             None => (None, Diagnostics::default()),
-            Some(model) => Compiled::of(self.sources().clone(), lower::lower(model), redundant, cancel),
+            Some(model) => {
+                let (compiled, said) = Compiled::of(self.sources().clone(), lower::lower(model), redundant, cancel);
+                (compiled.map(|compiled| compiled.with_signals(self.with_signals())), said)
+            }
         }
+    }
+}
+
+/// What it takes to have a mechanism once more, with its inputs as signals.
+#[derive(Clone)]
+pub(super) struct WithSignals {
+    parsed: Parsed,
+    /// Its number in the file.
+    number: usize,
+    surroundings: Arc<Surroundings>,
+}
+
+impl WithSignals {
+    /// Its equations.
+    pub fn system(&self) -> Result<ConstraintSystem, Diagnostics> {
+        let tree = &self.parsed.tree().mechanisms[self.number];
+        let (model, said) = check::check(tree, &self.surroundings, self.parsed.sources());
+        model.as_ref().map(lower::lower).ok_or(said)
     }
 }
 

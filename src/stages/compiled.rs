@@ -1,5 +1,6 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
+use super::checked::WithSignals;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
@@ -42,6 +43,9 @@ pub struct Compiled {
     sources: Sources,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
+    redundant: Redundant,
+    /// The same with its inputs as signals, where it has any.
+    with_signals: Option<WithSignals>,
 }
 
 impl Compiled {
@@ -59,9 +63,26 @@ impl Compiled {
             Err(why) => (None, why),
             Ok((determined, said)) => {
                 let determined = Arc::new(determined);
-                (Some(Compiled { sources, determined, program: Arc::default() }), said)
+                let (program, with_signals) = (Arc::default(), None);
+                (Some(Compiled { sources, determined, program, redundant, with_signals }), said)
             }
         }
+    }
+
+    /// The same, with what it takes to have it with its inputs as signals.
+    pub(super) fn with_signals(self, with_signals: Option<WithSignals>) -> Compiled {
+        Compiled { with_signals, ..self }
+    }
+
+    /// The same mechanism with its inputs as signals, where it has any: its measures have the derivatives that they have here.
+    pub(super) fn signals(&self, cancel: &Cancel) -> Result<Option<Compiled>, Diagnostics> {
+        let Some(with_signals) = &self.with_signals else {
+            return Ok(None);
+        };
+        let mut system = with_signals.system()?;
+        system.align_measures(&self.system().measures);
+        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, cancel);
+        compiled.map(Some).ok_or(said)
     }
 
     /// The texts that its diagnostics speak of.

@@ -4,7 +4,8 @@ use super::{Compiled, RunOptions};
 use crate::analysis::{self, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::emit::{self, File, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::program::Program;
 use crate::solver::BlockTables;
 use std::sync::Arc;
 
@@ -38,7 +39,11 @@ impl Compiled {
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
         let mut said = Diagnostics::default();
-        match self.unit(options, &mut said) {
+        let signals = match self.signals_for_code(options) {
+            Ok(signals) => signals,
+            Err(why) => return (None, why),
+        };
+        match self.unit(options, signals.as_ref(), &mut said) {
             Ok(unit) => (Some(emit::rust(&unit)), said),
             Err(why) => (None, (*why).into()),
         }
@@ -49,7 +54,11 @@ impl Compiled {
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
         let mut said = Diagnostics::default();
-        let made = self.unit(options, &mut said).and_then(|unit| {
+        let signals = match self.signals_for_code(options) {
+            Ok(signals) => signals,
+            Err(why) => return (None, why),
+        };
+        let made = self.unit(options, signals.as_ref(), &mut said).and_then(|unit| {
             let reference = self.reference(&mut said)?;
             Ok(emit::package(&unit, &reference, name))
         });
@@ -59,12 +68,37 @@ impl Compiled {
         }
     }
 
-    fn unit<'u>(&'u self, options: &'u RustOptions, said: &mut Diagnostics) -> Result<Unit<'u>, Box<Diagnostic>> {
-        let motion = if options.with_motion { Some(self.motion(said)?) } else { None };
-        let (system, program, sources) = (self.system(), &**self.program(), self.sources());
+    /// The mechanism with its inputs as signals, where it has any and is to be solved.
+    fn signals_for_code(&self, options: &RustOptions) -> Result<Option<Signals>, Diagnostics> {
+        if !options.with_motion {
+            return Ok(None);
+        }
+        let compiled = self.signals(&Cancel::default())?;
+        Ok(compiled.map(|compiled| Signals { given: compiled.program().with_signals_given(), compiled }))
+    }
+
+    fn unit<'u>(
+        &'u self,
+        options: &'u RustOptions,
+        signals: Option<&'u Signals>,
+        said: &mut Diagnostics,
+    ) -> Result<Unit<'u>, Box<Diagnostic>> {
+        let program = &**self.program();
+        let motion = if options.with_motion { Some(self.motion(program, said)?) } else { None };
+        let (system, sources) = (self.system(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;
         let (lanes, largest_straight) = (*lanes, *largest_straight);
-        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight };
+        let following = match signals {
+            None => None,
+            Some(Signals { compiled, given: program }) => {
+                // of the assembly all is said already
+                let motion = Some(compiled.motion(program, &mut Diagnostics::default())?);
+                let system = compiled.system();
+                let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following: None };
+                Some(Following { unit: Box::new(unit), by_text: compiled.program() })
+            }
+        };
+        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following };
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
@@ -72,13 +106,13 @@ impl Compiled {
         Ok(unit)
     }
 
-    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s.
-    fn motion(&self, said: &mut Diagnostics) -> Result<Motion, Box<Diagnostic>> {
+    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s, by the operations of a program.
+    fn motion(&self, program: &Program, said: &mut Diagnostics) -> Result<Motion, Box<Diagnostic>> {
         let from = self.analysis().map_or(0.0, |[from, ..]| from);
-        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        let mut started = analysis::start(determined, program, from, analysis::TOLERANCE, &Cancel::default())?;
+        let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        let mut started = analysis::start(determined, own, from, analysis::TOLERANCE, &Cancel::default())?;
         said.extend(started.remarks());
-        let solver = started.solver_for_code().ok_or_else(|| Box::new(too_large()))?;
+        let solver = started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()))?;
         Ok(Motion {
             solver,
             blocks: BlockTables::new(self.determined()),
@@ -128,6 +162,13 @@ impl Compiled {
         said.extend(why);
         Ok(Reference { columns, rows, steps: number - 1, every, stopped })
     }
+}
+
+/// A mechanism with its inputs as signals.
+struct Signals {
+    compiled: Compiled,
+    /// Its program without the operations that say what they are by the text.
+    given: Program,
 }
 
 fn too_large() -> Diagnostic {
