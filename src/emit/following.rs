@@ -291,10 +291,12 @@ impl Inputs {
     #[must_use]
     pub fn at(t: f64, params: &Params) -> Self {
         let all = following::by_text(t, params);
-        let order = |order: usize| core::array::from_fn(|k| all.get(3 * k + order).copied().unwrap_or(f64::NAN));
+        let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
+        let order = |order: usize| core::array::from_fn(|k| get(3 * k + order));
         Self::of(&order(0), &order(1), &order(2))
     }
 
+    #[rustfmt::skip]
     fn of(values: &[f64; SIGNALS], rates: &[f64; SIGNALS], accelerations: &[f64; SIGNALS]) -> Self {
         let of = |list: &[f64; SIGNALS], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
         let signal = |k: usize| Signal {
@@ -307,6 +309,7 @@ $made        }
     }
 
     /// Values, rates and accelerations.
+    #[rustfmt::skip]
     fn lists(&self) -> ([f64; SIGNALS], [f64; SIGNALS], [f64; SIGNALS]) {
         let all = [$all];
         (all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration))

@@ -135,6 +135,8 @@ pub(super) struct Led {
     is_second: bool,
     /// Whether the one before lies on the same smooth motion.
     is_smooth: bool,
+    /// The change of a signal that goes well in a step.
+    stride: f64,
 }
 
 impl Led {
@@ -144,6 +146,7 @@ impl Led {
             solutions: [Solution::ZERO, Solution::ZERO],
             is_second: false,
             is_smooth: false,
+            stride: f64::INFINITY,
         }
     }
 
@@ -191,14 +194,18 @@ impl Led {
         let [first, second] = &mut self.solutions;
         let now = if self.is_second { second } else { first };
         now.t = 0.0;
-        // the step that goes well, and the solution at the beginning, once it is behind the one before
-        let (mut step, mut home) = (1.0, None);
+        let length = way.direction().into_iter().map(f64::abs).fold(0.0, larger);
+        let stride = self.stride;
+        // the solution at the beginning, once it is behind the one before
+        let mut home = None;
         for _ in 0..most {
             let now = self.at().t;
-            let wanted = if step >= 0.999 * (1.0 - now) {
-                1.0
-            } else {
+            let step = f64::max(self.stride / length, SMALLEST_STEP);
+            // no crumb at the end; a way without length is one step
+            let wanted = if step < 0.999 * (1.0 - now) {
                 now + step
+            } else {
+                1.0
             };
 //# if of_time
             let next = first_edge(now, wanted, &self.model);
@@ -208,22 +215,26 @@ impl Led {
 //# end
             let (is_last, size) = (next >= 1.0, next - now);
             match self.advance(next, is_last, steepness) {
-                Ok(_) if is_last => return Ok(()),
                 Ok(is_calm) => {
+                    if is_calm {
+                        self.stride = f64::max(self.stride, 2.0 * size * length);
+                    } else if length > 0.0 {
+                        self.stride = f64::min(self.stride, size * length);
+                    }
+                    if is_last {
+                        return Ok(());
+                    }
                     if home.is_none() {
                         home = Some(self.other().clone());
                     }
-                    step = if is_calm {
-                        f64::max(step, 2.0 * size)
-                    } else {
-                        f64::min(step, size)
-                    };
                 }
                 Err(fault) => {
-                    step = 0.5 * size;
+                    let half = 0.5 * size;
+                    self.stride = half * length;
                     self.is_smooth = false;
-                    if step < SMALLEST_STEP || now + step == now {
+                    if half < SMALLEST_STEP || now + half == now {
                         let why = self.explain(fault, next, steepness);
+                        self.stride = stride;
                         let way = &mut self.model.way;
                         (way.from, way.to, way.rates, way.accelerations) = before;
                         if let Some(home) = home {
@@ -321,9 +332,7 @@ impl Led {
         to.measures = at.measures;
 //# end
 //# if time
-        if let [.., t] = at.signals {
-            to.t = t;
-        }
+        [.., to.t] = at.signals;
 //# end
     }
 
