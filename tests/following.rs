@@ -305,6 +305,44 @@ fn main() {
 }
 
 #[test]
+fn lanes_follow_as_each_alone() {
+    let lines = printed(
+        &emitted(&text_of("slider_crank")).text(Some(3)),
+        r#"
+fn main() {
+    let params: [Params; 3] =
+        std::array::from_fn(|k| Params { crank_length: 0.05 - 0.002 * k as f64, ..Params::default() });
+    let mut all = lanes::assemble(&params).unwrap().0;
+    let mut each = params.map(|params| assemble(&params).unwrap());
+    for row in 0..200 {
+        let times: [f64; 3] = std::array::from_fn(|k| 0.01 * f64::from(row) * (1.0 + 0.1 * k as f64));
+        // inputs, time, and what cannot be
+        let lost = Inputs { t: f64::NAN, ..Inputs::default() };
+        let done = match row % 5 {
+            0 => lanes::step_each(&times, &mut all),
+            1 => lanes::follow_each(&[lost; 3], &mut all),
+            _ => lanes::follow_each(&std::array::from_fn(|k| Inputs::at(times[k], &params[k])), &mut all),
+        };
+        for (k, state) in each.iter_mut().enumerate() {
+            let alone = match row % 5 {
+                0 => step(times[k], state),
+                1 => follow(&lost, state),
+                _ => follow(&Inputs::at(times[k], &params[k]), state),
+            };
+            assert_eq!(alone, done[k], "{row}");
+            let lane = all.get(k).unwrap();
+            assert_eq!(lane.row().map(f64::to_bits), state.row().map(f64::to_bits), "lane {k} at {}", times[k]);
+            assert_eq!(lane.inputs(), state.inputs());
+        }
+        println!("{}", all.t()[0]);
+    }
+}
+"#,
+    );
+    assert_eq!(lines.len(), 200);
+}
+
+#[test]
 fn without_inputs_there_is_nothing_to_follow() {
     let text = text_of("four_bar");
     let formula = "30 deg + 1.5 rad * sin(2 rad/s * t)";
