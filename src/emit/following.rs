@@ -133,6 +133,11 @@ impl Module<'_> {
             }
             None => solve,
         };
+        text += &of_led(&writer.sensitivity(solution, &wanted).replacen(
+            "pub fn sensitivity",
+            "pub(super) fn sensitivity",
+            1,
+        ));
         text += &of_led(&(writer.conditions() + &writer.watches() + &writer.sides(of_time, has_motion, &wanted)));
         text = writer.filled(&text, solution);
         text += &self.functions();
@@ -211,33 +216,10 @@ impl Module<'_> {
             });
         }
         if has_pivoting {
-            text += &self.rights_by_signal();
+            text += &writer.rights("signal", &outputs.by_signal, "SIGNALS");
             text += &of_led(&writer.measures().replace("pub fn measures", "fn measures"));
         }
         text
-    }
-
-    /// The right sides for the derivatives of the coordinates by signals.
-    fn rights_by_signal(&self) -> String {
-        let all: Vec<Register> = self.writer.unit.program.outputs.by_signal.iter().flatten().copied().collect();
-        let function = self.writer.equations.function(&Wanted {
-            name: "all_rights_by_signal",
-            docs: "The partial derivatives of the equations by each signal, negated, one behind the other.",
-            is_public: false,
-            orders: 1,
-            has_time: true,
-            outputs: &all,
-            length: "N * SIGNALS",
-            negated: false,
-            given: Given::All,
-        });
-        let (argument, call) = if self.writer.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
-        format!(
-            "/// The right sides of the equations for the derivatives of the coordinates by each signal.\n\
-             fn rights_by_signal(q: &Q, t: f64, p: &Way{argument}) -> [Q; SIGNALS] {{\n    \
-             let mut all = all_rights_by_signal(q, t, p{call}).into_iter();\n    \
-             core::array::from_fn(|_| core::array::from_fn(|_| all.next().unwrap_or(f64::NAN)))\n}}\n\n"
-        ) + &function
     }
 }
 

@@ -60,6 +60,8 @@ pub struct Following<'u> {
 pub struct Motion {
     /// The operations that solve the system, laid out for code.
     pub solver: Solver,
+    /// The same with the derivatives of the coordinates by parameters, where these are wanted.
+    pub sensitive: Option<Solver>,
     /// For elimination with partial pivoting; none where a block is too large.
     pub blocks: Option<BlockTables>,
     /// The assembled position [m, rad].

@@ -27,6 +27,7 @@ const LANES: &str = include_str!("runtime/lanes.rs");
 const LARGE: &str = include_str!("runtime/large.rs");
 pub(super) const RUN: &str = include_str!("runtime/tables.rs");
 const WITHOUT_BRANCHES: &str = include_str!("../math/without_branches.rs");
+const SENSITIVITY: &str = include_str!("runtime/sensitivity.rs");
 const FUNCTIONS: &str = include_str!("runtime/functions.rs");
 
 /// Systems up to this many coordinates get their Jacobian as a full matrix too.
@@ -431,6 +432,7 @@ impl Writer<'_> {
             Some(book) => solution.as_numbers(&self.large(solution, &wanted), &mut book.borrow_mut()),
             None => solve,
         };
+        text += &self.sensitivity(solution, &wanted);
         text += &conditions;
         text += &self.watches();
         text += &self.sides(of_time, has_motion, &wanted);
@@ -520,6 +522,59 @@ impl Writer<'_> {
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)
+    }
+
+    /// The derivatives by parameters, where these are wanted.
+    pub fn sensitivity(&self, solution: &Solution<'_>, wanted: &[(&str, bool)]) -> String {
+        let Some(function) = solution.sensitive_function() else {
+            return String::new();
+        };
+        let mut text = String::new();
+        if !self.equations.is_led {
+            let params = &self.unit.system.params;
+            text += &format!("/// Number of parameters.\npub const PARAMS: usize = {};\n\n", params.len());
+            text += "/// Where each parameter stands in what [`sensitivity`] gives.\npub mod param {\n";
+            let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
+            for (k, (param, name)) in params.iter().zip(&names).enumerate() {
+                text += &format!(
+                    "    /// `{}` ({})\n    pub const {name}: usize = {k};\n",
+                    one_line(&param.name),
+                    param.unit
+                );
+            }
+            text += "}\n\n";
+        }
+        text += &chosen(SENSITIVITY, wanted);
+        text += &function;
+        if solution.motion.blocks.is_some() {
+            text += &self.rights("param", &self.unit.program.outputs.by_param, "PARAMS");
+        }
+        text
+    }
+
+    /// The right sides for the derivatives of the coordinates by signals or parameters.
+    pub fn rights(&self, by: &str, lists: &[Vec<Register>], count: &str) -> String {
+        let all: Vec<Register> = lists.iter().flatten().copied().collect();
+        let name = format!("all_rights_by_{by}");
+        let function = self.equations.function(&Wanted {
+            name: &name,
+            docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            outputs: &all,
+            length: &format!("N * {count}"),
+            negated: false,
+            given: Given::All,
+        });
+        let (argument, call) = if self.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
+        let of = if self.equations.is_led { "Way" } else { "Params" };
+        format!(
+            "/// The right sides of the equations for the derivatives of the coordinates by each {by}.\n#[rustfmt::skip]\n\
+             fn rights_by_{by}(q: &Q, t: f64, p: &{of}{argument}) -> [Q; {count}] {{\n    \
+             let mut all = {name}(q, t, p{call}).into_iter();\n    \
+             core::array::from_fn(|_| core::array::from_fn(|_| all.next().unwrap_or(f64::NAN)))\n}}\n\n"
+        ) + &function
     }
 
     /// The module for several lanes.

@@ -7,7 +7,7 @@ use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::{constant, documented, lines, literal};
 use super::{Motion, Unit};
 use crate::program::{Column, Register};
-use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment};
+use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment, Solver};
 use rustc_hash::FxHashMap;
 
 /// Steps over the whole span at least, as those of the interpreter.
@@ -27,7 +27,11 @@ pub(super) struct Solution<'s> {
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
         let mut solution = Solution { unit, motion, equations, known: FxHashMap::default() };
-        for op in motion.solver.all_operations() {
+        let operations = || {
+            let sensitive = motion.sensitive.iter().flat_map(Solver::all_operations);
+            motion.solver.all_operations().iter().chain(sensitive)
+        };
+        for op in operations() {
             if let Some((table, column)) = column_of(*op)
                 && !equations.is_constant(table, column)
             {
@@ -35,7 +39,7 @@ impl<'s> Solution<'s> {
                 unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
             }
         }
-        for op in motion.solver.all_operations() {
+        for op in operations() {
             if let Op::Load { from, .. } = *op
                 && from >= unit.program.inputs.time
                 && !unit.program.inputs.all_signals().contains(&from)
@@ -116,7 +120,37 @@ impl<'s> Solution<'s> {
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         let layout = *solver.layout();
-        code.print(&SolverScene { solution: self, layout, has_lanes }, &function)
+        code.print(&SolverScene { solution: self, solver, layout, has_lanes }, &function)
+    }
+
+    /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
+    pub fn sensitive_function(&self) -> Option<String> {
+        let solver = self.motion.sensitive.as_ref()?;
+        let code =
+            Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
+        let has_sides = !self.equations.sides.is_empty();
+        let arguments = [
+            ("guess", "&[f64; TEARS]"),
+            ("t", "f64"),
+            ("m", "&Model"),
+            ("sides", "&Sides"),
+            ("at", "&mut Solution"),
+            ("by", "&mut [Q; PARAMS]"),
+        ];
+        let arguments = arguments.into_iter().filter(|(name, _)| has_sides || *name != "sides");
+        let function = Function {
+            name: "solve_by_params",
+            docs: format!(
+                "As [`solve`], with the derivatives of the coordinates by parameters.\n\n{} operations.",
+                code.count()
+            ),
+            is_public: false,
+            arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
+            out: Out::Given { begin: "at.begin(t);" },
+            margin: 0,
+        };
+        let layout = *solver.layout();
+        Some(code.print(&SolverScene { solution: self, solver, layout, has_lanes: false }, &function))
     }
 
     /// The function that reads its operations from lists of numbers, with these lists.
@@ -344,6 +378,7 @@ pub(super) fn wrapped(text: &str) -> String {
 
 struct SolverScene<'s> {
     solution: &'s Solution<'s>,
+    solver: &'s Solver,
     layout: RowLayout,
     has_lanes: bool,
 }
@@ -394,8 +429,12 @@ impl Scene for SolverScene<'_> {
 
     fn place(&self, column: u32) -> String {
         if let Some(k) = column.checked_sub(self.layout.by_signal) {
-            let n = self.solution.unit.program.inputs.n;
-            return format!("at.by_signal[{}][{}]", k / n, k % n);
+            let inputs = &self.solution.unit.program.inputs;
+            let (number, k) = (k / inputs.n, k % inputs.n);
+            return match number.checked_sub(inputs.count) {
+                None => format!("at.by_signal[{number}][{k}]"),
+                Some(param) => format!("by[{param}][{k}]"),
+            };
         }
         match self.kind(column) {
             (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
@@ -438,7 +477,7 @@ impl Scene for SolverScene<'_> {
     }
 
     fn act(&self, op: Op, value: &str) -> String {
-        let Motion { solver, bounds, .. } = self.solution.motion;
+        let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
         match (op, self.has_lanes) {
             (Op::Pivot { pivot, .. }, has_lanes) => {
                 let pivot = solver.pivots()[pivot as usize];
@@ -454,7 +493,7 @@ impl Scene for SolverScene<'_> {
     }
 
     fn watch(&self, weight: u32, value: &str) -> String {
-        let weight = self.solution.motion.solver.weight(weight);
+        let weight = self.solver.weight(weight);
         if self.has_lanes {
             return strain(value, weight / LARGEST_MULTIPLIER);
         }

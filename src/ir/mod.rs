@@ -46,6 +46,8 @@ pub struct ConstraintSystem {
     pub has_signals: bool,
     /// By signal: the right side of the equation for the derivatives of `q` by it, `−Φ_u` [unit of the row / that of the signal].
     pub by_signal: Vec<Vec<ExprId>>,
+    /// Likewise by parameter, `−Φ_p`, where that is asked for.
+    pub by_param: Vec<Vec<ExprId>>,
     /// The bodies, each with three coordinates; those of the joints come after them.
     pub bodies: Vec<Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
@@ -455,6 +457,7 @@ impl ConstraintSystem {
         let of = |list: &[ExprId]| kept.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
         (self.nu, self.gamma, self.jerk) = (of(&self.nu), of(&self.gamma), self.jerk.as_deref().map(of));
         self.by_signal = self.by_signal.iter().map(|list| of(list)).collect();
+        self.by_param = self.by_param.iter().map(|list| of(list)).collect();
         self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
         self.phi_q = phi_q;
         for check in &checks {

@@ -72,6 +72,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         inputs: Vec::new(),
         has_signals: model.has_signals,
         by_signal: Vec::new(),
+        by_param: Vec::new(),
         bodies: model
             .bodies
             .iter()

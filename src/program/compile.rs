@@ -27,8 +27,10 @@ impl Program {
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
-        outputs.by_signal =
-            system.by_signal.iter().map(|list| layout.place(Stage::Velocity, list.iter().copied())).collect();
+        let mut rights = |lists: &[Vec<ExprId>]| {
+            lists.iter().map(|list| layout.place(Stage::Velocity, list.iter().copied())).collect()
+        };
+        (outputs.by_signal, outputs.by_param) = (rights(&system.by_signal), rights(&system.by_param));
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
@@ -80,7 +82,7 @@ impl<'s> Layout<'s> {
             table_layouts: Vec::new(),
             reached: FxHashMap::default(),
             inputs: Inputs { params: 0, time: params, coordinates, n, signals, by_signal, count },
-            next: by_signal + n * count,
+            next: by_signal + n * (count + system.by_param.len() as u32),
         }
     }
 

@@ -300,7 +300,7 @@ pub struct Inputs {
     pub n: u32,
     /// First signal: value, rate and acceleration of each, one behind the other.
     pub signals: Register,
-    /// First of the derivatives of `q` by each signal, `n` for each.
+    /// First of the derivatives of `q` by each signal, and then by each parameter where these are asked for; `n` for each.
     pub by_signal: Register,
     /// Number of signals.
     pub count: u32,
@@ -340,6 +340,8 @@ pub struct Outputs {
     pub jerk: Vec<Register>,
     /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.
     pub by_signal: Vec<Vec<Register>>,
+    /// Likewise by parameter, where that is asked for.
+    pub by_param: Vec<Vec<Register>>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.
@@ -363,8 +365,8 @@ impl Outputs {
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let of_signals = self.by_signal.iter().chain(&self.terms);
-        lists.into_iter().chain(more).chain(of_signals).flatten().for_each(|&register| show(register));
+        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms);
+        lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
         for rim in &self.rims {
             [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));
         }
@@ -438,6 +440,14 @@ impl Program {
         let stays = |switch: &Switch| written.contains(&switch.to);
         let switches = self.switches.iter().copied().filter(stays).collect();
         Program { operations, switches, ..self.clone() }
+    }
+
+    /// The same without results by parameter.
+    #[must_use]
+    pub fn without_params(&self) -> Program {
+        let mut program = self.clone();
+        program.outputs.by_param.clear();
+        program
     }
 
     /// The tables, by their number.

@@ -455,18 +455,18 @@ impl<'s, V: Values> Builder<'s, V> {
                 }
             }
         }
-        for signal in 0..outputs.by_signal.len() {
-            self.derivatives_by(signal, block, factors);
+        for (number, right) in outputs.by_signal.iter().chain(&outputs.by_param).enumerate() {
+            self.derivatives_by(number as u32, right, block, factors);
         }
     }
 
-    /// The derivatives of a block's coordinates by a signal.
-    fn derivatives_by(&mut self, signal: usize, block: &Block, factors: &Factors) {
+    /// The derivatives of a block's coordinates by a signal or parameter, whose number counts all of these.
+    fn derivatives_by(&mut self, number: u32, right: &[Register], block: &Block, factors: &Factors) {
         let outputs = &self.program.outputs;
-        let first = self.program.inputs.by_signal + signal as u32 * self.program.inputs.n;
+        let first = self.program.inputs.by_signal + number * self.program.inputs.n;
         let mut sums = Vec::with_capacity(block.rows.len());
         for &row in &block.rows {
-            let mut sum = self.value(outputs.by_signal[signal][row as usize]);
+            let mut sum = self.value(right[row as usize]);
             for (at, column) in self.entries_outside(block, row) {
                 let slope = self.value(outputs.phi_q[at]);
                 let rate = self.value(first + column);
@@ -479,7 +479,7 @@ impl<'s, V: Values> Builder<'s, V> {
         for (&column, &slope) in block.columns.iter().zip(&slopes) {
             self.know(first + column, slope);
             let a = self.tape.register(slope);
-            let column = self.layout.by_signal + signal as u32 * self.program.inputs.n + column;
+            let column = self.layout.by_signal + number * self.program.inputs.n + column;
             self.tape.act(Op::Store { column, a });
         }
     }

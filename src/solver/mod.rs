@@ -139,7 +139,7 @@ pub struct RowLayout {
     pub coordinates: [u32; 4],
     /// First column of the measures, and of their first and second derivatives.
     pub measures: [u32; 3],
-    /// First column of the derivatives of `q` by each signal, which are behind all others.
+    /// First column of the derivatives of `q` by each signal and parameter, which are behind all others.
     pub by_signal: u32,
     /// Columns that the table has.
     pub printed: usize,
@@ -165,7 +165,7 @@ impl RowLayout {
         coordinates[3] = next;
         let printed = next as usize;
         let by_signal = if system.jerk.is_some() { next + n } else { next };
-        let stride = (by_signal + n * system.by_signal.len() as u32) as usize;
+        let stride = (by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32) as usize;
         RowLayout { coordinates, measures, by_signal, printed, stride }
     }
 }

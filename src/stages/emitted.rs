@@ -20,6 +20,8 @@ pub struct RustOptions {
     pub file: String,
     /// Whether it assembles the mechanism and follows its motion, beside evaluating the equations.
     pub with_motion: bool,
+    /// Whether it gives the derivatives of the coordinates by the parameters too.
+    pub with_sensitivities: bool,
     /// How many variants or times are solved at once, beside one alone.
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as tables instead of lines.
@@ -30,7 +32,9 @@ impl RustOptions {
     /// All of one mechanism, from a file.
     #[must_use]
     pub fn of(file: impl Into<String>) -> RustOptions {
-        RustOptions { file: file.into(), with_motion: true, lanes: None, largest_straight: LARGEST_STRAIGHT }
+        let (with_motion, with_sensitivities) = (true, false);
+        let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
+        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, largest_straight }
     }
 }
 
@@ -38,32 +42,39 @@ impl Compiled {
     /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
-        let mut said = Diagnostics::default();
-        let signals = match self.signals_for_code(options) {
-            Ok(signals) => signals,
-            Err(why) => return (None, why),
-        };
-        match self.unit(options, signals.as_ref(), &mut said) {
-            Ok(unit) => (Some(emit::rust(&unit)), said),
-            Err(why) => (None, (*why).into()),
-        }
+        self.emitted(options, |unit, _| Ok(emit::rust(unit)))
     }
 
     /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
     /// first second. Where the motion stops on its way, what is said tells why.
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
-        let mut said = Diagnostics::default();
-        let signals = match self.signals_for_code(options) {
+        self.emitted(options, |unit, said| {
+            let reference = self.reference(said)?;
+            Ok(emit::package(unit, &reference, name))
+        })
+    }
+
+    /// What is made of a unit; with what is to be said of it.
+    fn emitted<T>(
+        &self,
+        options: &RustOptions,
+        make: impl FnOnce(&Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
+    ) -> (Option<T>, Diagnostics) {
+        let by_params = if options.with_sensitivities { self.by_params().map(Some) } else { Ok(None) };
+        let by_params = match by_params {
+            Ok(compiled) => compiled,
+            Err(why) => return (None, why),
+        };
+        let compiled = by_params.as_ref().unwrap_or(self);
+        let signals = match compiled.signals_for_code(options) {
             Ok(signals) => signals,
             Err(why) => return (None, why),
         };
-        let made = self.unit(options, signals.as_ref(), &mut said).and_then(|unit| {
-            let reference = self.reference(&mut said)?;
-            Ok(emit::package(&unit, &reference, name))
-        });
+        let mut said = Diagnostics::default();
+        let made = compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(&unit, &mut said));
         match made {
-            Ok(files) => (Some(files), said),
+            Ok(made) => (Some(made), said),
             Err(why) => (None, (*why).into()),
         }
     }
@@ -99,6 +110,10 @@ impl Compiled {
             }
         };
         let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following };
+        if options.with_sensitivities && emit::is_large(&unit) {
+            let why = format!("sensitivities are for mechanisms of up to {largest_straight} operations");
+            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out")));
+        }
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
@@ -112,9 +127,14 @@ impl Compiled {
         let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
         let mut started = analysis::start(determined, own, from, analysis::TOLERANCE, &Cancel::default())?;
         said.extend(started.remarks());
-        let solver = started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()))?;
+        let mut solver_of =
+            |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
+        let by_params = !program.outputs.by_param.is_empty();
+        let solver = solver_of(&program.without_params())?;
+        let sensitive = if by_params { Some(solver_of(program)?) } else { None };
         Ok(Motion {
             solver,
+            sensitive,
             blocks: BlockTables::new(self.determined()),
             q: started.q().to_vec(),
             bounds: started.bounds(),
