@@ -9,7 +9,7 @@ mod support;
 mod compiling;
 
 use compiling::{Emitted, compile};
-use mechc::{Choice, Memory, Parsed};
+use mechc::{Choice, Memory, Parsed, RustOptions};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
@@ -340,6 +340,199 @@ fn main() {
 "#,
     );
     assert_eq!(lines.len(), 200);
+}
+
+/// The largest difference of `sensitivity` and differences of assembled variants, led by time and then by inputs.
+fn sensitivities(text: &str, fields: [&str; 2], is_led: bool) -> Vec<[f64; 2]> {
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let (module, said) = emitted(text).compiled.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{said:?}"));
+    let program = r#"
+fn main() {
+    let p = Params::default();
+    for is_led in LED {
+        let at = |p: Params| {
+            let mut state = assemble(&p).unwrap();
+            if is_led { LEAD } else { step(0.3, &mut state).unwrap() }
+            state
+        };
+        let state = at(p);
+        let by = sensitivity(&p, &state).unwrap();
+        let h = 1e-5;
+        let variants = [Params { FIRST: p.FIRST + h, ..p }, Params { FIRST: p.FIRST - h, ..p },
+            Params { SECOND: p.SECOND + h, ..p }, Params { SECOND: p.SECOND - h, ..p }].map(at);
+        for i in 0..N {
+            for (k, [plus, minus]) in [(param::FIRST_INDEX, [0, 1]), (param::SECOND_INDEX, [2, 3])] {
+                let slope = (variants[plus].q()[i] - variants[minus].q()[i]) / (2.0 * h);
+                println!("{slope:?} {:?}", by[k][i]);
+            }
+        }
+        // others than the state's own are those of a position beside it
+        let beside = sensitivity(variants[0].params(), &state).unwrap();
+        assert_ne!(beside, by);
+        println!("{:?} {:?}", beside[0][3], sensitivity(variants[0].params(), &variants[0]).unwrap()[0][3]);
+        assert_eq!(sensitivity(&Params { FIRST: f64::NAN, ..p }, &state), Err(Error::NotANumber));
+    }
+}
+"#;
+    let lead = if is_led { "follow(&Inputs::at(0.3, &Params::default()), &mut state).unwrap()" } else { "()" };
+    let program = program
+        .replace("LED", if is_led { "[false, true]" } else { "[false]" })
+        .replace("LEAD", lead)
+        .replace("FIRST_INDEX", &fields[0].to_uppercase())
+        .replace("SECOND_INDEX", &fields[1].to_uppercase())
+        .replace("FIRST", fields[0])
+        .replace("SECOND", fields[1]);
+    let lines = printed(&module, &program);
+    let pair = |line: &String| <[f64; 2]>::try_from(numbers(line)).expect("two numbers");
+    lines.iter().map(pair).collect()
+}
+
+#[test]
+fn sensitivities_are_what_differences_say() {
+    let by_speed = text_of("four_bar")
+        .replace("param crank_length", "param sway = 1.5\n    param crank_length")
+        .replace("1.5 rad", "sway * 1 rad");
+    let formula = "30 deg + sway * 1 rad * sin(2 rad/s * t)";
+    let by_time =
+        by_speed.replace(&format!("    input turn = {formula}\n"), "").replace("= turn", &format!("= {formula}"));
+    let found = [
+        // the input's formula counts as long as nobody leads
+        sensitivities(&by_speed, ["crank_length", "sway"], true),
+        sensitivities(&text_of("slider_crank"), ["crank_length", "rod_length"], true),
+        sensitivities(&by_time, ["crank_length", "sway"], false),
+    ];
+    for (found, count) in found.iter().zip([2 * 19, 2 * 25, 19]) {
+        assert_eq!(found.len(), count);
+        assert!(found.iter().any(|[slope, _]| slope.abs() > 0.1));
+        for [slope, got] in found {
+            assert!((slope - got).abs() < 1e-6 * (1.0 + slope.abs()), "{slope} {got}");
+        }
+    }
+    // the same equations: the same numbers, however they are led
+    assert_eq!(
+        found[0][..19].iter().map(|[_, got]| *got).collect::<Vec<_>>(),
+        found[2].iter().map(|[_, got]| *got).collect::<Vec<_>>()
+    );
+}
+
+#[test]
+fn sensitivities_that_are_not_there_are_told() {
+    let why = |text: &str, straight: usize| {
+        let options =
+            RustOptions { with_sensitivities: true, largest_straight: straight, ..RustOptions::of("machine.mech") };
+        let (module, said) = emitted(text).compiled.rust(&options);
+        assert!(module.is_none());
+        said.iter().map(|said| said.message.clone()).collect::<Vec<String>>().join("\n")
+    };
+    let text = text_of("slider_crank");
+    assert!(why(&text.replace("(2, 4 mm)", "(2, 0.1 * crank_length)"), 100_000).contains("table `lift`"));
+    assert!(why(&text, 0).contains("up to 0 operations"));
+    let without = text.replace("    param crank_length = 50 mm\n    param rod_length   = 150 mm\n", "");
+    let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
+    assert!(why(&without, 100_000).contains("has no parameters"));
+}
+
+/// Names of a kind in an emitted module, with what they are of: fields, constants, variants.
+fn emitted_names(text: &str) -> Vec<[String; 2]> {
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let module = emitted(text).compiled.rust(&options).0.expect("a module");
+    let lines: Vec<&str> = module.lines().map(str::trim).collect();
+    let mut found = Vec::new();
+    let mut group = "";
+    for pair in lines.windows(2) {
+        let is_group = ["pub struct ", "pub enum ", "pub mod "].iter().any(|word| pair[0].starts_with(word));
+        group = if is_group { pair[0] } else { group };
+        let Some((source, _)) = pair[0].strip_prefix("/// ").and_then(|docs| docs.split_once('`')?.1.split_once('`'))
+        else {
+            continue;
+        };
+        let declared = pair[1].trim_start_matches("pub ").trim_start_matches("const ");
+        let name: String = declared.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+        if ["pub const ", "pub "].iter().any(|word| pair[1].starts_with(word)) || pair[1].ends_with(',') {
+            found.push([format!("{group} {source}"), name]);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_new_declaration_changes_no_name_of_another() {
+    let text = "mechanism machine {
+            param leg_0_reach = 1 m
+            param Reach = 1 m
+            param A = (0, 0)
+            input leg_0_turn = t / 1 s
+            input swing[k in 0..2] = k + t / 1 s
+            ground { point O = (0, 0) }
+            body leg[k in 0..2] at (0, 0, 0) { point O = (0, 0)  point foot = (Reach + leg_0_reach + A.x, 0) }
+            joint pivot[k in 0..2]: revolute(ground.O, leg[k].O)
+            driver motor_0: rotation(pivot[0]) = leg_0_turn + swing[0]
+            driver motor_1: rotation(pivot[1]) = swing[1]
+            measure leg_0_x = x(leg[0].foot)
+            //+
+        }";
+    let before = emitted_names(text);
+    assert!(before.len() > 30, "{before:?}");
+    let added = [
+        "param reach = 2 m",
+        "param a_x = 2 m",
+        "param fn_ = 2",
+        "input turn = 2",
+        "input motor[k in 0..2] = k",
+        "input swing_0_turn = 1",
+        "measure leg_1_x = t / 1 s",
+        "measure leg_0_X = t / 1 s",
+        "measure leg_x[k in 0..2] = k * t",
+        "body arm at (0, 0, 0) { point O = (0, 0) }  joint hinge: revolute(ground.O, arm.O)  driver d: rotation(hinge) = t",
+        "body Leg_0 at (0, 0, 0) { point O = (0, 0) }  joint Pivot_0: revolute(ground.O, Leg_0.O)  driver Motor_0: rotation(Pivot_0) = t",
+        "body wing[k in 0..2] at (0, 0, 0) { point O = (0, 0) }  joint motor_0_1[k in 0..2]: revolute(ground.O, wing[k].O)
+         driver motor_2[k in 0..2]: rotation(motor_0_1[k]) = t",
+    ];
+    // a path gives way to what spells it, and of two that are alike the second
+    let gives_way = |declaration: &str, is_first: bool, source: &str| {
+        (declaration.contains("a_x") && source.ends_with(" A.x"))
+            || (declaration.contains("Leg_0") && (source.contains("leg[0]") || source.contains("pivot[0]")))
+            || (is_first && declaration.contains("Leg_0") && source.contains("motor_0"))
+            || (is_first && declaration.contains("reach = ") && source.ends_with(" Reach"))
+            || (is_first && declaration.contains("leg_0_X") && source.ends_with(" leg_0_x"))
+    };
+    for declaration in added {
+        // in front of all others, and behind them
+        for place in ["mechanism machine {", "//+"] {
+            let after = emitted_names(&text.replacen(place, &format!("{place}\n{declaration}\n"), 1));
+            assert!(after.len() > before.len(), "{declaration}");
+            for [source, name] in &before {
+                let now = after.iter().find(|[known, _]| known == source).unwrap_or_else(|| panic!("no {source}"));
+                assert!(
+                    now[1] == *name || gives_way(declaration, place != "//+", source),
+                    "{declaration}: {source} was {name}, is {}",
+                    now[1]
+                );
+            }
+            // and what meets is told apart
+            let mut all: Vec<(&str, &String)> =
+                after.iter().map(|[source, name]| (source.rsplit_once(' ').expect("a group").0, name)).collect();
+            let count = all.len();
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), count, "{declaration}: {after:?}");
+        }
+    }
+    // a plain name keeps it, whichever comes first
+    for declarations in ["param a_x = 2 m\n", ""] {
+        let text = text.replace("            param Reach", &format!("            {declarations}param Reach"));
+        let names = emitted_names(&text);
+        let of = |source: &str| {
+            names
+                .iter()
+                .find(|[known, _]| known.starts_with("pub struct Params") && known.ends_with(source))
+                .map(|found| found[1].clone())
+        };
+        let has = !declarations.is_empty();
+        assert_eq!(of(" A.x").as_deref(), Some(if has { "a_x_2" } else { "a_x" }));
+        assert_eq!(of(" a_x").as_deref(), has.then_some("a_x"));
+    }
 }
 
 #[test]

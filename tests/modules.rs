@@ -78,7 +78,8 @@ impl Batch {
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let folders = ["examples", "tests/cases", "tests/stages", "tests/following"];
+    let paths = folders.map(|folder| files(folder, "mech")).concat();
     let mut list: Vec<Module> = Vec::new();
     for path in paths {
         let names = mechanisms(&fs::read_to_string(&path).expect("a text"));

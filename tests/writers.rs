@@ -25,7 +25,8 @@ struct Emitted {
 
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
-    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let folders = ["examples", "tests/cases", "tests/stages", "tests/following"];
+    let paths = folders.map(|folder| files(folder, "mech")).concat();
     let mut list = Vec::new();
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");

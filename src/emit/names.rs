@@ -95,17 +95,13 @@ pub(super) enum Case {
 
 impl Case {
     /// Names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
-    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and then the one that is written as it is emitted (`r` before `R`): so a
-    /// declaration that is new takes the name of another only where that is a path that it spells.
+    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first. So what is declared behind others
+    /// takes a name only from a path that it spells.
     pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
         let sources: Vec<&str> = sources.into_iter().collect();
         let mut order: Vec<usize> = (0..sources.len()).collect();
         let is_path = |c: &char| ".[ ".contains(*c);
-        let rank = |source: &str| {
-            let is_spelled_otherwise = source.to_lowercase() != *source;
-            (source.chars().filter(is_path).count(), is_spelled_otherwise)
-        };
-        order.sort_by_key(|&k| rank(sources[k]));
+        order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
         let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
         for k in order {
             names[k] = match self {
@@ -217,7 +213,7 @@ mod tests {
         let names = |sources: [&'static str; 3]| Case::Constant.names(sources);
         assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
         assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);
-        assert_eq!(Case::Snake.names(["R", "r", "r_2"]), ["r_3", "r", "r_2"]);
+        assert_eq!(Case::Snake.names(["R", "r", "s"]), ["r", "r_2", "s"]);
         assert_eq!(Case::Camel.names(["leg[0]", "leg_0"]), ["Leg02", "Leg0"]);
     }
 

@@ -94,6 +94,30 @@ fn crate_name(folder: &str) -> String {
 const WITH_LIBM: &str = "It asks for the crate `libm`, for
 elementary functions with the same bits on every platform. Where cargo does not have that yet, `cargo fetch` gets it, once.";
 
+/// What holds `follow` against `step`. Positions alone: at an edge of an input's formula the rates have two sides.
+const FOLLOW: &str = "#[test]
+fn to_follow_what_the_text_says_is_to_step() -> Result<(), Error> {
+    let params = $params;
+    let mut state = assemble(&params)?;
+    for [t, ..] in ROWS {
+        step(t, &mut state)?;
+        let mut led = state.clone();
+        follow(&Inputs::at(t, &params), &mut led)?;
+        for (a, b) in led.q().iter().zip(state.q()) {
+            let is_same = (a - b).abs() <= 1e-9 * (1.0 + b.abs());
+            assert!(is_same, \"{a:?} is not {b:?} at {t} s\");
+        }
+    }
+    Ok(())
+}
+
+";
+
+/// What a page says of inputs.
+const INPUTS: &str = "Each is a `Signal`: its `value`, its `rate` and its `acceleration`, in SI. `step` takes what the text's formulas say of
+them, `follow` what it is given; after an error the state is as it was. Where formulas hold the time too, it is a plain number `t`.
+";
+
 struct Writer<'w> {
     unit: &'w Unit<'w>,
     reference: &'w Reference,
@@ -145,8 +169,17 @@ impl Writer<'_> {
             let values: Vec<String> = row.iter().copied().map(literal).collect();
             format!("    [\n{}    ],\n", lines(&values, "    "))
         };
-        let more =
-            [("names", lines(&names, "")), ("count", rows.len().to_string()), ("rows", rows.iter().map(row).collect())];
+        let is_followed = self.unit.following.is_some();
+        let (uses, follow) = if is_followed { ("Inputs, ", FOLLOW) } else { ("", "") };
+        let more_uses = if is_followed { ", follow" } else { "" };
+        let more = [
+            ("uses", uses.to_owned()),
+            ("more", more_uses.to_owned()),
+            ("follow", self.filled(follow, &[])),
+            ("names", lines(&names, "")),
+            ("count", rows.len().to_string()),
+            ("rows", rows.iter().map(row).collect()),
+        ];
         self.filled(TEST, &more)
     }
 
@@ -183,7 +216,7 @@ impl Writer<'_> {
             ("shown", shown),
             ("needs", needs.to_owned()),
             ("calls", self.calls()),
-            ("parameters", self.parameters()),
+            ("parameters", self.parameters() + &self.inputs()),
             ("bodies", self.bodies()),
             ("coordinates", self.coordinates()),
             ("measures", self.measures()),
@@ -215,6 +248,14 @@ impl Writer<'_> {
         if !system.measures.is_empty() {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
+        if self.unit.following.is_some() {
+            text += "| `follow(&inputs, &mut state)` | leads a state to `Inputs`, along the straight line between them; `follow_within` in so many steps at most |\n";
+            text += "| `Inputs::at(t, &params)`, `state.inputs()` | what the text's formulas say at a time; where a state is |\n";
+            text += "| `influence(&state)` | the derivatives of the coordinates by each input, by the numbers in `input` |\n";
+        }
+        if self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some()) {
+            text += "| `sensitivity(&params, &state)` | those by each parameter, by the numbers in `param` |\n";
+        }
         if let Some(lanes) = self.unit.lanes {
             text += &format!(
                 "| `lanes::assemble`, `lanes::step_each` | the same for {lanes} variants or times at once |\n"
@@ -239,6 +280,21 @@ impl Writer<'_> {
              | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}",
             literal(first.value)
         )
+    }
+
+    /// The fields of `Inputs`; nothing where there are none.
+    fn inputs(&self) -> String {
+        let inputs = &self.unit.system.inputs;
+        if self.unit.following.is_none() {
+            return String::new();
+        }
+        let names = Case::Snake.names(inputs.iter().map(|input| input.name.as_str()));
+        let rows: String = inputs
+            .iter()
+            .zip(names)
+            .map(|(input, name)| line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit)]))
+            .collect();
+        format!("\n## Inputs\n\n{INPUTS}\n| field of `Inputs` | input | unit |\n| --- | --- | --- |\n{rows}")
     }
 
     fn bodies(&self) -> String {
