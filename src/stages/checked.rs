@@ -1,10 +1,10 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
+use super::signals::WithSignals;
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Given, Setting, Surroundings, Symbols, TableFiles};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
-use crate::ir::ConstraintSystem;
 use crate::lower;
 use crate::model::Mechanism;
 use crate::source::Sources;
@@ -120,7 +120,7 @@ impl Checked {
         let has_inputs = self.model.as_ref().is_some_and(|model| !model.inputs.is_empty());
         let surroundings = Surroundings { has_signals: true, ..(*self.surroundings).clone() };
         let number = self.number.filter(|_| has_inputs)?;
-        Some(WithSignals { parsed: self.parsed.clone(), number, surroundings: Arc::new(surroundings) })
+        Some(WithSignals::new(self.parsed.clone(), number, surroundings))
     }
 
     fn with(
@@ -186,24 +186,6 @@ impl Checked {
                 (compiled.map(|compiled| compiled.with_signals(self.with_signals())), said)
             }
         }
-    }
-}
-
-/// What it takes to have a mechanism once more, with its inputs as signals.
-#[derive(Clone)]
-pub(super) struct WithSignals {
-    parsed: Parsed,
-    /// Its number in the file.
-    number: usize,
-    surroundings: Arc<Surroundings>,
-}
-
-impl WithSignals {
-    /// Its equations.
-    pub fn system(&self) -> Result<ConstraintSystem, Diagnostics> {
-        let tree = &self.parsed.tree().mechanisms[self.number];
-        let (model, said) = check::check(tree, &self.surroundings, self.parsed.sources());
-        model.as_ref().map(lower::lower).ok_or(said)
     }
 }
 

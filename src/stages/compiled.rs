@@ -1,6 +1,6 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
-use super::checked::WithSignals;
+use super::signals::WithSignals;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};

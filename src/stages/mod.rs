@@ -14,6 +14,7 @@ mod formula;
 mod imported;
 mod parsed;
 mod run;
+mod signals;
 
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
