@@ -1916,6 +1916,8 @@ impl Inputs {
     }
 }
 
+// who needs but some of it is not told so
+#[allow(unused_imports)]
 pub use following::{follow, follow_within, influence};
 
 /// What follows inputs: along a way from 0 to 1, on which `t` is a place.

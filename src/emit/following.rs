@@ -33,7 +33,7 @@ pub(super) fn module(following: &Following<'_>) -> String {
     let module = Module { writer: &writer, solution: &solution };
     let by_text = by_text(following, &names, &tables);
     inputs(&unit.system.inputs, &names)
-        + "pub use following::{follow, follow_within, influence};\n\n"
+        + "// who needs but some of it is not told so\n#[allow(unused_imports)]\npub use following::{follow, follow_within, influence};\n\n"
         + "/// What follows inputs: along a way from 0 to 1, on which `t` is a place.\n#[rustfmt::skip]\nmod following {\n    use super::*;\n\n"
         + indented(&(writer.tables() + &by_text + &module.text()), INDENT).trim_end()
         + "\n}\n\n"
@@ -61,13 +61,10 @@ fn inputs(all: &[Input], names: &Names) -> String {
     let of_time = |text: &str| if has_time { text.to_owned() } else { String::new() };
     let field = of_time("    /// The time (s), which formulas hold too; its rate is 1.\n    pub t: f64,\n");
     let time = of_time("Signal { value: self.t, rate: 1.0, acceleration: 0.0 }");
-    let made: String = names
-        .inputs
-        .iter()
-        .take(count)
-        .enumerate()
-        .map(|(k, name)| format!("            {name}: signal({k}),\n"))
-        .collect();
+    let mut made = String::new();
+    for (k, name) in names.inputs.iter().take(count).enumerate() {
+        made += &format!("            {name}: signal({k}),\n");
+    }
     let made = made + &of_time(&format!("            t: signal({count}).value,\n"));
     INPUTS
         .replace("$indices", &indices)

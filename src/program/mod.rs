@@ -428,7 +428,9 @@ impl Program {
                 let (reads, writes) = self.operands(op);
                 let is_needed = |&to: &Register| is_read[to as usize] && !signals.contains(&to);
                 if writes.iter().any(is_needed) {
-                    reads.into_iter().for_each(|register| is_read[register as usize] = true);
+                    for register in reads {
+                        is_read[register as usize] = true;
+                    }
                     kept.push(op);
                 }
             }
