@@ -50,7 +50,8 @@ fn numbers(line: &str) -> Vec<f64> {
 fn encoder(k: usize, signal: usize) -> f64 {
     let count = std::f64::consts::TAU / 4096.0;
     let t = 1e-3 * k as f64;
-    let way = [0.52, 1.571, 3.665, 5.76][signal] + 0.12 * (1.3 * t + 2.0 * signal as f64).sin() * (t * 7.0).sin();
+    let sin = |x: f64| mechc::rooms::math::sin_cos(x).0;
+    let way = [0.52, 1.571, 3.665, 5.76][signal] + 0.12 * sin(1.3 * t + 2.0 * signal as f64) * sin(7.0 * t);
     let jitter = [0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0][(k * (3 + signal)) % 7];
     ((way / count).round() + jitter) * count
 }
@@ -68,7 +69,7 @@ fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_ti
         Memory::default().with("samples.csv", csv),
     );
     let text = text_of(name).replace("to 3 s", "to 0.399 s");
-    let checked = Parsed::of("machine.mech", &*text).check(&choice, &world);
+    let checked = Parsed::of("machine.mech", &text).check(&choice, &world);
     let (compiled, said) = checked.compile(mechc::Redundant::Refused, &mechc::Cancel::default());
     let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
     let (rows, stop) = all_rows(&compiled, &compiled.times().expect("times"));
@@ -83,14 +84,12 @@ fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_ti
         let values: Vec<f64> = inputs.iter().enumerate().map(asked).flat_map(signal).collect();
         writeln!(program, "{:?},", [&row[..1], &values].concat()).expect("a string takes everything");
     }
-    let mut given: String = fields
-        .iter()
-        .enumerate()
-        .map(|(k, field)| {
-            let [value, rate, acceleration] = [1, 2, 3].map(|order| format!("s[{}]", 3 * k + order));
-            format!("{field}: Signal {{ value: {value}, rate: {rate}, acceleration: {acceleration} }}, ")
-        })
-        .collect();
+    let mut given = String::new();
+    for (k, field) in fields.iter().enumerate() {
+        let [value, rate, acceleration] = [1, 2, 3].map(|order| format!("s[{}]", 3 * k + order));
+        write!(given, "{field}: Signal {{ value: {value}, rate: {rate}, acceleration: {acceleration} }}, ")
+            .expect("a string takes everything");
+    }
     given += if has_time { "t: s[0]" } else { "" };
     write!(
         program,

@@ -19,7 +19,7 @@ pub(super) struct Equations<'e> {
     pub constants: FxHashMap<Register, f64>,
     /// The results of switches, by their places among the sides.
     pub sides: FxHashMap<Register, usize>,
-    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a [`Way`](super::following).
+    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Way`.
     pub is_led: bool,
     /// What operations written as numbers share; none where they are written as lines.
     pub book: Option<RefCell<Book>>,

@@ -5,7 +5,6 @@
 
 mod code;
 mod equations;
-mod following;
 mod json;
 mod latex;
 mod names;

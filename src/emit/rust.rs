@@ -1,9 +1,10 @@
 //! A mechanism as one Rust file: its equations, and what solves them.
 
+mod following;
+
 use super::Unit;
 use super::code::MODULE;
 use super::equations::{Equations, Given, Wanted};
-use super::following;
 use super::names::{Case, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};

@@ -3,19 +3,19 @@
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
-use super::Following;
-use super::equations::{Equations, Given, Wanted};
-use super::names::{Case, Names};
-use super::rust::{RUN, SOLVER, Writer, equations};
-use super::solution::Solution;
-use super::tables::Tables;
-use super::text::{chosen, indented, one_line};
+use super::{RUN, SOLVER, Writer, equations};
+use crate::emit::Following;
+use crate::emit::equations::{Equations, Given, Wanted};
+use crate::emit::names::{Case, Names};
+use crate::emit::solution::Solution;
+use crate::emit::tables::Tables;
+use crate::emit::text::{chosen, indented, one_line};
 use crate::expr::TIME_SIGNAL;
 use crate::ir::Input;
 use crate::program::Register;
 use rustc_hash::FxHashMap;
 
-const FOLLOW: &str = include_str!("runtime/follow.rs");
+const FOLLOW: &str = include_str!("../runtime/follow.rs");
 
 /// Columns that the module stands in.
 const INDENT: &str = "    ";
