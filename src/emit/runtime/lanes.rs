@@ -240,7 +240,10 @@ pub mod lanes {
     /// the other: lanes that follow share no vector instructions.
     ///
     /// What comes back says of each lane whether it has got there, and if not, why; it stays as it was.
-    pub fn follow_each(inputs: &[Inputs; LANES], states: &mut States) -> [Result<(), Error>; LANES] {
+    pub fn follow_each(
+        inputs: &[Inputs; LANES],
+        states: &mut States,
+    ) -> [Result<(), Error>; LANES] {
         let mut results = [Ok(()); LANES];
         for (k, (inputs, result)) in inputs.iter().zip(&mut results).enumerate() {
             let mut state = states.lane(k);
