@@ -275,7 +275,7 @@ fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: 
                 _ => rate(2),
             }
         }
-        Symbol::Named(_) => unreachable!("no named symbol is left"),
+        Symbol::Named(_) | Symbol::Signal { .. } => unreachable!("no named symbol is left, and no signal"),
     })
 }
 

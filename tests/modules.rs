@@ -78,7 +78,9 @@ impl Batch {
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let paths = [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech")].concat();
+    let paths =
+        [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech"), files("tests/following", "mech")]
+            .concat();
     let mut list: Vec<Module> = Vec::new();
     for path in paths {
         let names = mechanisms(&fs::read_to_string(&path).expect("a text"));

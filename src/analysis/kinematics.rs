@@ -495,9 +495,9 @@ impl Kinematics {
         Solver::new(&self.determined, &self.program, self)
     }
 
-    /// As [`Kinematics::solver`], to be written as code.
-    pub fn solver_for_code(&self) -> Option<Solver> {
-        Solver::for_code(&self.determined, &self.program, self)
+    /// As [`Kinematics::solver`], to be written as code; by a program for this system with the same registers.
+    pub fn solver_for_code_of(&self, program: &Program) -> Option<Solver> {
+        Solver::for_code(&self.determined, program, self)
     }
 
     /// The program with its registers, whose switches stand as they are in this step.

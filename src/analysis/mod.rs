@@ -182,11 +182,11 @@ impl Started {
         self.solver.as_deref()
     }
 
-    /// The same operations, to be written as code.
+    /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.
     #[must_use]
-    pub fn solver_for_code(&mut self) -> Option<Solver> {
+    pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
         self.kinematics.restore(&self.state);
-        self.kinematics.solver_for_code()
+        self.kinematics.solver_for_code_of(program)
     }
 
     /// By row of `Φ`: what may be left of it at the start.

@@ -7,7 +7,7 @@ use super::samples::{self, Column, Samples};
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::diag::nearest;
-use crate::expr::ExprId;
+use crate::expr::{ExprId, Symbol};
 use crate::model::{Condition, ConditionKind, Input};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Expr, ItemKind, Name};
@@ -144,7 +144,15 @@ impl Checker<'_> {
         let value = value.map(|value| self.with_shift(&declared, value));
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared, value: value.id });
+            let number = self.model.inputs.len();
+            let dimension = value.dim.settled();
+            self.model.inputs.push(Input { declared, number, value: value.id, dimension });
+            if self.model.has_signals {
+                // what the formula asks for is no concern of those that take what they are given
+                self.model.conditions.truncate(before);
+                let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
+                self.inputs[k].value = Some(Value { id, ..value });
+            }
         }
     }
 

@@ -94,6 +94,8 @@ pub struct Surroundings {
     pub lead: Option<Lead>,
     /// Names by which all columns are differentiated.
     pub by: Vec<String>,
+    /// Whether inputs stay signals in the model, rather than being replaced by what they are.
+    pub has_signals: bool,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -359,7 +361,10 @@ impl<'a> Checker<'a> {
             by: &surroundings.by,
             sources,
             diagnostics: Diagnostics::default(),
-            model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
+            model: Mechanism {
+                has_signals: surroundings.has_signals,
+                ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
+            },
             space: Space::new(),
             count: names::Count::default(),
             path: String::new(),

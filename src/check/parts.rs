@@ -139,8 +139,6 @@ impl<'a> Checker<'a> {
         self.wrong_kind(on.span, "a body", Self::describe(on));
         None
     }
-        }
-    }
 
     /// A part's frame: those of the poses of bodies that need no body.
     fn pose_of_part(&mut self, at: &Expr) -> Option<[ExprId; 3]> {

@@ -226,6 +226,8 @@ pub(super) enum EmitFormat {
 pub(super) enum Content {
     /// Assemble the mechanism and follow its motion, as `mechc run` does
     Solver,
+    /// The same, and the derivatives of the coordinates by each parameter
+    Sensitivities,
     /// Evaluate its equations only
     Equations,
 }

@@ -40,6 +40,13 @@ pub enum Symbol {
     Param(u32),
     /// Time, in seconds.
     Time,
+    /// A signal, or its time derivative of the given order: an input that is not inlined.
+    Signal {
+        /// Number of the signal.
+        index: u32,
+        /// 0 for its value, 1 for its rate, 2 for its acceleration, 3 for what nobody gives.
+        order: u8,
+    },
     /// A generalized coordinate, or its time derivative of the given order.
     Coordinate {
         /// Number of the coordinate.
@@ -61,6 +68,9 @@ pub enum Symbol {
         variation: u32,
     },
 }
+
+/// The number of the signal that time is where inputs are signals: its rate is 1, but along a way on which it is one of them.
+pub const TIME_SIGNAL: u32 = u32::MAX;
 
 /// Functions of one argument.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -244,7 +254,8 @@ impl Dependence {
     fn of(symbol: Symbol) -> Dependence {
         match symbol {
             Symbol::Param(_) | Symbol::Shift(_) => Self::PARAMS,
-            Symbol::Time => Self::TIME,
+            // of what it is nothing is known but that it changes with time
+            Symbol::Time | Symbol::Signal { .. } => Self::TIME,
             Symbol::Named(_) => Self::NAMED,
             Symbol::Coordinate { order, .. } => Self::coordinates(order),
             Symbol::Varied { order, .. } => Self::varied(order),

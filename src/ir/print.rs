@@ -10,6 +10,10 @@ impl ConstraintSystem {
         match symbol {
             Symbol::Param(k) => self.params[k as usize].name.clone(),
             Symbol::Time => "t".to_owned(),
+            Symbol::Signal { index, order } => {
+                let name = self.inputs.get(self.signal_place(index)).map_or("t", |input| &input.name);
+                if order == 0 { name.to_owned() } else { format!("{name}.{}", "d".repeat(order as usize)) }
+            }
             Symbol::Coordinate { index, order } => {
                 let name = &self.coordinates[index as usize].name;
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }

@@ -6,6 +6,7 @@ mod contacts;
 mod estimates;
 mod frames;
 mod gears;
+mod inputs;
 mod joints;
 mod parts;
 mod quantities;
@@ -15,7 +16,7 @@ mod uses;
 mod variations;
 mod velocities;
 
-use crate::expr::{Comparison, ExprId, Graph, Symbol};
+use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
     Owner, Param, Row, SparseRows, Units, Variations, Watch,
@@ -80,6 +81,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
                 span: p.declared.span,
             })
             .collect(),
+        inputs: Vec::new(),
+        has_signals: model.has_signals,
+        by_signal: Vec::new(),
+        by_param: Vec::new(),
         bodies: model
             .bodies
             .iter()
@@ -106,9 +111,11 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
-    system.derive(needs_jerk);
+    system.derive(needs_jerk && !model.has_signals);
     system.derive_variations();
     system.find_rims();
+    // late, so that what is there already is as it would be without
+    inputs::add(model, &mut system);
     if !model.outcomes.is_empty() {
         // what is asked of the whole analysis changes nothing above
         lowering.graph = std::mem::take(&mut system.graph);
@@ -156,6 +163,7 @@ fn carry(
 ) -> ExprId {
     graph.import(&model.graph, &[id], known, |graph, symbol| match symbol {
         Symbol::Named(k) => named[k as usize],
+        Symbol::Time if model.has_signals => graph.symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 }),
         other => graph.symbol(other),
     });
     known[&id]

@@ -100,6 +100,8 @@ pub struct Mechanism {
     pub variables: Vec<Variable>,
     /// The numbers of those that all columns are differentiated by, in the order of the columns.
     pub by: Vec<u32>,
+    /// Whether formulas hold inputs as signals, rather than what these are.
+    pub has_signals: bool,
     /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
@@ -143,6 +145,7 @@ impl Mechanism {
             parts: Vec::new(),
             variables: Vec::new(),
             by: Vec::new(),
+            has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -247,8 +250,12 @@ pub struct Param {
 pub struct Input {
     /// Its name.
     pub declared: Declared,
+    /// Its place among the inputs as they are declared, which is the number of its signal.
+    pub number: usize,
     /// What it is, as a formula of time, in SI.
     pub value: ExprId,
+    /// Of its value.
+    pub dimension: Dimension,
 }
 
 /// An input on its way from one value to another.

@@ -9,7 +9,7 @@ impl Program {
     /// [`Stage::Measures`].
     #[must_use]
     pub fn of_formulas(graph: &Graph, params: usize, coordinates: usize, roots: &[ExprId]) -> (Program, Vec<Register>) {
-        let mut layout = Layout::of(graph, [params, coordinates, 0].map(|count| count as u32));
+        let mut layout = Layout::of(graph, [params, coordinates, 0, 0, 0].map(|count| count as u32));
         let registers = layout.place(Stage::Measures, roots.iter().copied());
         (layout.finish(Outputs::default()), registers)
     }

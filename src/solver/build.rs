@@ -493,6 +493,9 @@ impl<'s, V: Values> Builder<'s, V> {
                 }
             }
         }
+        for (number, right) in outputs.by_signal.iter().chain(&outputs.by_param).enumerate() {
+            self.derivatives_by(number as u32, right, block, factors);
+        }
         self.variations(block, factors);
     }
 
@@ -523,6 +526,30 @@ impl<'s, V: Values> Builder<'s, V> {
                     }
                 }
             }
+        }
+    }
+
+    /// The derivatives of a block's coordinates by a signal or parameter, whose number counts all of these.
+    fn derivatives_by(&mut self, number: u32, right: &[Register], block: &Block, factors: &Factors) {
+        let outputs = &self.program.outputs;
+        let first = self.program.inputs.by_signal + number * self.program.inputs.n;
+        let mut sums = Vec::with_capacity(block.rows.len());
+        for &row in &block.rows {
+            let mut sum = self.value(right[row as usize]);
+            for (at, column) in self.entries_outside(block, row) {
+                let slope = self.value(outputs.phi_q[at]);
+                let rate = self.value(first + column);
+                let product = self.tape.mul(slope, rate);
+                sum = self.tape.sub(sum, product);
+            }
+            sums.push(sum);
+        }
+        let slopes = self.solve(factors, sums);
+        for (&column, &slope) in block.columns.iter().zip(&slopes) {
+            self.know(first + column, slope);
+            let a = self.tape.register(slope);
+            let column = self.layout.by_signal + number * self.program.inputs.n + column;
+            self.tape.act(Op::Store { column, a });
         }
     }
 
@@ -795,7 +822,7 @@ impl<'s, V: Values> Builder<'s, V> {
         if let Some(&value) = self.literals.get(&register) {
             return Some(Value::Number(value));
         }
-        if register < inputs.time || self.is_loaded(register) {
+        if register < inputs.time || self.is_loaded(register) || self.is_given_signal(register) {
             return Some(self.tape.push(|to| Op::Load { to, from: register }));
         }
         if register == inputs.time {
@@ -810,6 +837,11 @@ impl<'s, V: Values> Builder<'s, V> {
         let column = register - inputs.coordinates[order];
         let column = self.layout.coordinates[order] + column;
         self.is_across.then(|| self.tape.push(|to| Op::Column { to, column }))
+    }
+
+    /// Whether a register is of a signal that no operation says.
+    fn is_given_signal(&self, register: Register) -> bool {
+        self.program.inputs.all_signals().contains(&register) && self.definitions[register as usize].is_none()
     }
 
     /// Whether a register of the program keeps its value within a step: it depends on parameters alone, or is a switch.

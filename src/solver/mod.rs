@@ -145,6 +145,8 @@ pub struct RowLayout {
     pub varied: u32,
     /// Whether there are columns for `q⃛`.
     pub has_jerk: bool,
+    /// First column of the derivatives of `q` by each signal and parameter, which are behind all others.
+    pub by_signal: u32,
     /// Columns that the table has.
     pub printed: usize,
     /// All columns.
@@ -169,9 +171,10 @@ impl RowLayout {
         let appended = next;
         coordinates[3] = next + system.appended().len() as u32;
         let (printed, has_jerk) = (coordinates[3] as usize, system.jerk.is_some());
-        let varied = coordinates[3] + if has_jerk { n } else { 0 };
+        let by_signal = coordinates[3] + if has_jerk { n } else { 0 };
+        let varied = by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32;
         let stride = varied as usize + 3 * system.variations().len() * n as usize;
-        RowLayout { coordinates, measures, appended, varied, has_jerk, printed, stride }
+        RowLayout { coordinates, measures, appended, by_signal, varied, has_jerk, printed, stride }
     }
 }
 

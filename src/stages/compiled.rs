@@ -1,10 +1,11 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
 use super::lead::Leading;
+use super::signals::WithSignals;
 use super::used_at::UsedAt;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
-use crate::diag::Diagnostics;
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -44,9 +45,12 @@ pub struct Compiled {
     sources: Sources,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
-    /// Where it begins, if it is told other inputs than its own.
-    leading: Option<(Arc<Leading>, Redundant)>,
+    /// Where it begins, if it has parts, or is told other inputs than its own.
+    leading: Option<Arc<Leading>>,
     used_at: UsedAt,
+    redundant: Redundant,
+    /// The same with its inputs as signals, where it has any.
+    with_signals: Option<WithSignals>,
 }
 
 impl Compiled {
@@ -66,10 +70,43 @@ impl Compiled {
             Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {
                 let (determined, said) = (Arc::new(determined), used_at.told(said));
-                let leading = leading.map(|leading| (leading, redundant));
-                (Some(Compiled { sources, determined, program: Arc::default(), leading, used_at }), said)
+                let (program, with_signals) = (Arc::default(), None);
+                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, with_signals };
+                (Some(compiled), said)
             }
         }
+    }
+
+    /// The same, with what it takes to have it with its inputs as signals.
+    pub(super) fn with_signals(self, with_signals: Option<WithSignals>) -> Compiled {
+        Compiled { with_signals, ..self }
+    }
+
+    /// The same mechanism with its inputs as signals, where it has any: its measures have the derivatives that they have here.
+    pub(super) fn signals(&self, cancel: &Cancel) -> Result<Option<Compiled>, Diagnostics> {
+        let Some(with_signals) = &self.with_signals else {
+            return Ok(None);
+        };
+        let mut system = with_signals.system()?;
+        system.align_measures(&self.system().measures);
+        if !self.system().by_param.is_empty() {
+            system.derive_by_params().map_err(|table| by_table(&table))?;
+        }
+        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, None, cancel);
+        compiled.map(Some).ok_or(said)
+    }
+
+    /// The same mechanism, whose equations are differentiated by its parameters too.
+    pub(super) fn by_params(&self) -> Result<Compiled, Diagnostics> {
+        let mut system = self.system().clone();
+        if system.params.is_empty() {
+            let why = format!("mechanism `{}` has no parameters to be sensitive to", system.name);
+            return Err(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out").into());
+        }
+        system.derive_by_params().map_err(|table| by_table(&table))?;
+        let leading = self.leading.clone();
+        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, leading, &Cancel::default());
+        compiled.map(|compiled| compiled.with_signals(self.with_signals.clone())).ok_or(said)
     }
 
     /// The texts that its diagnostics speak of.
@@ -163,7 +200,7 @@ impl Compiled {
 
     /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
     pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
-        self.leading.as_ref().map(|(leading, redundant)| (&**leading, *redundant == Redundant::LeftOut))
+        self.leading.as_deref().map(|leading| (leading, self.redundant == Redundant::LeftOut))
     }
 
     /// Where its parts are used.
@@ -182,6 +219,13 @@ impl Compiled {
     pub(crate) fn program(&self) -> &Arc<Program> {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }
+}
+
+/// What is said of a table whose derivatives by parameters are asked for.
+fn by_table(table: &str) -> Diagnostics {
+    Diagnostic::new(Code::E0706, format!("table `{table}` is made of parameters, by which it is not differentiated"))
+        .help("leave `--with sensitivities` out, or write numbers into the table")
+        .into()
 }
 
 /// For tests of what is inside.

@@ -15,6 +15,7 @@ mod imported;
 mod lead;
 mod parsed;
 mod run;
+mod signals;
 mod used;
 mod used_at;
 

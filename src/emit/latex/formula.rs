@@ -279,7 +279,8 @@ impl<'s> Formulas<'s> {
 
     fn symbol(&mut self, id: ExprId, symbol: Symbol) -> Piece {
         match symbol {
-            Symbol::Time => Piece::new("t", 0.45, Level::Atom),
+            // what is typeset has inputs as formulas of time
+            Symbol::Time | Symbol::Signal { .. } => Piece::new("t", 0.45, Level::Atom),
             Symbol::Param(k) => {
                 let name = param(self.system, k as usize);
                 Piece::new(name.text, name.width, Level::Atom)
