@@ -174,7 +174,7 @@ impl RowLayout {
         let by_signal = coordinates[3] + if has_jerk { n } else { 0 };
         let varied = by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32;
         let stride = varied as usize + 3 * system.variations().len() * n as usize;
-        RowLayout { coordinates, measures, appended, by_signal, varied, has_jerk, printed, stride }
+        RowLayout { coordinates, measures, appended, varied, has_jerk, by_signal, printed, stride }
     }
 }
 

@@ -149,16 +149,13 @@ impl Compiled {
         said: &mut Diagnostics,
     ) -> Result<Motion, Box<Diagnostic>> {
         let from = self.analysis().map_or(0.0, |[from, ..]| from);
-        let mut started = match begin {
-            None => {
-                let (started, remarks) = self.start(from, &RunOptions::default());
-                said.extend(remarks);
-                started?
-            }
-            Some(_) => {
-                let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-                analysis::start_from(determined, own, from, begin, analysis::TOLERANCE, &Cancel::default())?
-            }
+        let mut started = if begin.is_some() {
+            let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+            analysis::start_from(determined, own, from, begin, analysis::TOLERANCE, &Cancel::default())?
+        } else {
+            let (started, remarks) = self.start(from, &RunOptions::default());
+            said.extend(remarks);
+            started?
         };
         said.extend(started.remarks());
         let mut solver_of =
