@@ -576,7 +576,9 @@ fn the_order_of_declarations_means_nothing() {
         let tree = syntax::parse(&sources, file).tree;
         let mechanism = &tree.mechanisms[0];
         let follow = |mechanism: &ast::Mechanism| {
-            let file = ast::File { uses: Vec::new(), mechanisms: vec![mechanism.clone()] };
+            // its parts may be mechanisms of the same file, or of others
+            let mechanisms = std::iter::once(mechanism).chain(&tree.mechanisms[1..]).cloned().collect();
+            let file = ast::File { uses: tree.uses.clone(), mechanisms };
             let (compiled, outcome) = compile_number(&path, &syntax::format(&file), 0);
             let span = compiled
                 .as_ref()
