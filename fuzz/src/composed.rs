@@ -213,7 +213,7 @@ fn drawn(draft: &mut Draft<'_, '_>) {
     draft.declarations.push(format!("param {a} = {at}"));
     draft.declarations.push(format!("param {b} = {a} + polar({reach}{unit}, {turn})"));
     let features = format!(
-        "{{ point O = (0, 0)  point P = (length({a}, {b}), 0)  point M = mid((0, 0), P) + polar({reach}{unit}, direction({a}, {b})) }}"
+        "{{ point O = (0, 0)  point P = (length({a}, {b}), 0)  point M = mid((0, 0), P) + polar({reach}{unit}, 0.5) }}"
     );
     draft.declarations.push(format!("body {body} at {a} toward {b} {features}"));
     draft.declarations.push(format!("joint {joint}: revolute({a}, {body}.O)"));
