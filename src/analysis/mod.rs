@@ -44,9 +44,9 @@ mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::determine;
-pub use lead::{Arrived, LeadOptions, NotLed, lead};
+pub use lead::{LeadOptions, lead};
 pub use march::Motion;
-pub use parts::with_parts;
+pub use parts::{Asked, with_parts};
 pub use times::Times;
 
 use crate::cancel::Cancel;
