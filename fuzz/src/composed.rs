@@ -29,7 +29,7 @@ pub struct PartOf {
     pub mechanism: String,
     pub set: Vec<String>,
     pub inputs: Vec<String>,
-    /// How far its mount gets from where it is alone (m).
+    /// How far its mount gets from where it is alone (m, rad).
     pub distance: f64,
 }
 
@@ -346,7 +346,7 @@ fn part_of(bytes: &mut Bytes<'_>, used: &[Used], texts: &[String]) -> PartOf {
     };
     let call = format!("part p: {}({}){on} at ({x}, {y}, {phi}){mirrored}", of.mechanism, bindings.join(", "));
     let text = format!("mechanism around {{\n{carrier}{call}\n}}\n{}", with_ranges(&texts.join("\n")));
-    let distance = x.hypot(y) + if is_carried { 2.0 } else { 0.0 };
+    let distance = x.hypot(y).max(phi.abs()) + if is_carried { 2.0 } else { 0.0 };
     PartOf { text, around: "around", name: "p", mechanism: of.mechanism.clone(), set, inputs, distance }
 }
 

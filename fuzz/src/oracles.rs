@@ -11,6 +11,9 @@ const SAME: f64 = 1e-9;
 /// Nearer to a singular position than this nothing is compared.
 const CLEAR: f64 = 1e-3;
 
+/// Beyond this (m, rad) the sum of a coordinate and its mount's loses digits that are compared.
+const LARGEST: f64 = 1e4;
+
 /// Rows are asked for so long.
 const PATIENCE: Duration = Duration::from_millis(400);
 
@@ -129,7 +132,8 @@ pub fn a_part_is_what_it_is_alone(part: &PartOf) -> bool {
         ..Choice::default()
     };
     let alone = outcome(&part.text, &choice, None);
-    if !alone.is_sound() || alone.codes.contains(&"E0612") || alone.conditioning < CLEAR {
+    let is_near = part.distance < LARGEST && alone.rows.iter().flatten().all(|value| value.is_nan() || value.abs() < LARGEST);
+    if !alone.is_sound() || !is_near || alone.conditioning < CLEAR {
         return false;
     }
     let around = Choice { mechanism: Some(part.around.to_owned()), ..Choice::default() };

@@ -44,7 +44,7 @@ mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::determine;
-pub use lead::{LeadOptions, lead};
+pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;
 pub use parts::{Asked, with_parts};
 pub use times::Times;
