@@ -254,7 +254,8 @@ const LEVER: &str = "mechanism lever {
 fn parts_on_one_line_begin_where_each_would_alone() {
     let around = |part: &str| format!("mechanism whole {{ {part} analysis from 0 to 0 every 1 }}\n{LEVER}");
     let turns = [62.0, 40.0, 55.0, 61.0, 60.0, 40.0, 35.0];
-    let all: String = turns.iter().enumerate().map(|(k, turn)| format!("part p{k}: lever(turn = {turn} deg)\n")).collect();
+    let all: String =
+        turns.iter().enumerate().map(|(k, turn)| format!("part p{k}: lever(turn = {turn} deg)\n")).collect();
     let (told, rows) = said(&around(&all));
     assert!(told.is_empty(), "{told:?}");
     for (k, turn) in turns.iter().enumerate() {
@@ -266,11 +267,13 @@ fn parts_on_one_line_begin_where_each_would_alone() {
 
 #[test]
 fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
-    let parts = "part near: lever(turn = 70 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
+    let parts = "part near: lever(turn = 66 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
     let (told, _) = said(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
     let not_led: Vec<&String> = told.iter().filter(|message| message.starts_with("on the way of the part")).collect();
     let place = |message: &str| message.split(" = ").nth(1).map(str::to_owned);
     assert_eq!(not_led.len(), 2, "{told:?}");
     assert!(not_led[0].contains("`far`") && not_led[1].contains("`farther`"), "{told:?}");
     assert_eq!(place(not_led[0]), place(not_led[1]), "the dead point is where it is");
+    // where the rod and the rocker are in line, at acos(9/24)
+    assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552"));
 }

@@ -161,9 +161,7 @@ fn row(draft: &mut Draft<'_, '_>) {
             draft.declarations.push(format!("joint {joint}: revolute({base}, {name}⟦0⟧.O)"));
             let rest = range.replacen("in 0", "in 1", 1);
             let next = draft.name("next");
-            draft
-                .declarations
-                .push(format!("⟪{rest}⟫joint {next}⟦*⟧: revolute({name}⟦k - 1⟧.E, {name}⟦k⟧.O)"));
+            draft.declarations.push(format!("⟪{rest}⟫joint {next}⟦*⟧: revolute({name}⟦k - 1⟧.E, {name}⟦k⟧.O)"));
             draft.declarations.push(format!("⟪{range}⟫driver {driver}⟦*⟧: angle({name}⟦k⟧) = {law}"));
         }
         // a grid, each placed by itself
@@ -174,10 +172,13 @@ fn row(draft: &mut Draft<'_, '_>) {
                 "⟪{grid}⟫body {name}⟦*⟧ at («k» * {size}{unit}, «j»{}, 0) {{ point O = (0, 0)  point E = ({size}{unit}, 0) }}",
                 if draft.units { " * 1 m" } else { "" }
             ));
+            draft
+                .declarations
+                .push(format!("⟪{grid}⟫joint {joint}⟦*⟧: weld({base}, {name}⟦k, j⟧.O, 0.3 * «k» + 0.1 * «j»)"));
             draft.declarations.push(format!(
-                "⟪{grid}⟫joint {joint}⟦*⟧: weld({base}, {name}⟦k, j⟧.O, 0.3 * «k» + 0.1 * «j»)"
+                "⟪{grid}⟫measure wide_{name}⟦*⟧ = x({name}⟦k, j⟧.E) + «j»{}",
+                if draft.units { " * 1 m" } else { "" }
             ));
-            draft.declarations.push(format!("⟪{grid}⟫measure wide_{name}⟦*⟧ = x({name}⟦k, j⟧.E) + «j»{}", if draft.units { " * 1 m" } else { "" }));
             return;
         }
         2 => {
@@ -287,7 +288,8 @@ fn part<'u>(draft: &mut Draft<'_, '_>, of: &'u Used, placed: &mut Vec<(String, &
 fn signal(draft: &mut Draft<'_, '_>, placed: &[(String, &Used)]) -> String {
     let time = if draft.units { "t / 1 s" } else { "t" };
     let rate = draft.number().clamp(-2.0, 2.0);
-    let turning = |(copy, used): &(String, &Used)| used.turning.first().map(|joint| format!("rotation({copy}.{joint})"));
+    let turning =
+        |(copy, used): &(String, &Used)| used.turning.first().map(|joint| format!("rotation({copy}.{joint})"));
     let choice = draft.pick(6);
     let of_joint = draft.turning.first().cloned();
     let of_part = placed.last().and_then(turning);

@@ -132,7 +132,8 @@ pub fn a_part_is_what_it_is_alone(part: &PartOf) -> bool {
         ..Choice::default()
     };
     let alone = outcome(&part.text, &choice, None);
-    let is_near = part.distance < LARGEST && alone.rows.iter().flatten().all(|value| value.is_nan() || value.abs() < LARGEST);
+    let is_near =
+        part.distance < LARGEST && alone.rows.iter().flatten().all(|value| value.is_nan() || value.abs() < LARGEST);
     if !alone.is_sound() || !is_near || alone.conditioning < CLEAR {
         return false;
     }
@@ -141,7 +142,8 @@ pub fn a_part_is_what_it_is_alone(part: &PartOf) -> bool {
     if !whole.is_whole {
         return false;
     }
-    let told = || format!("{}\n---- {:?} {:?}\n---- {}\n---- {}", part.text, part.set, part.inputs, alone.said, whole.said);
+    let told =
+        || format!("{}\n---- {:?} {:?}\n---- {}\n---- {}", part.text, part.set, part.inputs, alone.said, whole.said);
     assert_eq!(whole.rows.len(), alone.rows.len(), "{}", told());
     let prefix = format!("{}.", part.name);
     for column in &whole.columns {

@@ -5,8 +5,8 @@ use super::lines::{Line, Target, lines};
 use crate::analysis::{self, Asked, LeadOptions};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
-use crate::ir::{ConstraintSystem, PartStart};
 use crate::expr::Symbol;
+use crate::ir::{ConstraintSystem, PartStart};
 use crate::lower;
 use crate::model::{Led, Mechanism};
 use crate::program::Program;
@@ -237,7 +237,9 @@ impl<'s> Starts<'s> {
         let times = [alone.t, t];
         let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
         let led = Surroundings { lead: Some(Lead { times, inputs: targets }), ..alone.surroundings.clone() };
-        let Some((whole, inputs, span)) = self.text_of(start).and_then(|tree| self.compiled(tree, &led)) else { return };
+        let Some((whole, inputs, span)) = self.text_of(start).and_then(|tree| self.compiled(tree, &led)) else {
+            return;
+        };
         let stops: Vec<f64> = line.stops.iter().map(|(part, _)| *part).collect();
         let Ok(way) = analysis::lead(&whole.0, &whole.1, Some(&alone.q), &stops, self.options) else { return };
         let mut reached = way.reached.into_iter();
