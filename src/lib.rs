@@ -55,7 +55,7 @@ mod syntax;
 mod vocabulary;
 mod world;
 
-pub use analysis::{ColumnUnit, TOLERANCE, Times};
+pub use analysis::{Answers, ColumnUnit, TOLERANCE, Times};
 pub use cancel::Cancel;
 pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};

@@ -47,6 +47,30 @@ fn passing_near_a_dead_point_allocates_nothing() {
     );
 }
 
+#[test]
+fn derivatives_by_inputs_and_parameters_allocate_nothing() {
+    let text = fs::read_to_string("tests/cases/sensitivities.mech").expect("a text");
+    follow("sensitivities", &text);
+    follow(
+        "near",
+        "mechanism slider_crank {
+            param long = 1.0001
+            input turn = t + 0.3
+            ground { point O = (0, 0) axis way = O along (1, 0) }
+            body crank at (0, 0, 0.3) { point O = (0, 0) point pin = (1, 0) }
+            body rod at (0.95, 0.3, -0.3) { point pin = (0, 0) point wrist = (long, 0) }
+            body slider at (1.9, 0, 0) { point wrist = (0, 0) axis way = wrist along (1, 0) }
+            joint main: revolute(ground.O, crank.O)
+            joint big: revolute(crank.pin, rod.pin)
+            joint small: revolute(rod.wrist, slider.wrist)
+            joint guide: translational(ground.way, slider.way)
+            driver motor: rotation(main) = turn
+            measure both = der(der(x(slider.wrist), long), turn)
+            analysis from 0 to 3 every 0.01
+        }",
+    );
+}
+
 fn follow(name: &str, text: &str) {
     let compiled = compiled(name, text);
     let [from, to, every] = compiled.analysis().expect("an analysis");

@@ -1,10 +1,12 @@
 //! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`; where a file holds several
-//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test cases four_bar` runs one of them.
+//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test cases four_bar` runs one of them. Those of `tests/cases2` are run by the
+//! command line, with the options of their first line, `// run: …`; `NAME.results.json` has their results.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
+use assert_cmd::Command;
 use std::fs;
 use std::path::{Path, PathBuf};
 use support::listed::Tests;
@@ -110,17 +112,58 @@ fn has_the_same_numbers_at_ten_times_larger_output_steps(case: &Case) {
 
 fn runs_without_a_word(example: &Path) {
     let text = fs::read_to_string(example).expect("a text");
-    assert!(text.starts_with("///"), "it says what it is");
+    let mut lines = text.lines().skip_while(|line| line.is_empty() || line.starts_with("use "));
+    assert!(lines.next().is_some_and(|line| line.starts_with("///")), "it says what it is");
     let got = run(&example.display().to_string(), &text, Span::default());
     assert!(got.diagnostics.is_empty(), "{}", got.text());
     assert!(got.rows.len() > 20, "{} rows", got.rows.len());
 }
 
+/// What the command line prints for a case of `tests/cases2` has every number of its references, to 1e-9.
+fn is_told_by_the_command_line(path: &Path) {
+    let folder = tempfile::tempdir().expect("a folder");
+    let outputs = ["table.csv", "results.json"].map(|name| folder.path().join(name));
+    let text = fs::read_to_string(path).expect("a text");
+    let options = text.lines().next().and_then(|line| line.strip_prefix("// run: ")).unwrap_or_default();
+    let mut mechc = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    mechc.current_dir(path.parent().expect("a folder")).args(["run", &format!("{}.mech", stem(path))]);
+    mechc.args(options.split_whitespace()).arg("-o").arg(&outputs[0]).arg("--results").arg(&outputs[1]);
+    mechc.assert().success();
+    let Table { columns, rows } = read(&outputs[0]);
+    let (diagnostics, sources) = Default::default();
+    let got = Outcome { columns, rows, diagnostics, sources };
+    let want = read(&path.with_extension("csv"));
+    assert_eq!(got.rows.len(), want.rows.len(), "the rows");
+    compare(&stem(path), &got, &want, 1e-9);
+    let wanted = path.with_extension("results.json");
+    assert!(wanted.exists() || !text.contains("result "), "its results have no reference");
+    if wanted.exists() {
+        compare_results(&numbers(&outputs[1]), &numbers(&wanted));
+    }
+}
+
+fn numbers(path: &Path) -> serde_json::Map<String, serde_json::Value> {
+    serde_json::from_str(&fs::read_to_string(path).expect("results")).expect("one flat object")
+}
+
+fn compare_results(
+    got: &serde_json::Map<String, serde_json::Value>,
+    want: &serde_json::Map<String, serde_json::Value>,
+) {
+    assert_eq!(got.keys().collect::<Vec<_>>(), want.keys().collect::<Vec<_>>(), "the results");
+    for (name, value) in want {
+        let [got, want] = [&got[name], value].map(|value| value.as_f64().expect("a number"));
+        assert!((got - want).abs() <= 1e-9 * (1.0 + want.abs()), "{name}: {got} instead of {want}");
+    }
+}
+
 fn main() {
     let mut tests = Tests::default();
+    let composed = files("tests/cases2", "mech").into_iter().map(|path| (stem(&path), path));
     let examples = files("examples", "mech").into_iter().map(|path| (stem(&path), path));
     tests.each("reference", cases(), 55, |case| matches_its_reference(&case));
     tests.each("coarse_steps", cases(), 55, |case| has_the_same_numbers_at_ten_times_larger_output_steps(&case));
-    tests.each("example", examples, 15, |path| runs_without_a_word(&path));
+    tests.each("composed", composed, 5, |path| is_told_by_the_command_line(&path));
+    tests.each("example", examples, 20, |path| runs_without_a_word(&path));
     tests.run()
 }

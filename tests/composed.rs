@@ -2,6 +2,7 @@
 //! is alone. The fuzzer makes the same texts (`fuzz/src`), and more of them.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+#![allow(dead_code)] // what is shared with the fuzzer is not all used here
 
 #[path = "../fuzz/src/composed.rs"]
 mod composed;

@@ -52,7 +52,7 @@ fn steps(benchmark: &str) -> usize {
 
 /// Examples, and mechanisms with what is rare: odd names, tables, jerk.
 fn mechanisms() -> Vec<PathBuf> {
-    [files("examples", "mech"), files("tests/stages", "mech")].concat()
+    [files("examples", "mech"), files("tests/stages", "mech"), files("tests/following", "mech")].concat()
 }
 
 #[test]

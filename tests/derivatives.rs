@@ -6,6 +6,7 @@ mod support;
 
 use mechc::rooms::expr::{Binary, ExprId, Graph, Motion, Symbol, Unary};
 use mechc::rooms::ir::ConstraintSystem;
+use mechc::rooms::math;
 use std::fs;
 use support::random::Random;
 use support::{Span, compile, files, run, stem};
@@ -264,7 +265,17 @@ fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: 
                 _ => c[k],
             }
         }
-        Symbol::Named(_) => unreachable!("no named symbol is left"),
+        Symbol::Shift(_) => 0.0,
+        Symbol::Varied { index, order, variation } => {
+            // anything whose rates are its derivatives
+            let rate = |order: u32| math::sin(1.3 * f64::from(index) + 0.7 * f64::from(variation) + f64::from(order));
+            match order {
+                0 => rate(0) + tau * (rate(1) + tau * rate(2) / 2.0),
+                1 => rate(1) + tau * rate(2),
+                _ => rate(2),
+            }
+        }
+        Symbol::Named(_) | Symbol::Signal { .. } => unreachable!("no named symbol is left, and no signal"),
     })
 }
 

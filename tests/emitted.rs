@@ -9,6 +9,7 @@ mod support;
 mod compiling;
 
 use compiling::{Emitted, POINTS, bits_of, compile, interpreted, point};
+use mechc::RustOptions;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -25,6 +26,17 @@ fn nothing_in_a_module_can_panic() {
         for text in [emitted.text(Some(4)), emitted.text_of(None, 0)] {
             let object = object(folder.path(), name, &text, level);
             assert!(has_symbol(&object, b"assemble") && has_symbol(&object, b"step"), "{name} has no functions");
+            assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
+        }
+    }
+    for (name, level) in [("four_bar", "3"), ("platform", "s"), ("slider_crank", "3")] {
+        let path = PathBuf::from(format!("tests/following/{name}.mech"));
+        let emitted = Emitted::new(name.to_owned(), &path, 0).expect("determined");
+        let options = RustOptions { with_sensitivities: true, lanes: Some(2), ..RustOptions::of("machine.mech") };
+        let all = emitted.compiled.rust(&options).0.expect("a module");
+        for text in [all, emitted.text_of(None, 0)] {
+            let object = object(folder.path(), name, &text, level);
+            assert!(["follow", "influence"].iter().all(|word| has_symbol(&object, word.as_bytes())), "{name}");
             assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
         }
     }
@@ -72,7 +84,7 @@ mod odd_names;
 mod slider_crank;
 
 /// What a reviewer reads, and the benchmark runs.
-const GOLDENS: [&str; 4] = ["everything", "odd_names", "slider_crank", "four_bar"];
+const GOLDENS: [&str; 5] = ["everything", "odd_names", "slider_crank", "four_bar", "followed"];
 
 #[test]
 fn goldens_are_what_is_emitted() {
@@ -81,6 +93,10 @@ fn goldens_are_what_is_emitted() {
             let bench = Path::new("benches/steps/four_bar.mech");
             let emitted = Emitted::new("four_bar".to_owned(), bench, 0).expect("determined");
             ("benches/steps/four_bar.rs".to_owned(), emitted.text(Some(16)))
+        } else if name == "followed" {
+            let input = Path::new("tests/following/four_bar.mech");
+            let emitted = Emitted::new("four_bar".to_owned(), input, 0).expect("determined");
+            ("benches/steps/followed.rs".to_owned(), emitted.text(None))
         } else {
             (format!("tests/emitted/{name}.rs"), stage(name).text((name == "slider_crank").then_some(4)))
         };

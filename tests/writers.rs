@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, files, mechanisms, stem};
+use support::{compile_number, compiled, emitted_cases, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
@@ -25,7 +25,9 @@ struct Emitted {
 
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
-    let paths = [files("examples", "mech"), files("tests/cases", "mech"), files("tests/stages", "mech")].concat();
+    let paths =
+        [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech"), files("tests/following", "mech")]
+            .concat();
     let mut list = Vec::new();
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");
@@ -65,6 +67,17 @@ fn goldens_are_what_is_emitted() {
 const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("params", &[("name", "text"), ("value", "number"), ("unit", "text")]),
     (
+        "inputs",
+        &[
+            ("name", "text"),
+            ("line", "count"),
+            ("unit", "text"),
+            ("value", "text"),
+            ("rate", "text"),
+            ("acceleration", "text"),
+        ],
+    ),
+    (
         "tables",
         &[("name", "text"), ("periodic", "flag"), ("knots", "list"), ("values", "list"), ("coefficients", "list")],
     ),
@@ -100,13 +113,14 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ("left_out", &[("declaration", "count"), ("phi", "text")]),
 ];
 
-const FIELDS: [&str; 19] = [
+const FIELDS: [&str; 20] = [
     "layout",
     "mechc",
     "mechanism",
     "file",
     "analysis",
     "params",
+    "inputs",
     "tables",
     "bodies",
     "coordinates",
@@ -163,8 +177,12 @@ fn json_has_the_layout_of_its_page() {
     for Emitted { name, compiled } in all() {
         let (determined, _) = compiled.inside();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
-        assert_eq!(keys(&json), FIELDS, "{name}");
-        for (field, fields) in LAYOUT {
+        // inputs are told where there are any
+        let has_inputs = !determined.system().inputs.is_empty();
+        let is_there = |field: &str| field != "inputs" || has_inputs;
+        let fields: Vec<&str> = FIELDS.iter().copied().filter(|field| is_there(field)).collect();
+        assert_eq!(keys(&json), fields, "{name}");
+        for (field, fields) in LAYOUT.iter().filter(|(field, _)| is_there(field)) {
             for item in list(&json, field) {
                 assert_eq!(keys(item), fields.iter().map(|(key, _)| *key).collect::<Vec<_>>(), "{name}, {field}");
                 for (key, kind) in *fields {

@@ -13,6 +13,9 @@ mod closed_form;
 #[allow(clippy::pedantic, dead_code)] // code of another hand
 #[rustfmt::skip]
 mod four_bar;
+#[allow(clippy::pedantic, dead_code)]
+#[rustfmt::skip]
+mod followed;
 mod mechanisms;
 mod newton;
 mod timing;
@@ -37,6 +40,7 @@ fn main() {
     println!("closed form of the four-bar, by hand: {floor:.0} ns a step\n");
     agree();
     emitted(floor);
+    follow(floor);
     single(floor);
     four_bars(floor);
     scissor_lifts(floor);
@@ -106,6 +110,37 @@ fn emitted(floor: f64) {
         println!("  {name:<16} {time:>6.0} ns {:>7.2} x", time / floor);
     }
     println!();
+}
+
+/// A four-bar that follows its input, beside the same by time: a thousand samples a second.
+fn follow(floor: f64) {
+    use followed::{Inputs, Params, START_TIME, assemble, follow, step};
+    let start = assemble(&Params::default()).expect("it assembles");
+    let times: Vec<f64> = (1..=STEPS).map(|k| START_TIME + 1e-3 * f64::from(k)).collect();
+    let inputs: Vec<Inputs> = times.iter().map(|t| Inputs::at(*t, &Params::default())).collect();
+    let by_time = median(21, || {
+        let mut state = start.clone();
+        per_step(STEPS, || {
+            for t in &times {
+                step(black_box(*t), &mut state).expect("it moves");
+                black_box(state.q());
+            }
+        })
+    });
+    let by_inputs = median(21, || {
+        let mut state = start.clone();
+        per_step(STEPS, || {
+            for inputs in &inputs {
+                follow(black_box(inputs), &mut state).expect("it moves");
+                black_box(state.q());
+            }
+        })
+    });
+    println!("a four-bar with an input, as emitted Rust");
+    for (name, time) in [("step", by_time), ("follow", by_inputs)] {
+        println!("  {name:<16} {time:>6.0} ns {:>7.2} x", time / floor);
+    }
+    println!("  follow takes {:.2} times as long as step\n", by_inputs / by_time);
 }
 
 /// Mechanisms of one loop or a few.

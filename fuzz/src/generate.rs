@@ -578,14 +578,11 @@ impl<'d, 'b> Draft<'d, 'b> {
             5 => format!("atan2(x({p}), y({p}))"),
             _ => format!("x({p}, {q})"),
         };
-        let value = match self.pick(7) {
-            0 => format!("der({quantity})"),
-            1 => format!("der(der({quantity}))"),
-            2 => format!("der(der(der({quantity})))"),
-            3 => format!("abs({quantity})"),
-            4 => format!("({quantity})^2 + ({quantity})^2"),
-            5 => format!("max({quantity}, {quantity} / 2)"),
-            _ => quantity,
+        let param = self.declarations.iter().rev().find_map(|text| text.strip_prefix("param ")?.split(' ').next());
+        let param = param.map(str::to_owned);
+        let value = match (self.pick(8), param) {
+            (7, Some(param)) => format!("der(der(der({quantity}, {param})), {param})"),
+            (which, _) => measured(which, quantity),
         };
         self.declarations.push(format!("measure m{k} = {value}"));
     }
@@ -638,5 +635,18 @@ impl<'d, 'b> Draft<'d, 'b> {
         let (from, to) = (self.seconds(from), self.seconds(to));
         text += &self.declarations.join("\n");
         text + &format!("\nanalysis from {from} to {to} every {every}\n}}\n")
+    }
+}
+
+/// A formula of a kinematic quantity.
+fn measured(which: usize, quantity: String) -> String {
+    match which {
+        0 => format!("der({quantity})"),
+        1 => format!("der(der({quantity}))"),
+        2 => format!("der(der(der({quantity})))"),
+        3 => format!("abs({quantity})"),
+        4 => format!("({quantity})^2 + ({quantity})^2"),
+        5 => format!("max({quantity}, {quantity} / 2)"),
+        _ => quantity,
     }
 }

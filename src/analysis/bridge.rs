@@ -142,7 +142,7 @@ fn third_beside(h: f64, third: [f64; 2], c: [f64; 6], x: f64) -> f64 {
 
 impl Bridge {
     /// The same by a finer curve, if one has been found.
-    fn best_state_at(&self, t: f64) -> State {
+    pub fn best_state_at(&self, t: f64) -> State {
         let finer = self.finer.as_ref().or(self.narrow.as_ref());
         finer.map_or_else(|| self.state_at(t), |finer| finer.state_at(t))
     }

@@ -82,7 +82,7 @@ impl Motion {
             |column: usize| RIGHT[usize::from(column >= first as usize) + usize::from(column >= second as usize)];
         // a measure may have no value
         let is_near = |(column, (a, b)): (usize, (&f64, &f64))| {
-            !a.is_finite() || (a - b).abs() <= right(column) * (1.0 + b.abs())
+            !a.is_finite() || self.kinematics.is_varied(column) || (a - b).abs() <= right(column) * (1.0 + b.abs())
         };
         self.row.iter().zip(other).enumerate().all(is_near)
     }

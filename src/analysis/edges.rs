@@ -538,7 +538,9 @@ impl Motion {
         let jumps = |a: f64, b: f64| {
             (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (self.span * self.span))
         };
-        let names = super::columns(self.kinematics.system());
+        // what is varied jumps with what it is a derivative of
+        let mut names = super::columns(self.kinematics.system());
+        names.truncate(names.len() - self.kinematics.system().appended().len());
         let sides = self.row_before.iter().zip(&self.row);
         names.into_iter().zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(name, _)| name).collect()
     }

@@ -4,6 +4,7 @@ use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
 use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
+use crate::expr::ExprId;
 use crate::ir::{Check, ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Rim, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
@@ -65,6 +66,7 @@ pub(super) enum Fault {
 }
 
 /// A mechanism's program with its registers and factors.
+#[derive(Clone)]
 pub(super) struct Kinematics {
     determined: Arc<Determined>,
     program: Arc<Program>,
@@ -80,10 +82,38 @@ pub(super) struct Kinematics {
     doubt: Doubt,
     /// Where assembly begins, if not where the file says.
     other_estimates: Option<Vec<f64>>,
+    variations: Varied,
+}
+
+/// What is needed for derivatives by inputs and parameters.
+#[derive(Clone)]
+struct Varied {
+    /// A variation of all coordinates.
+    solution: Vec<f64>,
+    /// By column of a row, whether it is such a derivative.
+    columns: Vec<bool>,
+}
+
+impl Varied {
+    fn new(system: &ConstraintSystem) -> Varied {
+        if system.variations.is_none() {
+            return Varied { solution: Vec::new(), columns: Vec::new() };
+        }
+        let n = system.coordinates.len();
+        let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
+        let mut columns = vec![false];
+        let derivatives: [fn(&Measure) -> Option<ExprId>; 3] = [|m| Some(m.value), |m| m.first, |m| m.second];
+        for derivative in derivatives {
+            columns.extend(std::iter::repeat_n(false, n));
+            columns.extend(system.measures.iter().filter_map(derivative).map(is_varied));
+        }
+        columns.extend(system.appended().iter().map(|_| true));
+        Varied { solution: vec![0.0; n], columns }
+    }
 }
 
 /// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
-#[derive(Default)]
+#[derive(Clone, Default)]
 struct Doubt {
     position: Vec<f64>,
     velocity: Vec<f64>,
@@ -102,6 +132,10 @@ impl Doubt {
 /// What rounding makes of a term.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
+/// Nearer to a singular position than this, derivatives by inputs and parameters are not computed: they grow there, and each order makes
+/// more of the rounding.
+const TRUSTED: f64 = 1e-3;
+
 /// How far beside a position the slope of a row that is bent is looked at, scaled.
 const BESIDE: f64 = 0.1;
 
@@ -113,8 +147,8 @@ impl Kinematics {
         let bent = (0..system.rows.len()).filter(|&row| is_bent(system, row)).collect();
         let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
         let n = system.coordinates.len();
-        let (beside, doubt) = (vec![0.0; n], Doubt::new(n));
         let other_estimates = None;
+        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system));
         Kinematics {
             determined,
             program,
@@ -127,6 +161,7 @@ impl Kinematics {
             beside,
             doubt,
             other_estimates,
+            variations,
         }
     }
 
@@ -460,9 +495,9 @@ impl Kinematics {
         Solver::new(&self.determined, &self.program, self)
     }
 
-    /// As [`Kinematics::solver`], to be written as code.
-    pub fn solver_for_code(&self) -> Option<Solver> {
-        Solver::for_code(&self.determined, &self.program, self)
+    /// As [`Kinematics::solver`], to be written as code; by a program for this system with the same registers.
+    pub fn solver_for_code_of(&self, program: &Program) -> Option<Solver> {
+        Solver::for_code(&self.determined, program, self)
     }
 
     /// The program with its registers, whose switches stand as they are in this step.
@@ -690,6 +725,42 @@ impl Kinematics {
 
     /// Writes a result row of a state whose derivatives were just computed.
     pub fn write_row(&mut self, state: &State, row: &mut [f64]) {
+        self.vary(state);
+        self.write_columns(state, row);
+    }
+
+    /// Whether a column of a row is a derivative by an input or parameter.
+    pub fn is_varied(&self, column: usize) -> bool {
+        self.variations.columns.get(column).copied().unwrap_or(false)
+    }
+
+    /// Computes the variations of a state whose derivatives were just computed, where they can be trusted.
+    fn vary(&mut self, state: &State) {
+        if self.system().variations().is_empty() {
+            return;
+        }
+        self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+        if self.linear.nearness(TRUSTED) < TRUSTED {
+            self.leave_variations_out();
+            return;
+        }
+        let (linear, solution) = (&mut self.linear, &mut self.variations.solution);
+        vary(&self.determined, &self.program, &mut self.registers, solution, |registers, right, x| {
+            linear.solve(|row| registers.get(right[row]), x);
+        });
+    }
+
+    /// There are no variations at this position.
+    fn leave_variations_out(&mut self) {
+        let inputs = self.program.inputs;
+        for register in inputs.varied..inputs.varied(self.system().variations().len() as u32, 0) {
+            self.registers.set(register, f64::NAN);
+        }
+        // what measures share with the right sides is computed there
+        self.program.run(Stage::Variation, &mut self.registers);
+    }
+
+    fn write_columns(&mut self, state: &State, row: &mut [f64]) {
         let (program, registers) = (&*self.program, &mut self.registers);
         let [_, _, qdd, _] = program.inputs.coordinates;
         registers.set_all(qdd, &state.qdd);
@@ -713,6 +784,9 @@ impl Kinematics {
                 put(registers.get(register));
             }
         }
+        for &register in &outputs.appended {
+            put(registers.get(register));
+        }
     }
 
     /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
@@ -726,7 +800,12 @@ impl Kinematics {
         });
         let is_finite = self.all_finite(state).is_ok();
         if is_finite {
-            self.write_row(state, row);
+            self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+            let solution = &mut self.variations.solution;
+            vary(&self.determined, &self.program, &mut self.registers, solution, |registers, right, x| {
+                pivoting.solve(|row| registers.get(right[row]), x);
+            });
+            self.write_columns(state, row);
         }
         is_finite
     }
@@ -734,7 +813,13 @@ impl Kinematics {
     /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
         self.set_derivatives(state);
-        self.write_row(state, row);
+        if !self.system().variations().is_empty() {
+            match self.factor() {
+                Ok(()) => self.vary(state),
+                Err(_) => self.leave_variations_out(),
+            }
+        }
+        self.write_columns(state, row);
     }
 
     /// Sets a state that was computed before.
@@ -756,7 +841,8 @@ impl Kinematics {
         registers.set_all(qddd, &state.qddd);
     }
 
-    /// The measure behind a column of a result row, which must be one of a measure.
+    /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
+    /// columns of derivatives by them.
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();
         let n = system.coordinates.len();
@@ -766,7 +852,8 @@ impl Kinematics {
             .chain(std::iter::repeat_n(0, n))
             .chain(having(|measure| measure.first.is_some()))
             .chain(std::iter::repeat_n(0, n))
-            .chain(having(|measure| measure.second.is_some()));
+            .chain(having(|measure| measure.second.is_some()))
+            .chain(system.appended().iter().map(|column| system.measures.len() + column.variable as usize));
         columns.clone().nth(column).unwrap_or(0)
     }
 
@@ -839,6 +926,31 @@ fn rates(
         program.run(Stage::Jerk, registers);
         solve(registers, &outputs.jerk, &mut state.qddd);
         registers.set_all(qddd, &state.qddd);
+    }
+}
+
+/// The variations of a state whose derivatives are set, by what solves `Φ_q x = b` for a right side: those by one variable, then those
+/// by two, each order from those before. They are left in their registers.
+fn vary(
+    determined: &Determined,
+    program: &Program,
+    registers: &mut Registers,
+    solution: &mut [f64],
+    mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
+) {
+    let variations = determined.system().variations();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let of_kind = || (0..variations.len()).filter(|&k| variations[k].by.1.is_some() == by_two);
+            if of_kind().next().is_none() {
+                break;
+            }
+            program.run(Stage::Variation, registers);
+            for k in of_kind() {
+                solve(registers, &program.outputs.variations[k][order], solution);
+                registers.set_all(program.inputs.varied(k as u32, order as u32), solution);
+            }
+        }
     }
 }
 

@@ -49,6 +49,7 @@ macro_rules! factors {
 }
 
 /// One irreducible block with its place in the common storage.
+#[derive(Clone)]
 struct Part {
     /// Offset of its rows and columns in the lists below.
     at: usize,
@@ -99,6 +100,7 @@ struct Entry {
 }
 
 /// The factors of `Φ_q`, and the workspace to compute and use them.
+#[derive(Clone)]
 pub(super) struct BlockLu {
     parts: Vec<Part>,
     /// Rows of Φ in block order.

@@ -195,8 +195,14 @@ impl Motion {
         self.pass = true;
     }
 
-    /// A step, as far as the error and the next edge allow.
+    /// A step, as far as the error and the next edge allow, which is gone over.
     pub(super) fn step_towards(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+        let edge = self.step_to_edge(t)?;
+        edge.map_or(Ok(()), |edge| self.cross(edge))
+    }
+
+    /// The same, up to the edge.
+    pub(super) fn step_to_edge(&mut self, t: f64) -> Result<Option<Edge>, Box<Diagnostic>> {
         let left = t - self.state.t;
         // no crumb at the end
         let next = if self.h >= 0.999 * left { t } else { self.state.t + self.h };
@@ -204,14 +210,14 @@ impl Motion {
         let next = edge.map_or(next, |edge| edge.t);
         let h = next - self.state.t;
         if h <= 0.0 {
-            return edge.map_or(Ok(()), |edge| self.cross(edge));
+            return Ok(edge);
         }
         match self.try_step(h, next, next >= t, self.met.is_some_and(|met| met.t <= next)) {
             Ok(accepted) => {
                 self.accept(h, &accepted);
-                edge.map_or(Ok(()), |edge| self.cross(edge))
+                Ok(edge)
             }
-            Err(fault) => self.give_way(h, fault, t),
+            Err(fault) => self.give_way(h, fault, t).map(|()| None),
         }
     }
 
@@ -387,16 +393,8 @@ impl Motion {
 
     /// The quintic with value, slope and curvature of both ends, by its coefficients.
     pub(super) fn draw_curve(&mut self, h: f64) {
-        let (a, b) = (&self.state, &self.trial);
         for (k, curve) in self.curve.iter_mut().enumerate() {
-            let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);
-            // what is left of value, slope and half the curvature at the end
-            let (value, first, second) =
-                (way - slope - bend, h * b.qd[k] - slope - 2.0 * bend, 0.5 * h * h * b.qdd[k] - bend);
-            let cubic = 10.0 * value - 4.0 * first + second;
-            let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
-            let quintic = 6.0 * value - 3.0 * first + second;
-            *curve = [a.q[k], slope, bend, cubic, quartic, quintic];
+            *curve = quintic(&self.state, &self.trial, k, h);
         }
     }
 
@@ -445,6 +443,17 @@ impl Motion {
         }
         Ok(())
     }
+}
+
+/// The quintic of a coordinate with value, slope and curvature of two states, `h` (s) apart, by its coefficients.
+pub(super) fn quintic(a: &State, b: &State, k: usize, h: f64) -> [f64; 6] {
+    let (way, slope, bend) = (b.q[k] - a.q[k], h * a.qd[k], 0.5 * h * h * a.qdd[k]);
+    // what is left of value, slope and half the curvature at the end
+    let (value, first, second) = (way - slope - bend, h * b.qd[k] - slope - 2.0 * bend, 0.5 * h * h * b.qdd[k] - bend);
+    let cubic = 10.0 * value - 4.0 * first + second;
+    let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
+    let quintic = 6.0 * value - 3.0 * first + second;
+    [a.q[k], slope, bend, cubic, quartic, quintic]
 }
 
 /// A coordinate on its curve, at a part of the step.

@@ -31,12 +31,14 @@ mod open_loop;
 mod parts;
 mod reach;
 mod redundancy;
+mod results;
 mod rims;
 mod rows;
 mod search;
 mod signals;
 mod singular;
 mod sparse;
+mod stretches;
 mod times;
 mod touch;
 mod trust;
@@ -46,12 +48,13 @@ pub use assembly::Moved;
 pub use determine::determine;
 pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;
-pub use parts::{Asked, with_parts};
+pub use parts::{Request, with_parts};
+pub use results::{Answers, Asked};
 pub use times::Times;
 
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, Measure};
+use crate::ir::{ConstraintSystem, Measure, Outcome, ReductionKind};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -68,6 +71,21 @@ const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// How far a coordinate goes where all are moved at once, from 0.5 to 1.5: another way for each, so that nothing cancels.
 fn aslant(column: usize) -> f64 {
     0.5 + (GOLDEN * column as f64).fract()
+}
+
+/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+#[must_use]
+pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for reduction in &system.results.reductions {
+        if let ReductionKind::At(at) = reduction.kind {
+            let t = system.value_at(at, &[]);
+            if !(from <= t && t <= to) {
+                diagnostics.push(errors::at_outside(reduction, t, interval));
+            }
+        }
+    }
+    diagnostics
 }
 
 /// A mechanism that is assembled at its first time, in a position of full rank.
@@ -164,11 +182,11 @@ impl Started {
         self.solver.as_deref()
     }
 
-    /// The same operations, to be written as code.
+    /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.
     #[must_use]
-    pub fn solver_for_code(&mut self) -> Option<Solver> {
+    pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
         self.kinematics.restore(&self.state);
-        self.kinematics.solver_for_code()
+        self.kinematics.solver_for_code_of(program)
     }
 
     /// By row of `Φ`: what may be left of it at the start.
@@ -222,7 +240,15 @@ pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
         let unit = |of: &Measure| ColumnUnit { text: of.units.printed[order].clone(), scale: of.units.scale };
         units.extend(measures.map(unit));
     }
+    units.extend(system.appended().iter().map(|of| ColumnUnit { text: of.unit.clone(), scale: of.scale }));
     units
+}
+
+/// Names of the results, and the units in which they are told, in order.
+pub(crate) fn results(system: &ConstraintSystem) -> Vec<(String, ColumnUnit)> {
+    let outcomes = system.results.outcomes.iter();
+    let unit = |outcome: &Outcome| ColumnUnit { text: outcome.units.printed[0].clone(), scale: outcome.units.scale };
+    outcomes.map(|outcome| (outcome.name.clone(), unit(outcome))).collect()
 }
 
 /// Names of a result's columns, in order.
@@ -235,5 +261,6 @@ pub(crate) fn columns(system: &ConstraintSystem) -> Vec<String> {
     columns.extend(system.measures.iter().filter(|m| m.first.is_some()).map(|m| format!("{}.d", m.name)));
     columns.extend(coordinates().map(|name| name + ".dd"));
     columns.extend(system.measures.iter().filter(|m| m.second.is_some()).map(|m| format!("{}.dd", m.name)));
+    columns.extend(system.appended().iter().map(|column| column.name.clone()));
     columns
 }

@@ -18,7 +18,7 @@ use std::sync::Arc;
 const LARGEST: usize = 300;
 
 /// A part whose coordinates are asked for, as it is alone.
-pub struct Asked {
+pub struct Request {
     /// Its number.
     pub part: usize,
     /// What its inputs are to be led to (SI), if they are to be led.
@@ -26,7 +26,7 @@ pub struct Asked {
 }
 
 /// Gives the coordinates of parts, all those at once that can be known at once.
-pub type Leader<'l> = dyn FnMut(&[Asked]) -> Vec<Option<Vec<f64>>> + 'l;
+pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 
 /// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
 #[must_use]
@@ -124,9 +124,9 @@ impl<'d> Placing<'d> {
         let asked = |(&part, mount): (&usize, &[f64; 3])| {
             let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
             let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
-            Asked { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
+            Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
         };
-        let asked: Vec<Asked> = parts.iter().zip(&mounts).map(asked).collect();
+        let asked: Vec<Request> = parts.iter().zip(&mounts).map(asked).collect();
         for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&asked)) {
             self.set_on_its_mount(part, *mount, alone);
         }

@@ -13,7 +13,7 @@ use super::singular;
 use super::times::Times;
 use super::trust::Trust;
 use crate::diag::Diagnostic;
-use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
+use crate::solver::{Batch, Bend, Lanes, Pivoting, RowLayout, Solver};
 use std::sync::Arc;
 
 /// Times that are solved at once.
@@ -46,7 +46,7 @@ pub(super) struct Output {
     /// Whether a step may go over several output times.
     may_leap: bool,
     rows: Option<Rows>,
-    /// By measure.
+    /// By measure, and then by variable that derivatives are taken by.
     missing: Vec<Missing>,
     /// The edge that the last step ended at, if its later side has not been taken yet.
     edge: Option<Edge>,
@@ -152,12 +152,34 @@ pub(super) struct Bookmark {
 }
 
 impl Output {
+    /// The edge that the last step has ended at, whose later side is to be taken.
+    pub fn take_edge(&mut self) -> Option<Edge> {
+        self.edge.take()
+    }
+
+    /// Whether the last step has ended at an edge.
+    pub fn is_at_edge(&self) -> bool {
+        self.edge.is_some()
+    }
+
+    /// The last step has ended at an edge, or at none.
+    pub fn end_at(&mut self, edge: Option<Edge>) {
+        self.edge = edge;
+    }
+
+    /// Begins to count the steps anew.
+    pub fn forget_steps(&mut self) {
+        self.steps = 0;
+    }
+
     pub fn new(kinematics: &Kinematics, state: &State, solver: Option<Arc<Solver>>, times: Times) -> Output {
         // what was left out of the equations is looked at wherever a row is printed
         let may_leap = kinematics.system().checks.is_empty();
         let rows = solver.map(|solver| Rows::new(kinematics, state, solver));
         let careful_until = f64::NEG_INFINITY;
-        let missing = vec![Missing::NEVER; kinematics.system().measures.len()];
+        let system = kinematics.system();
+        let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
+        let missing = vec![Missing::NEVER; system.measures.len() + variables];
         Output { times, next: 0, has_stopped: false, steps: 0, careful_until, may_leap, rows, missing, edge: None }
     }
 }
@@ -208,6 +230,14 @@ impl Rows {
             solver,
         }
     }
+}
+
+/// The state at a time that a solver's row holds, like another state.
+pub(super) fn state_of_row(layout: &RowLayout, row: &[f64], like: &State, t: f64) -> State {
+    let n = like.q.len();
+    let part = |order: usize| row[layout.coordinates[order] as usize..][..n].to_vec();
+    let qddd = if layout.stride > layout.printed { part(3) } else { like.qddd.clone() };
+    State { t, q: part(0), qd: part(1), qdd: part(2), qddd }
 }
 
 impl Motion {
@@ -280,7 +310,10 @@ impl Motion {
         for (index, missing) in self.output.missing.iter_mut().enumerate() {
             if missing.rows > 0 && !missing.is_told {
                 missing.is_told = true;
-                self.remarks.push(errors::measure_without_value(system, index, missing.first, missing.rows));
+                self.remarks.push(match index.checked_sub(system.measures.len()) {
+                    None => errors::measure_without_value(system, index, missing.first, missing.rows),
+                    Some(variable) => errors::derivatives_without_value(system, variable, missing.first, missing.rows),
+                });
             }
         }
     }
@@ -320,7 +353,7 @@ impl Motion {
         }
     }
 
-    fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn count_step(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
         self.output.steps += 1;
         // who cancelled does not read why
         if self.output.steps > MOST_STEPS || self.kinematics.is_cancelled() {
@@ -352,13 +385,13 @@ impl Motion {
     }
 
     /// Whether a step may go over several output times: the state is clear of singular positions.
-    fn may_leap(&self) -> bool {
+    pub(super) fn may_leap(&self) -> bool {
         let is_clear = self.clear.t.total_cmp(&self.state.t).is_eq();
         self.output.rows.is_some() && self.output.may_leap && is_clear && self.state.t >= self.output.careful_until
     }
 
     /// Tries a step over as many output times as the error allows.
-    fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
+    pub(super) fn leap(&mut self) -> Result<(), Box<Diagnostic>> {
         let Output { times, next: number, .. } = &self.output;
         let (upcoming, farthest) = (times.at(*number), self.state.t + self.h);
         let behind = times.first_after(farthest, *number);
@@ -472,10 +505,24 @@ impl Motion {
         self.trial.q.copy_from_slice(part(0));
         self.trial.qd.copy_from_slice(part(1));
         self.trial.qdd.copy_from_slice(part(2));
-        if layout.stride > layout.printed {
+        if layout.has_jerk {
             self.trial.qddd.copy_from_slice(part(3));
         }
         Some(self.kinematics.linear().largest_judged(&self.middle))
+    }
+
+    /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.
+    pub(super) fn middle_of_leap(&mut self) -> Option<State> {
+        let Output { rows: Some(rows), .. } = &mut self.output else {
+            return None;
+        };
+        let (from, length) = (rows.origin.state.t, rows.length);
+        let is_of_it = length > 0.0 && (from + length - self.state.t).abs() <= 1e-9 * length;
+        let t = 0.5 * from + 0.5 * self.state.t;
+        if !is_of_it || !rows.solve_alone(&self.kinematics, &self.curve, [from, length, t]) {
+            return None;
+        }
+        Some(state_of_row(rows.solver.layout(), &rows.alone_row, &self.state, t))
     }
 
     /// How far the curve of a step is from the motion: at the first rows within it, or where there are few, at some place.
@@ -640,11 +687,19 @@ impl Motion {
             self.kinematics.restore(&self.state);
         }
         let refined = &rows.alone_row[..printed];
+        let kinematics = &self.kinematics;
         // where both do not agree the position is too near to a singular one for the grid
-        // a measure may have no value
-        let agrees = |(a, b): (&f64, &f64)| !a.is_finite() || (a - b).abs() <= REFINED * (1.0 + a.abs());
-        if is_solved && self.row.iter().zip(refined).all(agrees) {
-            self.row.copy_from_slice(refined);
+        // a measure may have no value, and what is varied does not decide about the row
+        let agrees = |(column, (a, b)): (usize, (&f64, &f64))| {
+            !a.is_finite() || kinematics.is_varied(column) || (a - b).abs() <= REFINED * (1.0 + a.abs())
+        };
+        if is_solved && self.row.iter().zip(refined).enumerate().all(agrees) {
+            for (column, (cell, refined)) in self.row.iter_mut().zip(refined).enumerate() {
+                // what could not be trusted before cannot be now
+                if cell.is_finite() || !kinematics.is_varied(column) {
+                    *cell = *refined;
+                }
+            }
         }
     }
 

@@ -44,6 +44,15 @@ impl Times {
         self.from
     }
 
+    /// From when to when the analysis goes (s), if it is one: the last time may be later than the last that is printed.
+    #[must_use]
+    pub fn interval(&self) -> Option<[f64; 2]> {
+        match &self.kind {
+            Kind::Grid { to, .. } => Some([self.from, *to]),
+            Kind::Listed(_) => None,
+        }
+    }
+
     /// How many there are.
     #[must_use]
     pub fn len(&self) -> u64 {

@@ -68,6 +68,7 @@ pub(super) struct Centroid {
     pub from_origin: [f64; 2],
 }
 
+#[derive(Clone)]
 struct Part {
     rows: Range<usize>,
     entries: Range<usize>,
@@ -77,6 +78,7 @@ struct Part {
 }
 
 /// The scales of all blocks.
+#[derive(Clone)]
 pub(super) struct Yardstick {
     parts: Vec<Part>,
     /// Rows and columns in the order of blocks.
@@ -361,6 +363,7 @@ impl Features {
         if !formulas.is_empty() {
             let value = |symbol| match symbol {
                 crate::expr::Symbol::Param(k) => system.params[k as usize].value,
+                crate::expr::Symbol::Shift(_) => 0.0,
                 _ => f64::NAN,
             };
             system.graph.extend_values(&mut values, value);

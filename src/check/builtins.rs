@@ -24,9 +24,7 @@ impl Checker<'_> {
             return self.quantity(e, name, arguments, context);
         };
         if arguments.len() < function.least || arguments.len() > function.most {
-            let (wanted, found) = (function.takes(), arguments.len());
-            let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
-            self.report_count(name, diagnostic, arguments, function.most);
+            self.report_count_of(e, name, function, arguments);
             return None;
         }
         // a function's formula is looked over on its own
@@ -35,6 +33,9 @@ impl Checker<'_> {
         }
         if let (Group::Derivative, [argument]) = (function.group, arguments) {
             return self.derivative(e, argument, context);
+        }
+        if let (Group::Derivative, [of, by]) = (function.group, arguments) {
+            return self.derivative_by(e, [of, by], context);
         }
         if function.group == Group::Points {
             return self.number_of_points(e, name, arguments, context);
@@ -46,6 +47,14 @@ impl Checker<'_> {
             .map(|(argument, value)| value.map(|value| (argument.span, value)))
             .collect::<Option<_>>()?;
         self.apply(function, &values, context)
+    }
+
+    fn report_count_of(&mut self, e: &Expr, name: &Name, function: &Function, arguments: &[Expr]) {
+        let (wanted, found) = (function.takes(), arguments.len());
+        let diagnostic = errors::argument_count(&name.text, Some(&function.word), e.span, &wanted, found);
+        let reduces = self.reduction_word(name, found).is_some();
+        let diagnostic = if reduces { diagnostic.help(errors::REDUCES) } else { diagnostic };
+        self.report_count(name, diagnostic, arguments, function.most);
     }
 
     fn apply(&mut self, function: &Function, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {

@@ -63,6 +63,9 @@ pub(super) struct Calls<'a> {
 impl<'a> Checker<'a> {
     /// A call of a function of the language or of the file.
     pub(super) fn call(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
+        if let Ok(reduced) = self.call_of_reduction(e, name, arguments, context) {
+            return reduced;
+        }
         if self.is_of_language(&name.text) {
             if self.is_declared_though_taken(name) {
                 return None;
@@ -130,7 +133,7 @@ impl<'a> Checker<'a> {
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner = Context { time: true, quantities: false, measures: false, names: true, ..*context };
+        let inner = Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 

@@ -101,7 +101,7 @@ impl Checker<'_> {
 
     /// What has been asked to be positive from a condition on, by a measure or trace: what parameters alone decide holds at no time or at
     /// all times, the rest is given back.
-    fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
+    pub(super) fn asked_at_times(&mut self, from: usize, owner: &str) -> Vec<Condition> {
         let mut own = self.model.conditions.split_off(from);
         for condition in &mut own {
             owner.clone_into(&mut condition.owner);
@@ -297,7 +297,7 @@ impl Checker<'_> {
 }
 
 /// How the formula of a measure is read.
-fn measure_context(judged: bool) -> Context<'static> {
+pub(super) fn measure_context(judged: bool) -> Context<'static> {
     Context { judged, time: true, inputs: true, quantities: true, measures: true, ..Context::constant("a measure") }
 }
 

@@ -2,8 +2,12 @@
 
 pub mod library;
 mod parts;
+mod results;
+mod variables;
 
 pub use parts::*;
+pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_in_reduction};
+pub use variables::*;
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
 use super::names::Entity;
@@ -378,6 +382,7 @@ pub fn time_in(place: &str, span: Span, through: Option<(&str, Span)>) -> Diagno
     };
     match place {
         "a constraint" => diagnostic.help("an equation that holds time is a `driver`"),
+        "the second argument of `at`" => diagnostic.help("it is a constant, as `0.5 s`"),
         _ => diagnostic.help("what moves with time is prescribed by a `driver`, of a joint, a body or a point"),
     }
 }

@@ -71,6 +71,8 @@ pub(super) struct Context<'c> {
     pub quantities: bool,
     /// Whether other measures and `der` may stand.
     pub measures: bool,
+    /// Whether reductions and other results may stand.
+    pub results: bool,
     /// Whether names of the file may stand.
     pub names: bool,
     /// Whether functions are written out; where one is only looked over, those it calls have been looked over too.
@@ -89,6 +91,7 @@ impl<'c> Context<'c> {
             inputs: false,
             quantities: false,
             measures: false,
+            results: false,
             names: true,
             expands: true,
             argument: None,
@@ -97,8 +100,8 @@ impl<'c> Context<'c> {
 
     /// The same for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
-        let &Context { judged, time, inputs, quantities, measures, names, expands, .. } = self;
-        Context { place, judged, time, inputs, quantities, measures, names, expands, argument }
+        let &Context { judged, time, inputs, quantities, measures, results, names, expands, .. } = self;
+        Context { place, judged, time, inputs, quantities, measures, results, names, expands, argument }
     }
 }
 
@@ -129,6 +132,7 @@ impl Checker<'_> {
                 ExprKind::Member { owner, feature } if coordinate(feature).is_some() => {
                     self.is_dimensional_point(owner, Wanted::Point)
                 }
+                ExprKind::Call { name, arguments } if self.reduction_word(name, arguments.len()).is_some() => false,
                 ExprKind::Call { name, .. }
                     if !self.is_of_language(&name.text) && self.quantity_word(name).is_none() =>
                 {
@@ -169,6 +173,7 @@ impl Checker<'_> {
             Some(Entity::Table(k)) => self.tables[k].dimensional,
             Some(Entity::Input(k)) => self.input_known(k).is_some_and(Value::has_a_dimension),
             Some(Entity::Measure(k)) => self.measure_known(k).is_some_and(|measure| measure.dimensional),
+            Some(Entity::Result(k)) => self.result_known(k).is_some_and(|result| result.dimensional),
             _ => false,
         }
     }
@@ -293,6 +298,10 @@ impl Checker<'_> {
                 }
                 // a parameter was meant
                 StandsFor::Time if self.is_declared_though_taken(name) => return None,
+                StandsFor::Time if context.results => {
+                    self.report(errors::outside_reduction("time `t`", name.span, "t"));
+                    return None;
+                }
                 StandsFor::Time => {
                     self.report(errors::time_in(context.place, name.span, None));
                     return None;
@@ -315,11 +324,24 @@ impl Checker<'_> {
             }
             Some(Entity::Param(k)) => self.params[k],
             Some(Entity::Input(k)) if context.inputs => self.input_known(k),
+            Some(Entity::Input(_)) if context.results => {
+                self.report(errors::outside_reduction(&format!("the input `{}`", name.text), name.span, &name.text));
+                None
+            }
             Some(Entity::Input(_)) => {
                 self.input_in(name, context);
                 None
             }
             Some(Entity::Measure(k)) if context.measures => self.measure_value(k, name.span, context),
+            Some(Entity::Measure(_)) if context.results => {
+                self.report(errors::outside_reduction(&format!("the measure `{}`", name.text), name.span, &name.text));
+                None
+            }
+            Some(Entity::Result(k)) if context.results => self.result_known(k)?.value,
+            Some(Entity::Result(_)) => {
+                self.report(errors::result_in(context.place, name));
+                None
+            }
             Some(Entity::Measure(_)) => {
                 self.report(
                     errors::wrong_kind(name.span, "a number", "a measure")
@@ -367,6 +389,7 @@ impl Checker<'_> {
             Entity::Param(_) => true,
             Entity::Input(_) => context.inputs,
             Entity::Measure(_) => context.measures,
+            Entity::Result(_) => context.results,
             _ => false,
         });
         known.extend(context.argument.map(|(argument, _)| argument));
@@ -587,6 +610,10 @@ impl Checker<'_> {
 
     /// `der(e)`
     pub(super) fn derivative(&mut self, e: &Expr, argument: &Expr, context: &Context<'_>) -> Option<Value> {
+        if context.results && !context.measures {
+            self.report(errors::derivative_of_result(e.span));
+            return None;
+        }
         if !context.measures {
             self.report(errors::derivative_in(context.place, e.span));
             return None;
@@ -601,7 +628,16 @@ impl Checker<'_> {
         if self.model.graph.dependence(inner.id).is_constant() {
             return Some(Value { id: self.model.graph.constant(0.0), dim });
         }
-        Some(Value { id: self.name_symbol(Named::Derivative(inner.id), order), dim })
+        if self.is_of_whole_analysis(inner.id) {
+            self.report(errors::derivative_of_result(e.span));
+            return None;
+        }
+        let id = self.name_symbol(Named::Derivative(inner.id), order);
+        if !self.note_rate(inner.id, id) {
+            self.report(errors::derivative_of_jerk(e.span));
+            return None;
+        }
+        Some(Value { id, dim })
     }
 
     /// Whether a formula as written holds a kinematic quantity.

@@ -2,12 +2,12 @@
 
 use super::formula::{Context, Dim, Value};
 use super::lead::Needs;
-use super::parts::is_told_by;
 use super::rates::Part;
 use super::samples::{self, Column, Samples};
+use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::diag::nearest;
-use crate::expr::ExprId;
+use crate::expr::{ExprId, Symbol};
 use crate::model::{Condition, ConditionKind, Input};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{Expr, ItemKind, Name};
@@ -142,9 +142,19 @@ impl Checker<'_> {
             _ => Some(in_file),
         };
         let value = self.led_input(name, in_file, value, &needs);
+        let declared = self.declared(name);
+        let value = value.map(|value| self.with_shift(&declared, value));
         self.inputs[k].value = value;
         if let Some(value) = value {
-            self.model.inputs.push(Input { declared: self.declared(name), value: value.id });
+            let number = self.model.inputs.len();
+            let dimension = value.dim.settled();
+            self.model.inputs.push(Input { declared, number, value: value.id, dimension });
+            if self.model.has_signals {
+                // what the formula asks for is no concern of those that take what they are given
+                self.model.conditions.truncate(before);
+                let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
+                self.inputs[k].value = Some(Value { id, ..value });
+            }
         }
     }
 

@@ -1,11 +1,12 @@
 //! A mechanism and all that its parts bring along, before anything of it is checked: each part is an instance of a mechanism, with what
 //! is repeated in it written out. Instances of one text that come out the same are one.
 
+use super::bindings::BoundParam;
 use super::errors;
+use super::instance::Instance;
 use super::library::{Library, NotKnown};
-use super::mentions::{formulas, indices, mentioned};
-use super::parts::BoundParam;
-use super::repetition::{Copies, MOST, Numbers, Writer, name_of, named, needs_writing};
+use super::mentions::{formulas, indices, mentioned, name_of};
+use super::repetition::{MOST, Numbers, Writer, named, needs_writing};
 use super::{Checker, Surroundings};
 use crate::diag::Diagnostics;
 use crate::source::Sources;
@@ -15,72 +16,6 @@ use std::rc::Rc;
 
 /// Levels of parts within parts.
 const DEEPEST: usize = 32;
-
-/// A mechanism as it is checked.
-pub(super) struct Instance<'t> {
-    /// Its text.
-    mechanism: &'t Mechanism,
-    /// With repeated declarations written out, and paths into parts as names; nothing where it has neither.
-    written: Option<Mechanism>,
-    /// In the order in which its tree has them.
-    pub parts: Vec<Rc<Instance<'t>>>,
-    /// Their numbers, by their names.
-    pub part_named: FxHashMap<String, usize>,
-    /// What its formulas name in its parts.
-    pub paths: Vec<String>,
-    /// The params that decide what is repeated.
-    pub deciding: Rc<FxHashSet<String>>,
-    /// Of what is repeated: the numbers of its copies.
-    pub copies: FxHashMap<&'t str, Copies>,
-    /// Its declarations, and those of its parts.
-    count: usize,
-}
-
-impl<'t> Instance<'t> {
-    /// One without anything repeated, and without parts.
-    fn plain(mechanism: &'t Mechanism) -> Instance<'t> {
-        Instance {
-            mechanism,
-            written: None,
-            parts: Vec::new(),
-            part_named: FxHashMap::default(),
-            paths: Vec::new(),
-            deciding: Rc::default(),
-            copies: FxHashMap::default(),
-            count: mechanism.items.len(),
-        }
-    }
-
-    /// What is checked.
-    pub fn tree(&self) -> &Mechanism {
-        self.written.as_ref().unwrap_or(self.mechanism)
-    }
-
-    /// Whether it differs from its text.
-    pub fn is_written_out(&self) -> bool {
-        self.written.is_some()
-    }
-
-    /// One of its parts.
-    pub fn part(&self, name: &str) -> Option<&Rc<Instance<'t>>> {
-        self.part_named.get(name).map(|&k| &self.parts[k])
-    }
-
-    /// Whether its text declares a name, be it repeated or not.
-    pub fn declares(&self, name: &str) -> bool {
-        name == "ground" || self.names().any(|known| known == name)
-    }
-
-    /// The names that its text declares.
-    pub fn names(&self) -> impl Iterator<Item = &'t str> {
-        self.mechanism.items.iter().filter_map(name_of).map(|name| name.text.as_str())
-    }
-
-    /// The name of its mechanism.
-    pub fn mechanism_name(&self) -> &'t str {
-        &self.mechanism.name.text
-    }
-}
 
 /// The instance of a mechanism that stands alone, and what is wrong with its ranges and parts.
 pub(super) fn instance_of<'t>(
@@ -105,6 +40,9 @@ pub(super) fn instance_of<'t>(
     (instance, builder.diagnostics)
 }
 
+/// The text of a mechanism, and what is bound of what decides its ranges.
+type Key = (*const Mechanism, Vec<(String, u64)>);
+
 struct Builder<'t, 's> {
     library: &'t Library,
     surroundings: &'s Surroundings,
@@ -112,7 +50,7 @@ struct Builder<'t, 's> {
     /// By the text of a mechanism.
     deciding: FxHashMap<*const Mechanism, Rc<FxHashSet<String>>>,
     /// By the text of a mechanism, and what is bound of what decides its ranges.
-    known: FxHashMap<(*const Mechanism, Vec<(String, u64)>), Rc<Instance<'t>>>,
+    known: FxHashMap<Key, Rc<Instance<'t>>>,
     /// The mechanisms around the one at hand, the outermost first.
     around: Vec<&'t Mechanism>,
     diagnostics: Diagnostics,

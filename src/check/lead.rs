@@ -63,6 +63,8 @@ impl Checker<'_> {
     pub(super) fn leave_what_leads(&mut self) {
         if self.lead.is_some() {
             self.model.measures.clear();
+            self.model.outcomes.clear();
+            self.model.reductions.clear();
             self.model.analysis = None;
         }
     }

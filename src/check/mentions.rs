@@ -67,13 +67,32 @@ pub(super) fn indices(formula: &Expr) -> Vec<&Expr> {
     found
 }
 
+/// The name that a declaration gives.
+pub(super) fn name_of(item: &Item) -> Option<&Name> {
+    match &item.kind {
+        ItemKind::Param { name, .. }
+        | ItemKind::Function { name, .. }
+        | ItemKind::Table { name, .. }
+        | ItemKind::Input { name, .. }
+        | ItemKind::Body { name, .. }
+        | ItemKind::Joint { name, .. }
+        | ItemKind::Equation { name, .. }
+        | ItemKind::Measure { name, .. }
+        | ItemKind::Trace { name, .. }
+        | ItemKind::Result { name, .. } => Some(name),
+        ItemKind::Part(part) => Some(&part.name),
+        ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
+    }
+}
+
 /// The formulas of a declaration.
 pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
     match &item.kind {
         ItemKind::Param { value, .. }
         | ItemKind::Input { value, .. }
         | ItemKind::Function { value, .. }
-        | ItemKind::Measure { value, .. } => {
+        | ItemKind::Measure { value, .. }
+        | ItemKind::Result { value, .. } => {
             vec![value]
         }
         ItemKind::Trace { point, .. } => vec![point],

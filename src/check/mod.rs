@@ -5,13 +5,16 @@
 //! each expansion is remembered, so that functions that share sub-formulas cost linear time.
 
 mod arguments;
+mod bindings;
 mod builtins;
 mod calls;
 mod elements;
 mod errors;
 mod features;
 mod formula;
+mod imports;
 mod inputs;
+mod instance;
 mod instances;
 mod instead;
 mod joints;
@@ -33,11 +36,14 @@ mod profiles;
 mod quantities;
 mod rates;
 mod repetition;
+mod results;
 mod samples;
 mod sites;
 mod symbols;
 mod table_file;
 mod tables;
+mod told;
+mod variables;
 
 pub use inputs::Given;
 pub use lead::Lead;
@@ -51,18 +57,22 @@ use crate::model::{Condition, Declared, Dimension, Frame, JointId, Mechanism, Na
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
+use bindings::BoundParam;
 use calls::{Call, Calls};
 use features::Feature;
 use formula::{Context, Dim, Value};
+use imports::Import;
 use lengths::Lengths;
 use mentions::mentioned;
 use names::{Entity, Space};
-use parts::{BoundParam, Import, is_told_by};
+use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
 use sites::{Drawn, Scope};
 use std::rc::Rc;
 use tables::TableState;
+use told::is_told_by;
+use variables::Variables;
 
 /// How many mistakes of one file are worth a suggestion.
 const MOST_SUGGESTIONS: usize = 100;
@@ -82,6 +92,10 @@ pub struct Surroundings {
     pub bound: Vec<(String, f64)>,
     /// Where it is led, if that is all that is asked for.
     pub lead: Option<Lead>,
+    /// Names by which all columns are differentiated.
+    pub by: Vec<String>,
+    /// Whether inputs stay signals in the model, rather than being replaced by what they are.
+    pub has_signals: bool,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -117,6 +131,8 @@ pub fn check(
     let (instance, told) = instances::instance_of(tree, surroundings, sources);
     let mut checker = Checker::of_instance(&instance, surroundings, sources, "", &[]);
     checker.bind_numbers(&surroundings.bound);
+    checker.variables = Variables::told(&surroundings.by);
+    checker.ask_for_derivatives();
     checker.run();
     let Checker { mut diagnostics, model, .. } = checker;
     diagnostics.extend(told);
@@ -253,6 +269,7 @@ struct Checker<'a> {
     files: &'a TableFiles,
     given: &'a Given,
     lead: Option<&'a Lead>,
+    by: &'a [String],
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -276,6 +293,8 @@ struct Checker<'a> {
     imported: FxHashMap<Entity, (usize, Entity)>,
     /// Of those the params that are points.
     point_paths: FxHashSet<String>,
+    /// What derivatives are taken by.
+    variables: Variables,
     /// The params that decide what is repeated.
     deciding: Rc<FxHashSet<String>>,
     /// By the parameter's position; `None` where it is broken.
@@ -305,6 +324,8 @@ struct Checker<'a> {
     bodies: Vec<Frame>,
     /// The bodies and the ground of this text.
     frames: Vec<(Frame, &'a [ast::Feature])>,
+    results: Vec<ResultState<'a>>,
+    result_order: Vec<usize>,
     joints: Vec<Option<JointId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
@@ -344,9 +365,13 @@ impl<'a> Checker<'a> {
             files: &surroundings.files,
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
+            by: &surroundings.by,
             sources,
             diagnostics: Diagnostics::default(),
-            model: Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone()),
+            model: Mechanism {
+                has_signals: surroundings.has_signals,
+                ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
+            },
             space: Space::new(),
             count: names::Count::default(),
             path: String::new(),
@@ -361,6 +386,7 @@ impl<'a> Checker<'a> {
             imported: FxHashMap::default(),
             point_paths: FxHashSet::default(),
             deciding: Rc::default(),
+            variables: Variables::default(),
             params: Vec::new(),
             drawn: Vec::new(),
             point_params: kinds::point_params(tree),
@@ -375,6 +401,8 @@ impl<'a> Checker<'a> {
             measure_order: Vec::new(),
             measure_values: Vec::new(),
             samples: None,
+            results: Vec::new(),
+            result_order: Vec::new(),
             bodies: Vec::new(),
             frames: Vec::new(),
             joints: Vec::new(),
@@ -400,7 +428,8 @@ impl<'a> Checker<'a> {
         self.look_over_settings();
         self.look_over_given();
         self.samples = self.samples_given().map(Rc::new);
-        self.measure_order = self.definitions();
+        self.definitions();
+        self.look_over_by();
         self.features();
         self.joints();
         self.bind_inputs();
@@ -408,6 +437,7 @@ impl<'a> Checker<'a> {
         self.list_measures();
         self.equations();
         self.analysis();
+        self.results();
         self.leave_what_leads();
         self.warn_of_plain_lengths();
         if self.model.bodies.is_empty() && !self.holds_broken() {
@@ -440,8 +470,8 @@ impl<'a> Checker<'a> {
     }
 
     /// Params, functions, tables and measures in the order in which they need each other: params and tables are evaluated
-    /// and functions looked over; returns the measures' order.
-    fn definitions(&mut self) -> Vec<usize> {
+    /// and functions looked over; the order of the measures, and that of the results, is kept.
+    fn definitions(&mut self) {
         let (mut definitions, mut docs, mut entities) = (Vec::new(), Vec::new(), Vec::new());
         for item in self.items() {
             match &item.kind {
@@ -471,6 +501,11 @@ impl<'a> Checker<'a> {
                     definitions.push((name, vec![value]));
                     self.measures.push(MeasureState::of(name, value, unit.as_ref()));
                 }
+                ItemKind::Result { name, value, unit } => {
+                    entities.push(Entity::Result(self.results.len()));
+                    definitions.push((name, vec![value]));
+                    self.results.push(ResultState::of(value, unit.as_ref()));
+                }
                 ItemKind::Table { name, periodic, rows } => {
                     entities.push(Entity::Table(self.tables.len()));
                     definitions.push((
@@ -494,7 +529,7 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let mut measures = Vec::new();
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -517,10 +552,14 @@ impl<'a> Checker<'a> {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
                 }
+                Entity::Result(k) => {
+                    self.results[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
+                    results.push(k);
+                }
                 _ => {}
             }
         }
-        measures
+        (self.measure_order, self.result_order) = (measures, results);
     }
 
     fn uses<'d>(
@@ -548,7 +587,9 @@ impl<'a> Checker<'a> {
                         |name| self.hidden.contains(name),
                         |used, is_called| {
                             // `speed(P)` is a quantity, whatever else is called `speed`
-                            if is_called && self.quantity_word(used).is_some() {
+                            let is_of_motion =
+                                self.quantity_word(used).is_some() || self.reduction_word(used, 1).is_some();
+                            if is_called && is_of_motion {
                                 return;
                             }
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
@@ -607,7 +648,7 @@ impl<'a> Checker<'a> {
     /// A number that is a parameter of the model, unless it follows from others.
     fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
         if self.follows(value.id) {
-            return Some(value);
+            return Some(self.with_shift(&declared, value));
         }
         let number = self.constant_value(value.id)?;
         // what decides how many declarations there are is not to be changed afterwards
@@ -615,6 +656,7 @@ impl<'a> Checker<'a> {
             return Some(Value { id: self.model.graph.constant(number), dim: value.dim });
         }
         let index = self.model.params.len() as u32;
+        self.note_param(&declared, Symbol::Param(index), value.dim);
         self.model.params.push(Param {
             declared,
             docs: docs.to_vec(),
@@ -769,6 +811,7 @@ impl<'a> Checker<'a> {
         let params = &self.model.params;
         self.model.graph.extend_values(&mut self.values, |symbol| match symbol {
             Symbol::Param(k) => params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             _ => f64::NAN,
         });
         self.values.get(id.index()).copied()

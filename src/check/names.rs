@@ -22,6 +22,7 @@ pub(super) enum Entity {
     Part(usize),
     /// The ground of a part, inside it.
     Ground,
+    Result(usize),
     /// Its declaration does not follow the grammar, which has been said.
     Broken,
 }
@@ -41,15 +42,19 @@ impl Entity {
             Entity::Trace => "a trace",
             Entity::Part(_) => "a part",
             Entity::Ground => "the ground of a part",
+            Entity::Result(_) => "a result",
             Entity::Broken => "a declaration that cannot be read",
         }
     }
 
     fn kind_of_name(self) -> KindOfName {
         match self {
-            Entity::Param(_) | Entity::Input(_) | Entity::Measure(_) | Entity::Trace | Entity::Broken => {
-                KindOfName::Value
-            }
+            Entity::Param(_)
+            | Entity::Input(_)
+            | Entity::Measure(_)
+            | Entity::Trace
+            | Entity::Result(_)
+            | Entity::Broken => KindOfName::Value,
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
             Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
@@ -68,6 +73,7 @@ pub(super) struct Count {
     pub bodies: usize,
     pub joints: usize,
     pub measures: usize,
+    pub results: usize,
     pub parts: usize,
 }
 
@@ -151,6 +157,7 @@ impl Checker<'_> {
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut count.measures))),
                 ItemKind::Trace { name, .. } => (name, Entity::Trace),
                 ItemKind::Part(part) => (&part.name, Entity::Part(next(&mut count.parts))),
+                ItemKind::Result { name, .. } => (name, Entity::Result(next(&mut count.results))),
                 ItemKind::Broken { names, .. } => {
                     self.collect_broken(names);
                     continue;

@@ -4,6 +4,7 @@ use super::Checker;
 use super::errors;
 use super::formula::{Context, Dim, Value};
 use super::names::Entity;
+use super::variables;
 use crate::diag::Diagnostic;
 use crate::model::{Dimension, Units};
 use crate::syntax::ast::{Expr, ExprKind, Factor, Name, WrittenUnit};
@@ -90,6 +91,9 @@ impl Checker<'_> {
                     Some(Entity::Measure(k)) if self.measure_known(k).is_some_and(|known| known.holds_plain_number) => {
                         return true;
                     }
+                    Some(Entity::Result(k)) if self.result_known(k).is_some_and(|known| known.holds_plain_number) => {
+                        return true;
+                    }
                     _ => {}
                 },
                 _ => {}
@@ -97,6 +101,10 @@ impl Checker<'_> {
             match &e.kind {
                 // an exponent is a number whatever its base is
                 ExprKind::Power(base, _) => open.push(base),
+                // nor does a derivative hold what it is taken by
+                ExprKind::Call { arguments, .. } if variables::as_derivative(e).is_some() => {
+                    open.extend(arguments.first());
+                }
                 _ => open.extend(e.children()),
             }
         }
@@ -114,7 +122,11 @@ impl Checker<'_> {
             ExprKind::Name(name) => self.angle_power_of_name(name),
             ExprKind::Call { name, arguments } => match name.text.as_str() {
                 "angle" | "rotation" | "pressure_angle" | "asin" | "acos" | "atan" | "atan2" => 1,
-                "der" | "abs" | "min" | "max" | "mod" => most(arguments),
+                "der" if arguments.len() == 2 => {
+                    let by = variables::as_derivative(e).map_or(0, |(_, by)| self.angle_power_of_variable(by));
+                    self.angle_power(&arguments[0]).saturating_sub(by)
+                }
+                "der" | "abs" | "min" | "max" | "mod" | "mean" | "rms" | "first" | "last" | "at" => most(arguments),
                 _ => 0,
             },
             ExprKind::Sum(first, rest) => {
@@ -136,10 +148,22 @@ impl Checker<'_> {
         }
     }
 
+    /// The same of what a derivative is taken by.
+    fn angle_power_of_variable(&self, by: &Expr) -> i32 {
+        match &by.bare().kind {
+            ExprKind::Name(name) => match self.entity(name) {
+                Some(Entity::Input(k)) => self.angle_power(self.inputs[k].formula),
+                _ => self.angle_power_of_name(name),
+            },
+            _ => 0,
+        }
+    }
+
     fn angle_power_of_name(&self, name: &Name) -> i32 {
         match self.entity(name) {
             Some(Entity::Param(k)) => self.param_angles.get(k).copied().unwrap_or(0),
             Some(Entity::Measure(k)) => self.measure_known(k).map_or(0, |measure| measure.angle),
+            Some(Entity::Result(k)) => self.result_known(k).map_or(0, |result| result.angle),
             Some(_) => 0,
             None => match Constant::named(&name.text) {
                 Some(Constant { stands_for: StandsFor::Number(_), .. }) => 1,

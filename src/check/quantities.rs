@@ -17,6 +17,12 @@ impl Checker<'_> {
         arguments: &[Expr],
         context: &Context<'_>,
     ) -> Option<Value> {
+        if !context.quantities && context.results {
+            let what = format!("the kinematic quantity `{}`", name.text);
+            let text = self.sources.text(e.span);
+            self.report(errors::outside_reduction(&what, e.span, text));
+            return None;
+        }
         if !context.quantities {
             self.report(errors::quantity_in(context.place, &name.text, e.span));
             return None;

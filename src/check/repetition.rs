@@ -1,7 +1,8 @@
 //! Repetition: declarations that stand for one for each whole number are written out, and paths like `link[k - 1].pin` become the
 //! names that the copies have. All else of `check` knows plain declarations alone.
 
-use super::instances::Instance;
+use super::instance::{Copies, Instance};
+use super::mentions::name_of;
 use super::{Checker, errors};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
@@ -26,9 +27,6 @@ pub(super) fn needs_writing(tree: &Mechanism) -> bool {
 
 /// The numbers of a copy, each with what it is called.
 pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
-
-/// The numbers of the copies of what is repeated.
-pub(super) type Copies = Rc<FxHashSet<Vec<i64>>>;
 
 /// Writes out one mechanism.
 pub(super) struct Writer<'t, 'c> {
@@ -233,6 +231,9 @@ impl<'t, 'c> Writer<'t, 'c> {
             }
             ItemKind::Trace { name, point, unit } => {
                 ItemKind::Trace { name: own(name), point: self.formula(point, numbers)?, unit: unit.clone() }
+            }
+            ItemKind::Result { name, value, unit } => {
+                ItemKind::Result { name: own(name), value: self.formula(value, numbers)?, unit: unit.clone() }
             }
             ItemKind::Ground { features } => ItemKind::Ground { features: self.features(features, numbers)? },
             ItemKind::Body { name, pose, features } => ItemKind::Body {
@@ -498,22 +499,6 @@ impl<'t, 'c> Writer<'t, 'c> {
         let span = indices.iter().fold(name.span, |span, index| span.to(index.span));
         self.tell(errors::no_such_copy(&copy, span, ends, numbers));
         Err(Unwritten)
-    }
-}
-
-pub(super) fn name_of(item: &Item) -> Option<&Name> {
-    match &item.kind {
-        ItemKind::Param { name, .. }
-        | ItemKind::Function { name, .. }
-        | ItemKind::Table { name, .. }
-        | ItemKind::Input { name, .. }
-        | ItemKind::Body { name, .. }
-        | ItemKind::Joint { name, .. }
-        | ItemKind::Equation { name, .. }
-        | ItemKind::Measure { name, .. }
-        | ItemKind::Trace { name, .. } => Some(name),
-        ItemKind::Part(part) => Some(&part.name),
-        ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
     }
 }
 

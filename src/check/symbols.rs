@@ -11,7 +11,9 @@ use crate::syntax::ast::{
     WrittenUnit,
 };
 use crate::syntax::keywords_in;
-use crate::vocabulary::{Constant, Function, JointWord, Keyword, QuantityWord, Role, StandsFor, Unit, Word};
+use crate::vocabulary::{
+    Constant, Function, JointWord, Keyword, QuantityWord, ReductionWord, Role, StandsFor, Unit, Word,
+};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// A declaration, by its number in the order of the text.
@@ -67,6 +69,8 @@ pub enum NameKind {
     Trace,
     /// `part`
     Part,
+    /// `result`
+    Result,
     /// What cannot be read.
     Broken,
 }
@@ -241,6 +245,7 @@ impl Walk<'_> {
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
             ItemKind::Trace { name, .. } => (name, NameKind::Trace),
             ItemKind::Part(part) => (&part.name, NameKind::Part),
+            ItemKind::Result { name, .. } => (name, NameKind::Result),
             ItemKind::Ground { features } => {
                 let word = Span { end: item.span.start + "ground".len() as u32, ..item.span };
                 let name = Name { text: "ground".to_owned(), span: word };
@@ -295,7 +300,9 @@ impl Walk<'_> {
         let plain = Scope { indices: &indices, ..Scope::default() };
         match &item.kind {
             ItemKind::Param { value, .. } | ItemKind::Input { value, .. } => self.formula(value, plain),
-            ItemKind::Measure { value: formula, unit, .. } | ItemKind::Trace { point: formula, unit, .. } => {
+            ItemKind::Measure { value: formula, unit, .. }
+            | ItemKind::Trace { point: formula, unit, .. }
+            | ItemKind::Result { value: formula, unit, .. } => {
                 self.formula(formula, plain);
                 if let Some(unit) = unit {
                     self.compound(unit);
@@ -396,7 +403,7 @@ impl Walk<'_> {
                 ExprKind::Name(name) => self.name(name, scope, wanted),
                 ExprKind::Member { owner, feature } => self.member(owner, feature, scope, wanted),
                 ExprKind::Path(segments) => self.path(segments, scope, wanted),
-                ExprKind::Call { name, .. } => self.called(name),
+                ExprKind::Call { name, arguments } => self.called(name, arguments.len()),
                 _ => {}
             }
             open.extend(kinds::inside(e, wanted, |name| self.hidden.contains(name)));
@@ -506,13 +513,16 @@ impl Walk<'_> {
     }
 
     /// What is called: the language's own functions before the user's, unless they give way.
-    fn called(&mut self, name: &Name) {
+    fn called(&mut self, name: &Name, arguments: usize) {
         let declared = self.names.get(&name.text);
         let is_callable = |id: &NameId| matches!(self.symbols.get(*id).kind, NameKind::Function | NameKind::Table);
         let hides = declared.is_some_and(is_callable);
         let quantity = QuantityWord::named(&name.text).filter(|quantity| !quantity.gives_way || !hides);
         let function = Function::named(&name.text).map(|function| &function.word);
-        let word = function.or_else(|| quantity.map(|quantity| &quantity.word));
+        // with more arguments `max` and `min` compare
+        let reduces = |_: &&ReductionWord| !hides && (function.is_none() || arguments == 1);
+        let reduction = ReductionWord::named(&name.text).filter(reduces).map(|reduction| &reduction.word);
+        let word = reduction.or(function).or_else(|| quantity.map(|quantity| &quantity.word));
         let word = word.filter(|_| !self.hidden.contains(name.text.as_str()));
         match (word, declared) {
             (Some(word), _) => self.word(name, word),

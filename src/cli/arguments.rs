@@ -226,6 +226,8 @@ pub(super) enum EmitFormat {
 pub(super) enum Content {
     /// Assemble the mechanism and follow its motion, as `mechc run` does
     Solver,
+    /// The same, and the derivatives of the coordinates by each parameter
+    Sensitivities,
     /// Evaluate its equations only
     Equations,
 }
@@ -285,6 +287,10 @@ pub(super) struct RunArguments {
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Option<Format>,
 
+    /// Where the results go, as a JSON object of names and numbers in SI
+    #[arg(long, value_name = "OUT.json")]
+    pub results: Option<String>,
+
     /// First time, in seconds or with a unit
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub from: Option<String>,
@@ -300,6 +306,10 @@ pub(super) struct RunArguments {
     /// Only this time, followed from the start of the analysis. Repeatable
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
     pub at: Vec<String>,
+
+    /// Differentiate every column by an input or parameter too: `--by turn` adds `crank.phi.by.turn` and so on. Repeatable
+    #[arg(long, value_name = "NAME")]
+    pub by: Vec<String>,
 
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]

@@ -14,6 +14,10 @@ pub(super) fn check(arguments: &CheckArguments, reporter: &mut Reporter) -> Resu
     let input = &arguments.input;
     let parsed = if arguments.fix { fix::fix(input, reporter)? } else { input::parsed(input, reporter)? };
     let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut Timings::new(false))?;
+    if let Some([from, to, _]) = compiled.analysis() {
+        let refused = compiled.refused_results([from, to]);
+        reporter.settle((!refused.has_errors()).then_some(()), refused)?;
+    }
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
     let (run, said) = compiled.run(&Times::listed(from, vec![from]), &RunOptions::default());
     let run = reporter.settle(run, said)?;
@@ -45,6 +49,10 @@ fn report(compiled: &Compiled, assembly: &Assembly) -> String {
     let drivers = drivers(compiled);
     if !drivers.is_empty() {
         text += &format!("\ndrivers\n{drivers}");
+    }
+    let results: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
+    if !results.is_empty() {
+        text += &format!("\nresults\n  {}\n", results.join("\n  "));
     }
     text += "\norder of solution\n";
     text += &compiled.order_of_solution();

@@ -27,10 +27,12 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     let (input, mut timings) = (&arguments.input, Timings::new(false));
     let parsed = input::parsed(input, reporter)?;
     let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut timings)?;
+    compiled.can_be_emitted()?;
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     let options = RustOptions {
-        with_motion: arguments.with == Content::Solver,
+        with_motion: arguments.with != Content::Equations,
+        with_sensitivities: arguments.with == Content::Sensitivities,
         lanes: arguments.lanes,
         ..RustOptions::of(&*file)
     };

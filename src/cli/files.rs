@@ -149,6 +149,12 @@ impl Output {
         put_in_place(self.written()?)
     }
 
+    /// Puts this one and another in their places, both or none.
+    pub fn close_with(self, other: Option<Output>) -> Result<(), Failure> {
+        let other = other.map(Output::written).transpose()?.flatten();
+        put_in_place(self.written()?.into_iter().chain(other))
+    }
+
     /// The file, if it is one, with all that was written.
     fn written(mut self) -> Result<Option<Written>, Failure> {
         if let Err(error) = self.writer.flush() {

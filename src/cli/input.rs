@@ -19,8 +19,19 @@ pub(super) fn compiled(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
+    compiled_by(parsed, (input, &[]), allow_redundant, reporter, timings)
+}
+
+/// The same, with the names by which its columns are differentiated.
+pub(super) fn compiled_by(
+    parsed: &Parsed,
+    (input, by): (&Input, &[String]),
+    allow_redundant: bool,
+    reporter: &mut Reporter,
+    timings: &mut Timings,
+) -> Result<Compiled, Failure> {
     // see `run`: nothing is taken apart before the process ends
-    let checked = ManuallyDrop::new(checked(parsed, input, reporter)?);
+    let checked = ManuallyDrop::new(checked(parsed, input, by, reporter)?);
     timings.end(Phase::Check);
     let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
@@ -32,7 +43,7 @@ pub(super) fn compiled(
 /// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
 pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
     let parsed = parsed(input, reporter)?;
-    checked(&parsed, input, reporter)
+    checked(&parsed, input, &[], reporter)
 }
 
 /// Reads the file of a command.
@@ -46,12 +57,13 @@ pub(super) fn path(input: &Input) -> &Path {
     if input.file == "-" { Path::new("") } else { Path::new(&input.file) }
 }
 
-fn checked(parsed: &Parsed, input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
+fn checked(parsed: &Parsed, input: &Input, by: &[String], reporter: &mut Reporter) -> Result<Checked, Failure> {
     let choice = Choice {
         mechanism: input.mechanism.clone(),
         set: input.set.clone(),
         inputs: input.signals.clone(),
         samples: input.samples.clone(),
+        by: by.to_vec(),
     };
     let checked = parsed.check(&choice, &Disk);
     reporter.sources = checked.sources().clone();

@@ -17,6 +17,7 @@ mod input;
 mod interrupts;
 mod progress;
 mod report;
+mod results;
 mod run;
 mod timings;
 mod usage;

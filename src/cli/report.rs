@@ -36,6 +36,11 @@ impl Reporter {
         Reporter { sources: Sources::default(), format, color, exit: Cell::new(0) }
     }
 
+    /// Whether what is said is read by other programs.
+    pub fn is_for_programs(&self) -> bool {
+        self.format == Format::Json
+    }
+
     pub fn print(&self, diagnostics: &Diagnostics) {
         let mut text = String::new();
         for diagnostic in diagnostics.iter() {

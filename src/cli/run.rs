@@ -7,8 +7,9 @@ use super::files::Output;
 use super::input;
 use super::progress::Progress;
 use super::report::Reporter;
+use super::results;
 use super::timings::{Phase, Timings};
-use crate::analysis::Times;
+use crate::analysis::{Answers, ColumnUnit, Times};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::output::{TableFormat, TableWriter};
 use crate::source::Sources;
@@ -22,10 +23,12 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     // the process ends with the command: to take a large mechanism apart first would only take time
     let parsed = ManuallyDrop::new(input::parsed(&arguments.input, reporter)?);
     timings.end(Phase::Parse);
-    let compiled = input::compiled(&parsed, &arguments.input, arguments.allow_redundant, reporter, &mut timings)?;
+    let asked = (&arguments.input, arguments.by.as_slice());
+    let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.sources)?;
+    let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.sources)?;
     if format == TableFormat::Parquet && output.is_terminal() {
         return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
     }
@@ -34,8 +37,12 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let RunArguments { tolerance, pass_bifurcations, .. } = *arguments;
     let (run, said) = compiled.run(&times, &RunOptions { tolerance, pass_bifurcations, ..RunOptions::default() });
     let run = reporter.settle(run, said)?;
-    let ended = Table { output, format, timings }.write(run)?;
+    let names = compiled.results();
+    let ended = Table { output, format, timings, results, names: &names }.write(run)?;
     reporter.print(&ended.remarks);
+    if !reporter.is_for_programs() {
+        Reporter::say(&results::told(&names, &ended.answers));
+    }
     Reporter::say(&ended.timings);
     ended.result
 }
@@ -44,6 +51,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
 struct Ended {
     /// What there is to say beside them.
     remarks: Diagnostics,
+    /// The numbers for the whole analysis.
+    answers: Answers,
     /// What the clock says.
     timings: String,
     /// Why the motion stopped, if it did.
@@ -51,13 +60,16 @@ struct Ended {
 }
 
 /// Where the rows go, and how.
-struct Table {
+struct Table<'n> {
     output: Output,
     format: TableFormat,
     timings: Timings,
+    /// Where the results go, if they are wanted, and what they are called.
+    results: Option<Output>,
+    names: &'n [(String, ColumnUnit)],
 }
 
-impl Table {
+impl Table<'_> {
     /// Writes the rows as they come. Where the motion cannot go on, the rows before are kept.
     fn write(mut self, mut run: Run) -> Result<Ended, Failure> {
         let (columns, units, count) = (run.columns().to_vec(), run.units().to_vec(), run.times().len());
@@ -96,9 +108,19 @@ impl Table {
         if let Err(error) = written {
             return Err(self.output.failure(&error));
         }
-        self.output.close()?;
         self.timings.end(Phase::Write);
-        Ok(Ended { remarks: run.take_remarks(), timings: self.timings.text(rows), result: stopped })
+        let answers = run.results().unwrap_or_default();
+        if !answers.values.is_empty() {
+            self.timings.end(Phase::Results);
+        }
+        if let Some(results) = &mut self.results {
+            results::write(results, self.names, &answers)?;
+        }
+        self.output.close_with(self.results)?;
+        self.timings.end(Phase::Write);
+        let mut remarks = run.take_remarks();
+        answers.notes.iter().for_each(|note| remarks.push(note.clone()));
+        Ok(Ended { remarks, answers, timings: self.timings.text(rows), result: stopped })
     }
 }
 

@@ -10,15 +10,17 @@ pub(super) enum Phase {
     Prove,
     Program,
     Solve,
+    Results,
     Write,
 }
 
-const PHASES: [(Phase, &str); 6] = [
+const PHASES: [(Phase, &str); 7] = [
     (Phase::Parse, "parse"),
     (Phase::Check, "check"),
     (Phase::Prove, "prove"),
     (Phase::Program, "program"),
     (Phase::Solve, "solve"),
+    (Phase::Results, "results"),
     (Phase::Write, "write"),
 ];
 
@@ -49,7 +51,9 @@ impl Timings {
             return String::new();
         }
         let mut text = String::new();
-        for (phase, name) in PHASES {
+        // most files ask for no results
+        let is_spent = |(phase, _): &(Phase, &str)| *phase != Phase::Results || !self.spent[*phase as usize].is_zero();
+        for (phase, name) in PHASES.into_iter().filter(is_spent) {
             text += &format!("{name:<8} {:>12.6} s\n", self.spent[phase as usize].as_secs_f64());
         }
         let solve = self.spent[Phase::Solve as usize].as_secs_f64();

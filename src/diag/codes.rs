@@ -77,9 +77,10 @@ catalogue! {
         E0307 Error "a kinematic quantity where it may not stand"
         E0308 Error "an equation without any kinematic quantity"
         E0309 Error "a number and a condition confused"
-        E0310 Error "a time derivative where it may not stand"
+        E0310 Error "a derivative where it may not stand"
         E0311 Error "an equation in which no body takes part"
         E0318 Error "points of two frames in one formula"
+        E0322 Error "a result or reduction where it may not stand, or something else in its place"
     }
     "dimensions and values" {
         E0401 Error "unlike dimensions"
@@ -99,6 +100,7 @@ catalogue! {
         E0415 Error "a periodic table whose ends differ"
         E0416 Error "a row of a table or of samples that is not all numbers"
         E0417 Error "an argument out of a table's range"
+        E0422 Error "a time of a result that is not within the analysis"
         W0401 Warning "an angle that was probably meant in degrees"
         W0402 Warning "a length that has lost its unit"
     }
@@ -129,6 +131,7 @@ catalogue! {
         W0602 Warning "a bifurcation that was passed"
         W0603 Warning "a measure without a value"
         N0601 Note "the estimates were far from the assembled start"
+        N0604 Note "a result without a value"
     }
     "the command line and files" {
         E0701 Error "a file that cannot be read"

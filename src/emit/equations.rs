@@ -19,6 +19,8 @@ pub(super) struct Equations<'e> {
     pub constants: FxHashMap<Register, f64>,
     /// The results of switches, by their places among the sides.
     pub sides: FxHashMap<Register, usize>,
+    /// Whether they are those of a mechanism that is led by its inputs: these are given, as a `Way`.
+    pub is_led: bool,
     /// What operations written as numbers share; none where they are written as lines.
     pub book: Option<RefCell<Book>>,
 }
@@ -77,7 +79,7 @@ impl Equations<'_> {
         if wanted.has_time {
             arguments.push(("t", "f64".to_owned()));
         }
-        arguments.push(("p", "&Params".to_owned()));
+        arguments.push(("p", if self.is_led { "&Way" } else { "&Params" }.to_owned()));
         if wanted.given != Given::None && !self.sides.is_empty() {
             arguments.push(("sides", "&Sides".to_owned()));
         }
@@ -113,11 +115,17 @@ impl Equations<'_> {
         let notes = Notes { pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
         let words = book.encode(&shared.operations, self, &FxHashMap::default(), &notes).words;
         let name = wanted.name.to_uppercase();
-        let mut lists: Vec<String> = vec![if self.names.params.is_empty() { "&[]" } else { "&p.list()" }.to_owned()];
+        let params = match (self.names.params.is_empty(), self.is_led) {
+            (true, _) => "&[]",
+            (false, false) => "&p.list()",
+            (false, true) => "&p.params.list()",
+        };
+        let mut lists: Vec<String> = vec![params.to_owned()];
         lists.push("&[]".to_owned());
         let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
         lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
-        lists.push(if given("t") { "&[t]" } else { "&[]" }.to_owned());
+        let time = if self.is_led { "&p.list(t)" } else { "&[t]" };
+        lists.push(if given("t") { time } else { "&[]" }.to_owned());
         lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
         let turned = if wanted.negated { "    out = out.map(|value| -value);\n" } else { "" };
         let body = format!(
@@ -153,6 +161,9 @@ impl Equations<'_> {
         if register == inputs.time {
             return input(3, 0);
         }
+        if inputs.all_signals().contains(&register) {
+            return input(3, (register - inputs.signals) as usize);
+        }
         if register < inputs.time {
             return input(0, (register - inputs.params) as usize);
         }
@@ -177,7 +188,21 @@ impl Equations<'_> {
         }
         if let Some(k) = register.checked_sub(inputs.params).filter(|&k| register < inputs.time && k < inputs.time) {
             let name = &self.names.params[k as usize];
-            return Input::Bound { name: self.names.param_variables[k as usize].clone(), value: format!("p.{name}") };
+            let of = if self.is_led { "p.params" } else { "p" };
+            return Input::Bound {
+                name: self.names.param_variables[k as usize].clone(),
+                value: format!("{of}.{name}"),
+            };
+        }
+        if inputs.all_signals().contains(&register) {
+            let place = register - inputs.signals;
+            let (signal, order) = ((place / 3) as usize, (place % 3) as usize);
+            let value = match order {
+                0 => format!("p.value({signal}, t)"),
+                1 => format!("p.rates[{signal}]"),
+                _ => format!("p.accelerations[{signal}]"),
+            };
+            return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
         }
         for (order, array) in ARRAYS.iter().enumerate() {
             let first = inputs.coordinates[order];

@@ -28,6 +28,9 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.field("file", &json!(file));
     object.field("analysis", &writer.analysis());
     object.list("params", writer.params());
+    if !system.inputs.is_empty() {
+        object.list("inputs", writer.inputs());
+    }
     object.list("tables", writer.tables());
     object.list("bodies", writer.bodies());
     object.list("coordinates", writer.coordinates());
@@ -50,6 +53,7 @@ fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu.iter().chain(&system.gamma));
     roots.extend(system.coordinates.iter().map(|coordinate| coordinate.estimate));
+    roots.extend(system.inputs.iter().flat_map(|input| input.formulas));
     roots.extend(system.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
     roots.extend(system.conditions.iter().map(|condition| condition.positive));
     roots.extend(system.watches.iter().map(|watch| watch.value));
@@ -92,6 +96,21 @@ impl Writer<'_> {
     fn params(&self) -> Vec<Value> {
         let params = self.system.params.iter();
         params.map(|param| json!({ "name": param.name, "value": param.value, "unit": param.unit })).collect()
+    }
+
+    fn inputs(&self) -> Vec<Value> {
+        let inputs = self.system.inputs.iter().map(|input| {
+            let [value, rate, acceleration] = input.formulas.map(|id| (self.text)(id));
+            json!({
+                "name": input.name,
+                "line": self.line(input.span),
+                "unit": input.unit,
+                "value": value,
+                "rate": rate,
+                "acceleration": acceleration,
+            })
+        });
+        inputs.collect()
     }
 
     fn tables(&self) -> Vec<Value> {

@@ -43,12 +43,24 @@ pub struct Unit<'u> {
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
     pub largest_straight: usize,
+    /// The same with its inputs as signals, where it has any and is to be solved.
+    pub following: Option<Following<'u>>,
+}
+
+/// A mechanism once more, with its inputs as signals.
+pub struct Following<'u> {
+    /// Its system, in which they are signals; the program holds no operation that says what they are by the text.
+    pub unit: Box<Unit<'u>>,
+    /// The program with these operations; its registers are the same.
+    pub by_text: &'u Program,
 }
 
 /// What it takes to follow the motion from the assembled start.
 pub struct Motion {
     /// The operations that solve the system, laid out for code.
     pub solver: Solver,
+    /// The same with the derivatives of the coordinates by parameters, where these are wanted.
+    pub sensitive: Option<Solver>,
     /// For elimination with partial pivoting; none where a block is too large.
     pub blocks: Option<BlockTables>,
     /// The assembled position [m, rad].

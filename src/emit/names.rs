@@ -11,7 +11,7 @@ const KEYWORDS: &[&str] = &[
     "try", "type", "typeof", "unsafe", "unsized", "use", "virtual", "where", "while", "yield",
 ];
 
-/// Longer names are cut; the documentation beside them has the whole.
+/// Longer names are cut, but those of paths; the documentation beside them has the whole.
 const LONGEST: usize = 40;
 
 /// Names in a body that are its own.
@@ -31,18 +31,15 @@ pub(super) struct Names {
     pub param_variables: Vec<String>,
     /// What coordinates, velocities and accelerations are called in a body.
     coordinates: [Vec<String>; 3],
+    /// Fields of the inputs, where they are signals.
+    pub inputs: Vec<String>,
+    /// What their values, rates and accelerations are called in a body.
+    signals: [Vec<String>; 3],
 }
 
 impl Names {
     pub fn new(system: &ConstraintSystem) -> Names {
-        let mut fields = Namer::default();
-        // a coordinate of a point gives way to a name that is written so
-        let is_path = |k: &usize| system.params[*k].name.contains('.');
-        let (paths, plain): (Vec<usize>, Vec<usize>) = (0..system.params.len()).partition(is_path);
-        let mut params = vec![String::new(); system.params.len()];
-        for k in plain.into_iter().chain(paths) {
-            params[k] = fields.snake(&system.params[k].name);
-        }
+        let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);
@@ -58,7 +55,19 @@ impl Names {
             let coordinates = system.coordinates.iter().enumerate();
             coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
         });
-        Names { params, param_variables, coordinates }
+        let inputs = Case::Snake.names(system.inputs.iter().map(|input| input.name.as_str()));
+        let signals = ["", "_d", "_dd"].map(|end| {
+            let signals = inputs.iter().enumerate();
+            signals
+                .map(|(k, name)| variable(name.trim_end_matches('_').to_owned() + end, format!("u{k}{end}")))
+                .collect()
+        });
+        Names { params, param_variables, coordinates, inputs, signals }
+    }
+
+    /// What a signal or a derivative of it is called in a body.
+    pub fn signal(&self, signal: usize, order: usize) -> &str {
+        self.signals.get(order).and_then(|names| names.get(signal)).map_or("u", String::as_str)
     }
 
     /// What a coordinate or a derivative of it is called in a body.
@@ -70,6 +79,38 @@ impl Names {
     pub fn is_telling(name: &str) -> bool {
         let number = name.trim_start_matches(|c: char| c.is_ascii_lowercase());
         number.is_empty() || !number.chars().all(|c| c.is_ascii_digit()) || name.len() - number.len() > 4
+    }
+}
+
+/// How names are written.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Case {
+    /// Of fields: `crank_length`.
+    Snake,
+    /// Of variants: `CrankPin`.
+    Camel,
+    /// Of constants: `CRANK_PHI`.
+    Constant,
+}
+
+impl Case {
+    /// Names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
+    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first. So what is declared behind others
+    /// takes a name only from a path that it spells.
+    pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
+        let sources: Vec<&str> = sources.into_iter().collect();
+        let mut order: Vec<usize> = (0..sources.len()).collect();
+        let is_path = |c: &char| ".[ ".contains(*c);
+        order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
+        let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
+        for k in order {
+            names[k] = match self {
+                Case::Snake => namer.snake(sources[k]),
+                Case::Camel => namer.camel(sources[k]),
+                Case::Constant => namer.constant(sources[k]),
+            };
+        }
+        names
     }
 }
 
@@ -102,17 +143,6 @@ impl Namer {
     /// A name for a constant: `CRANK_PHI`.
     pub fn constant(&mut self, source: &str) -> String {
         self.unique(&words(source).to_uppercase(), '_')
-    }
-
-    /// Names for constants, in order. Where two meet, the one that is no path keeps its name: `pen_x` before `pen.x`.
-    pub fn constants(&mut self, sources: &[&str]) -> Vec<String> {
-        let mut names = vec![String::new(); sources.len()];
-        for paths in [false, true] {
-            for (name, source) in names.iter_mut().zip(sources).filter(|(_, source)| source.contains('.') == paths) {
-                *name = self.constant(source);
-            }
-        }
-        names
     }
 
     fn unique(&mut self, name: &str, separator: char) -> String {
@@ -154,7 +184,9 @@ fn words(source: &str) -> String {
             text += &format!("u{:04x}", u32::from(c));
         }
     }
-    let cut = text.char_indices().nth(LONGEST).map_or(text.len(), |(at, _)| at);
+    // what is reached by a path would not be told apart
+    let longest = if source.contains(['.', '[']) { usize::MAX } else { LONGEST };
+    let cut = text.char_indices().nth(longest).map_or(text.len(), |(at, _)| at);
     let text = text[..cut].trim_end_matches('_');
     match text.chars().next() {
         None => "unnamed".to_owned(),
@@ -165,7 +197,7 @@ fn words(source: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::Namer;
+    use super::{Case, Namer};
 
     #[test]
     fn names_are_valid_and_unique() {
@@ -174,7 +206,21 @@ mod tests {
         assert_eq!(names, ["fn_", "type_", "self_", "u00e9", "r", "r_2", "crank_phi", "unnamed", "n1", "r_3"]);
         let mut namer = Namer::default();
         assert_eq!(["a.x", "A.x"].map(|name| namer.constant(name)), ["A_X", "A_X_2"]);
-        let mut namer = Namer::default();
-        assert_eq!(namer.constants(&["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
+    }
+
+    #[test]
+    fn where_two_names_meet_the_plainer_one_keeps_it() {
+        let names = |sources: [&'static str; 3]| Case::Constant.names(sources);
+        assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
+        assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);
+        assert_eq!(Case::Snake.names(["R", "r", "s"]), ["r", "r_2", "s"]);
+        assert_eq!(Case::Camel.names(["leg[0]", "leg_0"]), ["Leg02", "Leg0"]);
+    }
+
+    #[test]
+    fn paths_are_not_cut() {
+        let path = format!("front.{}.x", "a".repeat(60));
+        assert_eq!(Case::Snake.names([path.as_str()]), [path.replace('.', "_")]);
+        assert_eq!(Case::Snake.names(["a".repeat(60).as_str()]), ["a".repeat(40)]);
     }
 }

@@ -4,7 +4,7 @@
 //! What the interpreter computes is handed in; this room knows of no analysis.
 
 use super::Unit;
-use super::names::{Namer, is_keyword};
+use super::names::{Case, Namer, is_keyword};
 use super::rust;
 use super::text::{lines, literal, one_line};
 use crate::ir::Measure;
@@ -94,6 +94,30 @@ fn crate_name(folder: &str) -> String {
 const WITH_LIBM: &str = "It asks for the crate `libm`, for
 elementary functions with the same bits on every platform. Where cargo does not have that yet, `cargo fetch` gets it, once.";
 
+/// What holds `follow` against `step`. Positions alone: at an edge of an input's formula the rates have two sides.
+const FOLLOW: &str = "#[test]
+fn to_follow_what_the_text_says_is_to_step() -> Result<(), Error> {
+    let params = $params;
+    let mut state = assemble(&params)?;
+    for [t, ..] in ROWS {
+        step(t, &mut state)?;
+        let mut led = state.clone();
+        follow(&Inputs::at(t, &params), &mut led)?;
+        for (a, b) in led.q().iter().zip(state.q()) {
+            let is_same = (a - b).abs() <= 1e-9 * (1.0 + b.abs());
+            assert!(is_same, \"{a:?} is not {b:?} at {t} s\");
+        }
+    }
+    Ok(())
+}
+
+";
+
+/// What a page says of inputs.
+const INPUTS: &str = "Each is a `Signal`: its `value`, its `rate` and its `acceleration`, in SI. `step` takes what the text's formulas say of
+them, `follow` what it is given; after an error the state is as it was. Where formulas hold the time too, it is a plain number `t`.
+";
+
 struct Writer<'w> {
     unit: &'w Unit<'w>,
     reference: &'w Reference,
@@ -145,8 +169,17 @@ impl Writer<'_> {
             let values: Vec<String> = row.iter().copied().map(literal).collect();
             format!("    [\n{}    ],\n", lines(&values, "    "))
         };
-        let more =
-            [("names", lines(&names, "")), ("count", rows.len().to_string()), ("rows", rows.iter().map(row).collect())];
+        let is_followed = self.unit.following.is_some();
+        let (uses, follow) = if is_followed { ("Inputs, ", FOLLOW) } else { ("", "") };
+        let more_uses = if is_followed { ", follow" } else { "" };
+        let more = [
+            ("uses", uses.to_owned()),
+            ("more", more_uses.to_owned()),
+            ("follow", self.filled(follow, &[])),
+            ("names", lines(&names, "")),
+            ("count", rows.len().to_string()),
+            ("rows", rows.iter().map(row).collect()),
+        ];
         self.filled(TEST, &more)
     }
 
@@ -183,7 +216,7 @@ impl Writer<'_> {
             ("shown", shown),
             ("needs", needs.to_owned()),
             ("calls", self.calls()),
-            ("parameters", self.parameters()),
+            ("parameters", self.parameters() + &self.inputs()),
             ("bodies", self.bodies()),
             ("coordinates", self.coordinates()),
             ("measures", self.measures()),
@@ -195,12 +228,11 @@ impl Writer<'_> {
     /// What the example prints, and what it needs for it.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
-        let sources: Vec<&str> = system.measures.iter().map(|of| of.name.as_str()).collect();
-        if let Some(name) = Namer::default().constants(&sources).first() {
+        let names = Case::Constant.names(system.measures.iter().map(|of| of.name.as_str()));
+        if let Some(name) = names.first() {
             return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
         }
-        if let Some(body) = system.bodies.first() {
-            let name = Namer::default().camel(&body.name);
+        if let Some(name) = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str())).first() {
             return ("Body, Params, assemble, step", format!("state.pose(Body::{name})"));
         }
         ("Params, assemble, step", "state.q()".to_owned())
@@ -216,6 +248,14 @@ impl Writer<'_> {
         if !system.measures.is_empty() {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
+        if self.unit.following.is_some() {
+            text += "| `follow(&inputs, &mut state)` | leads a state to `Inputs`, along the straight line between them; `follow_within` in so many steps at most |\n";
+            text += "| `Inputs::at(t, &params)`, `state.inputs()` | what the text's formulas say at a time; where a state is |\n";
+            text += "| `influence(&state)` | the derivatives of the coordinates by each input, by the numbers in `input` |\n";
+        }
+        if self.unit.motion.as_ref().is_some_and(|motion| motion.sensitive.is_some()) {
+            text += "| `sensitivity(&params, &state)` | those by each parameter, by the numbers in `param` |\n";
+        }
         if let Some(lanes) = self.unit.lanes {
             text += &format!(
                 "| `lanes::assemble`, `lanes::step_each` | the same for {lanes} variants or times at once |\n"
@@ -229,13 +269,12 @@ impl Writer<'_> {
         let Some(first) = params.first() else {
             return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
         };
-        let mut namer = Namer::default();
-        let rows = params.iter().map(|param| {
-            let unit = unit(&param.unit);
-            [format!("`{}`", namer.snake(&param.name)), format!("`{}`", param.name), unit, literal(param.value)]
+        let names = Case::Snake.names(params.iter().map(|param| param.name.as_str()));
+        let rows = params.iter().zip(&names).map(|(param, name)| {
+            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit), literal(param.value)]
         });
         let rows: String = rows.map(|cells| line(&cells)).collect();
-        let field = Namer::default().snake(&first.name);
+        let field = &names[0];
         format!(
             "Those of the file by default; `Params {{ {field}: {}, ..Params::default() }}` sets one.\n\n\
              | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}",
@@ -243,23 +282,40 @@ impl Writer<'_> {
         )
     }
 
+    /// The fields of `Inputs`; nothing where there are none.
+    fn inputs(&self) -> String {
+        let inputs = &self.unit.system.inputs;
+        if self.unit.following.is_none() {
+            return String::new();
+        }
+        let names = Case::Snake.names(inputs.iter().map(|input| input.name.as_str()));
+        let rows: String = inputs
+            .iter()
+            .zip(names)
+            .map(|(input, name)| line(&[format!("`{name}`"), format!("`{}`", input.name), unit(&input.unit)]))
+            .collect();
+        format!("\n## Inputs\n\n{INPUTS}\n| field of `Inputs` | input | unit |\n| --- | --- | --- |\n{rows}")
+    }
+
     fn bodies(&self) -> String {
         let bodies = &self.unit.system.bodies;
         if bodies.is_empty() {
             return String::new();
         }
-        let mut namer = Namer::default();
+        let names = Case::Camel.names(bodies.iter().map(|body| body.name.as_str()));
         let rows: String = bodies
             .iter()
-            .map(|body| line(&[format!("`Body::{}`", namer.camel(&body.name)), format!("`{}`", body.name)]))
+            .zip(names)
+            .map(|(body, name)| line(&[format!("`Body::{name}`"), format!("`{}`", body.name)]))
             .collect();
         format!("## Bodies\n\n| name | body |\n| --- | --- |\n{rows}\n")
     }
 
     fn coordinates(&self) -> String {
-        let mut namer = Namer::default();
-        let rows = self.unit.system.coordinates.iter().map(|coordinate| {
-            let index = format!("`coordinate::{}`", namer.constant(&coordinate.name));
+        let coordinates = &self.unit.system.coordinates;
+        let names = Case::Constant.names(coordinates.iter().map(|coordinate| coordinate.name.as_str()));
+        let rows = coordinates.iter().zip(names).map(|(coordinate, name)| {
+            let index = format!("`coordinate::{name}`");
             [index, format!("`{}`", coordinate.name), unit(coordinate.kind.unit())]
         });
         rows.map(|cells| line(&cells)).collect()
@@ -272,8 +328,8 @@ impl Writer<'_> {
         }
         // those of each module, by measure
         let indices = |module: &str, has: fn(&Measure) -> bool| {
-            let sources: Vec<&str> = measures.iter().filter(|of| has(of)).map(|of| of.name.as_str()).collect();
-            let mut names = Namer::default().constants(&sources).into_iter();
+            let mut names =
+                Case::Constant.names(measures.iter().filter(|of| has(of)).map(|of| of.name.as_str())).into_iter();
             let mut index = || names.next().map_or_else(String::new, |name| format!("`{module}::{name}`"));
             measures.iter().map(|of| if has(of) { index() } else { String::new() }).collect::<Vec<String>>()
         };

@@ -1,9 +1,11 @@
 //! A mechanism as one Rust file: its equations, and what solves them.
 
+mod following;
+
 use super::Unit;
 use super::code::MODULE;
 use super::equations::{Equations, Given, Wanted};
-use super::names::{Namer, Names};
+use super::names::{Case, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
@@ -18,14 +20,15 @@ const SIN_COS: &str = include_str!("../math/sin_cos.rs");
 const BLOCKS: &str = include_str!("../math/blocks.rs");
 /// What is the same for all mechanisms but for a few lines.
 const STATE: &str = include_str!("runtime/state.rs");
-const SOLVER: &str = include_str!("runtime/solver.rs");
+pub(super) const SOLVER: &str = include_str!("runtime/solver.rs");
 const SIDES: &str = include_str!("runtime/sides.rs");
 const MOTION: &str = include_str!("runtime/motion.rs");
 const RIMS: &str = include_str!("runtime/rims.rs");
 const LANES: &str = include_str!("runtime/lanes.rs");
 const LARGE: &str = include_str!("runtime/large.rs");
-const RUN: &str = include_str!("runtime/tables.rs");
+pub(super) const RUN: &str = include_str!("runtime/tables.rs");
 const WITHOUT_BRANCHES: &str = include_str!("../math/without_branches.rs");
+const SENSITIVITY: &str = include_str!("runtime/sensitivity.rs");
 const FUNCTIONS: &str = include_str!("runtime/functions.rs");
 
 /// Systems up to this many coordinates get their Jacobian as a full matrix too.
@@ -36,15 +39,7 @@ const LARGEST_DENSE: usize = 64;
 pub fn rust(unit: &Unit<'_>) -> String {
     let names = Names::new(unit.system);
     let tables = Tables::new(unit.program);
-    let switches = unit.program.switches().iter().enumerate();
-    let equations = Equations {
-        program: unit.program,
-        names: &names,
-        tables: &tables,
-        constants: unit.program.constants().iter().copied().collect(),
-        sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
-        book: is_large(unit).then(RefCell::default),
-    };
+    let equations = equations(unit, &names, &tables, false);
     let writer = Writer { unit, names: &names, equations: &equations };
     let motion = unit.motion.as_ref().map(|motion| Solution::new(unit, motion, &equations));
     let mut body = writer.params() + &writer.indices() + &writer.tables();
@@ -57,8 +52,26 @@ pub fn rust(unit: &Unit<'_>) -> String {
         body += "\n";
         body += &book.borrow().print(&equations);
     }
+    if let Some(following) = &unit.following {
+        // the operations' arrays give way to what everybody sees
+        body = body.replace("Inputs<'", "Arrays<'") + &following::module(following);
+    }
     body += &helpers(&body);
     writer.header(body.contains("libm::")) + body.trim_end() + "\n"
+}
+
+/// What the functions of a unit's equations are written from; led ones are given their inputs.
+pub(super) fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Tables, is_led: bool) -> Equations<'u> {
+    let switches = unit.program.switches().iter().enumerate();
+    Equations {
+        program: unit.program,
+        names,
+        tables,
+        constants: unit.program.constants().iter().copied().collect(),
+        sides: switches.map(|(k, switch)| (switch.to, k)).collect(),
+        is_led,
+        book: is_large(unit).then(RefCell::default),
+    }
 }
 
 /// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
@@ -72,10 +85,10 @@ pub fn is_large(unit: &Unit<'_>) -> bool {
     of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
-struct Writer<'w> {
-    unit: &'w Unit<'w>,
-    names: &'w Names,
-    equations: &'w Equations<'w>,
+pub(super) struct Writer<'w> {
+    pub unit: &'w Unit<'w>,
+    pub names: &'w Names,
+    pub equations: &'w Equations<'w>,
 }
 
 impl Writer<'_> {
@@ -99,6 +112,9 @@ impl Writer<'_> {
         }
         if self.unit.motion.is_some() {
             text += "//! - the motion: [`assemble`], then [`step`] from time to time\n";
+        }
+        if self.unit.following.is_some() {
+            text += "//! - the motion by its inputs: [`follow`] from [`Inputs`] to others\n";
         }
         text += if needs_libm {
             "//! - needs the crate `libm`, for elementary functions with the same bits on every platform\n"
@@ -169,21 +185,19 @@ impl Writer<'_> {
              /// Accelerations (m/s^2, rad/s^2).\npub type Qdd = [f64; N];\n\n\
              /// Where each coordinate stands in `q`.\npub mod coordinate {{\n"
         );
-        let mut namer = Namer::default();
-        for (k, coordinate) in system.coordinates.iter().enumerate() {
+        let names = Case::Constant.names(system.coordinates.iter().map(|coordinate| coordinate.name.as_str()));
+        for (k, (coordinate, name)) in system.coordinates.iter().zip(&names).enumerate() {
             let unit = match coordinate.kind.unit() {
                 "" => "a pure number",
                 unit => unit,
             };
-            let name = namer.constant(&coordinate.name);
             let line = self.line(system.owner_span(k));
             text += &format!("    /// `{}` ({unit}){line}\n    pub const {name}: usize = {k};\n", coordinate.name);
         }
         text += "}\n\n/// Which equation each joint, constraint or driver wrote.\npub mod row {\n";
-        let mut namer = Namer::default();
-        for k in 0..system.rows.len() {
-            let row = system.row_name(k);
-            let name = namer.constant(&row);
+        let rows: Vec<String> = (0..system.rows.len()).map(|k| system.row_name(k)).collect();
+        let names = Case::Constant.names(rows.iter().map(String::as_str));
+        for (k, (row, name)) in rows.iter().zip(&names).enumerate() {
             let declaration = system.declaration_of(k);
             let (kind, line) = (declaration.kind.noun(), self.line(declaration.span));
             text += &format!("    /// {kind} `{row}`{line}\n    pub const {name}: usize = {k};\n");
@@ -204,10 +218,9 @@ impl Writer<'_> {
         if system.bodies.is_empty() {
             return String::new();
         }
-        let mut namer = Namer::default();
+        let names = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str()));
         let (mut variants, mut arms) = (String::new(), String::new());
-        for (k, body) in system.bodies.iter().enumerate() {
-            let name = namer.camel(&body.name);
+        for (k, (body, name)) in system.bodies.iter().zip(&names).enumerate() {
             variants += &format!("    /// `{}`{}\n    {name},\n", body.name, self.line(body.span));
             let first = system.coordinates.iter().position(|c| c.owner == Owner::Body(k)).unwrap_or(0);
             arms += &format!(
@@ -248,8 +261,7 @@ impl Writer<'_> {
         ];
         for ((module, docs, count), list) in kinds.into_iter().zip(&lists) {
             text += &format!("/// {docs}\npub mod {module} {{\n");
-            let sources: Vec<&str> = list.iter().map(|measure| measure.name.as_str()).collect();
-            let names = Namer::default().constants(&sources);
+            let names = Case::Constant.names(list.iter().map(|measure| measure.name.as_str()));
             for (k, (measure, name)) in list.iter().zip(&names).enumerate() {
                 let (line, si) = (self.line(measure.span), in_si(measure));
                 text += &format!("    /// `{}`{si}{line}\n    pub const {name}: usize = {k};\n", measure.name);
@@ -260,7 +272,7 @@ impl Writer<'_> {
     }
 
     /// The tables' columns that hold numbers alone.
-    fn tables(&self) -> String {
+    pub fn tables(&self) -> String {
         let (program, mut text) = (self.unit.program, String::new());
         for (number, table) in program.tables().iter().enumerate() {
             for column in COLUMNS {
@@ -285,7 +297,7 @@ impl Writer<'_> {
         text
     }
 
-    fn has_sides(&self) -> bool {
+    pub fn has_sides(&self) -> bool {
         !self.equations.sides.is_empty()
     }
 
@@ -359,7 +371,7 @@ impl Writer<'_> {
     }
 
     /// The measures with their derivatives.
-    fn measures(&self) -> String {
+    pub fn measures(&self) -> String {
         let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
         if system.measures.is_empty() {
             return String::new();
@@ -392,35 +404,15 @@ impl Writer<'_> {
 
     /// What follows the motion.
     fn motion(&self, solution: &Solution<'_>) -> String {
-        let (system, program) = (self.unit.system, self.unit.program);
-        let switches = program.switches();
-        let of_time = switches.iter().any(|switch| switch.on_time);
-        let has_motion = switches.iter().any(|switch| !switch.on_time);
+        let system = self.unit.system;
+        let (of_time, has_motion) = self.switches();
         let rims = self.rims_of_time();
         let conditions = self.conditions();
         let solve = match &self.equations.book {
             Some(_) => LARGE.to_owned(),
             None => solution.function(false),
         };
-        let wanted = [
-            ("bodies", !system.bodies.is_empty()),
-            ("measures", !system.measures.is_empty()),
-            ("sides", self.has_sides()),
-            ("of_time", of_time),
-            ("motion", has_motion),
-            ("rims", !rims.is_empty()),
-            ("end", of_time && solution.motion.to.is_some()),
-            ("conditions", !conditions.is_empty()),
-            ("watches", !system.watches.is_empty()),
-            ("left_out", !system.checks.is_empty()),
-            ("pivoting", solution.motion.blocks.is_some()),
-            ("newton", solution.has_newton()),
-            ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
-            ("pivots", solve.contains("at.pivot(") && self.equations.book.is_none()),
-            ("jerk", system.jerk.is_some()),
-            ("params", !system.params.is_empty()),
-            ("known", !solution.known.is_empty()),
-        ];
+        let wanted = self.wanted(solution, &solve);
         let columns = RowLayout::new(system).printed;
         let mut text = format!("/// Number of results at a time.\npub const COLUMNS: usize = {columns};\n\n");
         text += &(chosen(STATE, &wanted)
@@ -438,15 +430,10 @@ impl Writer<'_> {
         text += "\n";
         text += &solution.tears();
         text += &match &self.equations.book {
-            Some(book) => {
-                let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
-                let sides = if self.has_sides() { "sides" } else { "&[]" };
-                let model = if solution.known.is_empty() && system.params.is_empty() { "_" } else { "m" };
-                let template = chosen(LARGE, &wanted).replace("$known", known).replace("$given_sides", sides);
-                solution.as_numbers(&(template.replace("$m", model) + "\n"), &mut book.borrow_mut())
-            }
+            Some(book) => solution.as_numbers(&self.large(solution, &wanted), &mut book.borrow_mut()),
             None => solve,
         };
+        text += &self.sensitivity(solution, &wanted);
         text += &conditions;
         text += &self.watches();
         text += &self.sides(of_time, has_motion, &wanted);
@@ -459,21 +446,136 @@ impl Writer<'_> {
         if let Some(lanes) = self.unit.lanes.filter(|_| self.equations.book.is_none()) {
             text += &self.lanes(solution, lanes, &wanted);
         }
+        text = self.filled(&text, solution);
+        text.replace("$wanted", if of_time || !rims.is_empty() { "wanted" } else { "next" })
+            .replace("$rimmed", if rims.is_empty() { "next" } else { "edge" })
+            .replace("$rim_end", if of_time { "edge" } else { "wanted" })
+            + &self.frozen(solution)
+    }
+
+    /// Whether time alone decides branches of formulas, and whether the motion does.
+    pub fn switches(&self) -> (bool, bool) {
+        let switches = self.unit.program.switches();
+        (switches.iter().any(|switch| switch.on_time), switches.iter().any(|switch| !switch.on_time))
+    }
+
+    /// What stays of the templates.
+    pub fn wanted(&self, solution: &Solution<'_>, solve: &str) -> Vec<(&'static str, bool)> {
+        let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
+        let (of_time, motion) = self.switches();
+        let is_led = self.equations.is_led;
+        let is_open = |register: &Register| !self.equations.constants.contains_key(register);
+        vec![
+            ("bodies", !system.bodies.is_empty()),
+            ("measures", !system.measures.is_empty()),
+            ("sides", self.has_sides()),
+            ("of_time", of_time),
+            ("motion", motion),
+            ("rims", outputs.rims.iter().any(|rim| rim.on_time) && !is_led),
+            ("end", of_time && solution.motion.to.is_some() && !is_led),
+            ("conditions", outputs.conditions.iter().any(is_open)),
+            ("watches", !system.watches.is_empty()),
+            ("left_out", !system.checks.is_empty()),
+            ("pivoting", solution.motion.blocks.is_some()),
+            ("newton", solution.has_newton()),
+            ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
+            ("pivots", solve.contains("at.pivot(") && self.equations.book.is_none()),
+            ("jerk", system.jerk.is_some()),
+            ("params", !system.params.is_empty()),
+            ("known", !solution.known.is_empty()),
+            ("large", self.equations.book.is_some()),
+            ("inputs", self.unit.following.is_some()),
+            ("led", is_led),
+        ]
+    }
+
+    /// What runs operations that are written as numbers.
+    pub fn large(&self, solution: &Solution<'_>, wanted: &[(&str, bool)]) -> String {
+        let is_led = self.equations.is_led;
+        let has_params = !self.unit.system.params.is_empty();
+        let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
+        let sides = if self.has_sides() { "sides" } else { "&[]" };
+        let model = if solution.known.is_empty() && !has_params && !is_led { "_" } else { "m" };
+        let lists = if self.unit.system.measures.is_empty() { 3 } else { 6 } + usize::from(is_led);
+        let of_signals = |text: &'static str| if is_led { text } else { "" };
+        let template = chosen(LARGE, wanted)
+            .replace("$known", known)
+            .replace("$given_sides", sides)
+            .replace("$time", if is_led { "m.way.list(t)" } else { "[t]" })
+            .replace("$p.", if is_led { "m.way.params." } else { "m.params." })
+            .replace("$lists", &lists.to_string())
+            .replace("$by_signal_mut", of_signals(", self.by_signal.as_flattened_mut()"))
+            .replace("$by_signal", of_signals(", self.by_signal.as_flattened()"));
+        template.replace("$m", model) + "\n"
+    }
+
+    /// Templates with the functions that they call, and what these are given.
+    pub fn filled(&self, text: &str, solution: &Solution<'_>) -> String {
+        let mut text = text.to_owned();
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
         for name in ["phi_q", "phi", "nu", "gamma", "jerk", "left_out"] {
             text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
-        let qddd = if system.jerk.is_some() { ", &qddd" } else { "" };
+        let qddd = if self.unit.system.jerk.is_some() { ", &qddd" } else { "" };
         text.replace("$from", if solution.motion.blocks.is_some() { "from" } else { "_from" })
-            .replace("$wanted", if of_time || !rims.is_empty() { "wanted" } else { "next" })
-            .replace("$rimmed", if rims.is_empty() { "next" } else { "edge" })
-            .replace("$rim_end", if of_time { "edge" } else { "wanted" })
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)
-            + &self.frozen(solution)
+    }
+
+    /// The derivatives by parameters, where these are wanted.
+    pub fn sensitivity(&self, solution: &Solution<'_>, wanted: &[(&str, bool)]) -> String {
+        let Some(function) = solution.sensitive_function() else {
+            return String::new();
+        };
+        let mut text = String::new();
+        if !self.equations.is_led {
+            let params = &self.unit.system.params;
+            text += &format!("/// Number of parameters.\npub const PARAMS: usize = {};\n\n", params.len());
+            text += "/// Where each parameter stands in what [`sensitivity`] gives.\npub mod param {\n";
+            let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
+            for (k, (param, name)) in params.iter().zip(&names).enumerate() {
+                text += &format!(
+                    "    /// `{}` ({})\n    pub const {name}: usize = {k};\n",
+                    one_line(&param.name),
+                    param.unit
+                );
+            }
+            text += "}\n\n";
+        }
+        text += &chosen(SENSITIVITY, wanted);
+        text += &function;
+        if solution.motion.blocks.is_some() {
+            text += &self.rights("param", &self.unit.program.outputs.by_param, "PARAMS");
+        }
+        text
+    }
+
+    /// The right sides for the derivatives of the coordinates by signals or parameters.
+    pub fn rights(&self, by: &str, lists: &[Vec<Register>], count: &str) -> String {
+        let all: Vec<Register> = lists.iter().flatten().copied().collect();
+        let name = format!("all_rights_by_{by}");
+        let function = self.equations.function(&Wanted {
+            name: &name,
+            docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            outputs: &all,
+            length: &format!("N * {count}"),
+            negated: false,
+            given: Given::All,
+        });
+        let (argument, call) = if self.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
+        let of = if self.equations.is_led { "Way" } else { "Params" };
+        format!(
+            "/// The right sides of the equations for the derivatives of the coordinates by each {by}.\n#[rustfmt::skip]\n\
+             fn rights_by_{by}(q: &Q, t: f64, p: &{of}{argument}) -> [Q; {count}] {{\n    \
+             let mut all = {name}(q, t, p{call}).into_iter();\n    \
+             core::array::from_fn(|_| core::array::from_fn(|_| all.next().unwrap_or(f64::NAN)))\n}}\n\n"
+        ) + &function
     }
 
     /// The module for several lanes.
@@ -497,7 +599,7 @@ impl Writer<'_> {
     }
 
     /// How far equations that were left out may be open.
-    fn left_out_limits(&self) -> String {
+    pub fn left_out_limits(&self) -> String {
         let checks = &self.unit.system.checks;
         if checks.is_empty() {
             return String::new();
@@ -537,7 +639,7 @@ impl Writer<'_> {
     }
 
     /// Whether formulas that must be positive are.
-    fn conditions(&self) -> String {
+    pub fn conditions(&self) -> String {
         let conditions = &self.unit.program.outputs.conditions;
         let is_open = |register: &&Register| !self.equations.constants.contains_key(register);
         let outputs: Vec<Register> = conditions.iter().filter(is_open).copied().collect();
@@ -564,7 +666,7 @@ impl Writer<'_> {
     }
 
     /// What keeps its sign along a branch.
-    fn watches(&self) -> String {
+    pub fn watches(&self) -> String {
         let outputs = &self.unit.program.outputs.watches;
         if outputs.is_empty() {
             return String::new();
@@ -585,7 +687,7 @@ impl Writer<'_> {
     }
 
     /// The branches of formulas.
-    fn sides(&self, of_time: bool, has_motion: bool, wanted: &[(&str, bool)]) -> String {
+    pub fn sides(&self, of_time: bool, has_motion: bool, wanted: &[(&str, bool)]) -> String {
         if !self.has_sides() {
             return String::new();
         }

@@ -7,7 +7,7 @@ use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::{constant, documented, lines, literal};
 use super::{Motion, Unit};
 use crate::program::{Column, Register};
-use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment};
+use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment, Solver};
 use rustc_hash::FxHashMap;
 
 /// Steps over the whole span at least, as those of the interpreter.
@@ -27,7 +27,11 @@ pub(super) struct Solution<'s> {
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
         let mut solution = Solution { unit, motion, equations, known: FxHashMap::default() };
-        for op in motion.solver.all_operations() {
+        let operations = || {
+            let sensitive = motion.sensitive.iter().flat_map(Solver::all_operations);
+            motion.solver.all_operations().iter().chain(sensitive)
+        };
+        for op in operations() {
             if let Some((table, column)) = column_of(*op)
                 && !equations.is_constant(table, column)
             {
@@ -35,9 +39,10 @@ impl<'s> Solution<'s> {
                 unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
             }
         }
-        for op in motion.solver.all_operations() {
+        for op in operations() {
             if let Op::Load { from, .. } = *op
                 && from >= unit.program.inputs.time
+                && !unit.program.inputs.all_signals().contains(&from)
                 && !equations.sides.contains_key(&from)
             {
                 solution.know(from);
@@ -115,7 +120,37 @@ impl<'s> Solution<'s> {
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         let layout = *solver.layout();
-        code.print(&SolverScene { solution: self, layout, has_lanes }, &function)
+        code.print(&SolverScene { solution: self, solver, layout, has_lanes }, &function)
+    }
+
+    /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
+    pub fn sensitive_function(&self) -> Option<String> {
+        let solver = self.motion.sensitive.as_ref()?;
+        let code =
+            Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
+        let has_sides = !self.equations.sides.is_empty();
+        let arguments = [
+            ("guess", "&[f64; TEARS]"),
+            ("t", "f64"),
+            ("m", "&Model"),
+            ("sides", "&Sides"),
+            ("at", "&mut Solution"),
+            ("by", "&mut [Q; PARAMS]"),
+        ];
+        let arguments = arguments.into_iter().filter(|(name, _)| has_sides || *name != "sides");
+        let function = Function {
+            name: "solve_by_params",
+            docs: format!(
+                "As [`solve`], with the derivatives of the coordinates by parameters.\n\n{} operations.",
+                code.count()
+            ),
+            is_public: false,
+            arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
+            out: Out::Given { begin: "at.begin(t);" },
+            margin: 0,
+        };
+        let layout = *solver.layout();
+        Some(code.print(&SolverScene { solution: self, solver, layout, has_lanes: false }, &function))
     }
 
     /// The function that reads its operations from lists of numbers, with these lists.
@@ -192,14 +227,18 @@ impl<'s> Solution<'s> {
             format!("{}const {name}: f64 = {};\n\n", documented(docs, ""), literal(value))
         };
         let numbers = |values: &mut dyn Iterator<Item = f64>| values.map(literal).collect::<Vec<String>>();
-        let mut text = format!(
-            "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
-             pub const START_TIME: f64 = {};\n\n",
-            literal(*from)
-        );
-        text += &number("How long the file's analysis takes (s).", "SPAN", span);
-        text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
-        text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
+        let is_led = self.equations.is_led;
+        let mut text = String::new();
+        if !is_led {
+            text += &format!(
+                "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
+                 pub const START_TIME: f64 = {};\n\n",
+                literal(*from)
+            );
+            text += &number("How long the file's analysis takes (s).", "SPAN", span);
+            text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
+            text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
+        }
         let iterates = self.has_newton() || self.motion.blocks.is_some();
         if iterates {
             text += &format!("/// Iterations of Newton at most.\nconst ITERATIONS: usize = {ITERATIONS};\n\n");
@@ -237,14 +276,17 @@ impl<'s> Solution<'s> {
                 &numbers(&mut self.cells().into_iter()),
             );
         }
-        text += &constant(
-            "What a change of each coordinate is judged against.",
-            "SCALES",
-            "f64",
-            "N",
-            &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
-        );
-        text += &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
+        if !is_led {
+            text += &constant(
+                "What a change of each coordinate is judged against.",
+                "SCALES",
+                "f64",
+                "N",
+                &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
+            );
+            text +=
+                &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
+        }
         text += "/// Number of blocks of equations whose determinants change with the position.\n";
         text += &format!("const TURNS: usize = {};\n\n", solver.turns().len());
         let turned: Vec<String> = solver.turns().iter().map(|turn| turn.is_negative.to_string()).collect();
@@ -336,6 +378,7 @@ pub(super) fn wrapped(text: &str) -> String {
 
 struct SolverScene<'s> {
     solution: &'s Solution<'s>,
+    solver: &'s Solver,
     layout: RowLayout,
     has_lanes: bool,
 }
@@ -373,7 +416,10 @@ impl Scene for SolverScene<'_> {
             return format!("m{}.known[{place}]", self.lane());
         }
         match self.solution.equations.input(register) {
-            Input::Bound { value, .. } => format!("m{}.{}", self.lane(), value.replacen("p.", "params.", 1)),
+            Input::Bound { value, .. } => {
+                let of = if self.solution.equations.is_led { "way." } else { "params." };
+                format!("m{}.{}", self.lane(), value.replacen("p.", of, 1))
+            }
             Input::Text(text) if text.starts_with("sides") => {
                 text.replacen("sides", &format!("sides{}", self.lane()), 1)
             }
@@ -382,6 +428,14 @@ impl Scene for SolverScene<'_> {
     }
 
     fn place(&self, column: u32) -> String {
+        if let Some(k) = column.checked_sub(self.layout.by_signal) {
+            let inputs = &self.solution.unit.program.inputs;
+            let (number, k) = (k / inputs.n, k % inputs.n);
+            return match number.checked_sub(inputs.count) {
+                None => format!("at.by_signal[{number}][{k}]"),
+                Some(param) => format!("by[{param}][{k}]"),
+            };
+        }
         match self.kind(column) {
             (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
             (false, order, k) => {
@@ -394,6 +448,7 @@ impl Scene for SolverScene<'_> {
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
         match self.kind(column) {
+            _ if column >= self.layout.by_signal => None,
             (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
             _ => None,
         }
@@ -410,7 +465,7 @@ impl Scene for SolverScene<'_> {
 
     fn store(&self, column: u32, value: &str) -> Option<String> {
         match self.kind(column) {
-            (true, 3, _) => None,
+            (true, 3, _) if column < self.layout.by_signal => None,
             _ => match value.parse::<f64>() {
                 // +0 where it is −0
                 Ok(number) => Some(number + 0.0)
@@ -422,7 +477,7 @@ impl Scene for SolverScene<'_> {
     }
 
     fn act(&self, op: Op, value: &str) -> String {
-        let Motion { solver, bounds, .. } = self.solution.motion;
+        let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
         match (op, self.has_lanes) {
             (Op::Pivot { pivot, .. }, has_lanes) => {
                 let pivot = solver.pivots()[pivot as usize];
@@ -438,7 +493,7 @@ impl Scene for SolverScene<'_> {
     }
 
     fn watch(&self, weight: u32, value: &str) -> String {
-        let weight = self.solution.motion.solver.weight(weight);
+        let weight = self.solver.weight(weight);
         if self.has_lanes {
             return strain(value, weight / LARGEST_MULTIPLIER);
         }

@@ -3,6 +3,7 @@
 //! Piecewise functions are differentiated by branch: at a switch the derivative is that of the branch which counts
 //! there.
 
+use super::vary::VariedTables;
 use super::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, Unary};
 use rustc_hash::FxHashMap;
 
@@ -16,6 +17,16 @@ impl Graph {
         roots: &[ExprId],
         mut direction: impl FnMut(&mut Graph, Symbol) -> Option<ExprId>,
     ) -> Vec<ExprId> {
+        self.along(roots, &mut direction, &mut None)
+    }
+
+    /// As [`Graph::derivatives`]; what tables are made of changes too, where `varied` holds those that are known.
+    pub(super) fn along(
+        &mut self,
+        roots: &[ExprId],
+        direction: &mut impl FnMut(&mut Graph, Symbol) -> Option<ExprId>,
+        varied: &mut Option<VariedTables>,
+    ) -> Vec<ExprId> {
         let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
         for id in self.reachable(roots) {
             let node = self.node(id);
@@ -24,6 +35,14 @@ impl Graph {
                 Node::Select(condition, a, b) => {
                     let (da, db) = (known.get(&a).copied(), known.get(&b).copied());
                     self.select_derivative(condition, da, db)
+                }
+                Node::Table(table, order, x) if varied.is_some() => {
+                    let by_argument = self.chain_rule(id, &known);
+                    let by_cells = self.derivative_by_cells((table, order, x), direction, varied);
+                    match (by_argument, by_cells) {
+                        (Some(a), Some(b)) => Some(self.add(a, b)),
+                        (one, other) => one.or(other),
+                    }
                 }
                 _ => self.chain_rule(id, &known),
             };
@@ -97,7 +116,7 @@ impl Graph {
         slopes.into_iter().filter(|&(_, slope)| !self.is_zero(slope)).collect()
     }
 
-    fn is_zero(&self, id: ExprId) -> bool {
+    pub(super) fn is_zero(&self, id: ExprId) -> bool {
         self.as_const(id) == Some(0.0)
     }
 

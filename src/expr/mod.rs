@@ -12,6 +12,7 @@ mod motion;
 mod print;
 mod table;
 mod tidy;
+mod vary;
 
 pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;
@@ -39,6 +40,13 @@ pub enum Symbol {
     Param(u32),
     /// Time, in seconds.
     Time,
+    /// A signal, or its time derivative of the given order: an input that is not inlined.
+    Signal {
+        /// Number of the signal.
+        index: u32,
+        /// 0 for its value, 1 for its rate, 2 for its acceleration, 3 for what nobody gives.
+        order: u8,
+    },
     /// A generalized coordinate, or its time derivative of the given order.
     Coordinate {
         /// Number of the coordinate.
@@ -48,7 +56,21 @@ pub enum Symbol {
     },
     /// Something that the owner of the graph has given a meaning to.
     Named(u32),
+    /// A number that is always 0, by its number: what it is added to can be differentiated by.
+    Shift(u32),
+    /// The derivative of a coordinate, or of its time derivative of the given order, by something else than time.
+    Varied {
+        /// Number of the coordinate.
+        index: u32,
+        /// 0 for `q`, 1 for `q̇`, 2 for `q̈`.
+        order: u8,
+        /// By what; the owner of the graph gives these numbers.
+        variation: u32,
+    },
 }
+
+/// The number of the signal that time is where inputs are signals: its rate is 1, but along a way on which it is one of them.
+pub const TIME_SIGNAL: u32 = u32::MAX;
 
 /// Functions of one argument.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
@@ -177,7 +199,7 @@ impl Children {
 
 /// Which kinds of symbols a formula holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
-pub struct Dependence(u8);
+pub struct Dependence(u16);
 
 impl Dependence {
     /// On parameters.
@@ -191,6 +213,12 @@ impl Dependence {
     #[must_use]
     pub fn coordinates(order: u8) -> Dependence {
         Dependence(8 << order)
+    }
+
+    /// On what coordinates' derivatives of one order are differentiated to by something else than time.
+    #[must_use]
+    pub fn varied(order: u8) -> Dependence {
+        Dependence(128 << order)
     }
 
     /// On either.
@@ -217,12 +245,20 @@ impl Dependence {
         (0..4).rev().find(|&order| self.on(Self::coordinates(order)))
     }
 
+    /// The highest time derivative among those that are differentiated by something else too.
+    #[must_use]
+    pub fn highest_varied_order(self) -> Option<u8> {
+        (0..3).rev().find(|&order| self.on(Self::varied(order)))
+    }
+
     fn of(symbol: Symbol) -> Dependence {
         match symbol {
-            Symbol::Param(_) => Self::PARAMS,
-            Symbol::Time => Self::TIME,
+            Symbol::Param(_) | Symbol::Shift(_) => Self::PARAMS,
+            // of what it is nothing is known but that it changes with time
+            Symbol::Time | Symbol::Signal { .. } => Self::TIME,
             Symbol::Named(_) => Self::NAMED,
             Symbol::Coordinate { order, .. } => Self::coordinates(order),
+            Symbol::Varied { order, .. } => Self::varied(order),
         }
     }
 }

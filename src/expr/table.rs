@@ -32,6 +32,8 @@ pub struct Table {
     pub values: Vec<ExprId>,
     /// `c₀` to `c₃` of each piece.
     pub coefficients: [Vec<ExprId>; 4],
+    /// The table whose derivative this is, with the same pieces.
+    pub derived_from: Option<TableId>,
     /// On what all this depends: parameters, or nothing.
     pub(super) dependence: Dependence,
 }
@@ -102,11 +104,12 @@ impl Graph {
             knots,
             values,
             coefficients,
+            derived_from: None,
             dependence: Dependence::default(),
         })
     }
 
-    fn add_table(&mut self, mut table: Table) -> TableId {
+    pub(super) fn add_table(&mut self, mut table: Table) -> TableId {
         table.dependence = table.cells().fold(table.dependence, |all, cell| all.or(self.dependence(cell)));
         self.tables.push(table);
         TableId(self.tables.len() as u32 - 1)
@@ -130,6 +133,7 @@ impl Graph {
                 knots: rebuilt(&table.knots),
                 values: rebuilt(&table.values),
                 coefficients: [c0, c1, c2, c3].map(|list| rebuilt(list)),
+                derived_from: table.derived_from,
                 dependence: Dependence::default(),
             });
         }

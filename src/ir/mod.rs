@@ -9,6 +9,8 @@
 //! - acceleration: `Φ_q q̈ = γ`, `γ = −(Φ_q q̇)_q q̇ − 2 Φ_qt q̇ − Φ_tt`;
 //! - jerk:         `Φ_q q⃛ = ` [`ConstraintSystem::jerk`], where a measure needs it.
 //!
+//! Where inputs are signals `u(t)`, `Φ(q, u; p) = 0` and time is one of them; then `Φ_q q_u = −Φ_u` too ([`signals`]).
+//!
 //! `Φ` is what `lower` wrote; all else is derived from it by the rules of `expr`. Symbols of the graph are parameters,
 //! time, and coordinates with their derivatives; no named symbol is left.
 //!
@@ -19,11 +21,16 @@
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
 mod print;
+mod results;
 mod rims;
+mod signals;
+mod variations;
 
+pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
+pub use variations::{Appended, Variable, Variation, Variations};
 
-use crate::expr::{Dependence, ExprId, Graph, Symbol, TableId};
+use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL, TableId};
 use crate::source::Span;
 use std::ops::Range;
 
@@ -38,6 +45,14 @@ pub struct ConstraintSystem {
     pub graph: Graph,
     /// The parameters, by the number of their symbol.
     pub params: Vec<Param>,
+    /// The inputs, as they are declared; where the equations hold them as signals and time too, this as the last.
+    pub inputs: Vec<Input>,
+    /// Whether the equations hold inputs, and time, as signals rather than by their formulas.
+    pub has_signals: bool,
+    /// By signal: the right side of the equation for the derivatives of `q` by it, `−Φ_u` [unit of the row / that of the signal].
+    pub by_signal: Vec<Vec<ExprId>>,
+    /// Likewise by parameter, `−Φ_p`, where that is asked for.
+    pub by_param: Vec<Vec<ExprId>>,
     /// The bodies, each with three coordinates; those of the joints come after them.
     pub bodies: Vec<Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
@@ -56,8 +71,12 @@ pub struct ConstraintSystem {
     pub gamma: Vec<ExprId>,
     /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
     pub jerk: Option<Vec<ExprId>>,
+    /// Derivatives by inputs and parameters, where there are any.
+    pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
     pub measures: Vec<Measure>,
+    /// What is asked of the whole analysis.
+    pub results: Results,
     /// Formulas that must stay positive.
     pub conditions: Vec<Condition>,
     /// Equations that follow from the others, and are looked at instead of solved.
@@ -87,6 +106,21 @@ pub struct Param {
     pub unit: String,
     /// The name's place.
     pub span: Span,
+}
+
+/// A signal that comes from outside.
+#[derive(Clone, Debug)]
+pub struct Input {
+    /// Its name.
+    pub name: String,
+    /// The number of its signal's symbol.
+    pub index: u32,
+    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    pub unit: String,
+    /// The name's place.
+    pub span: Span,
+    /// By the text: its value, rate and acceleration, as formulas of time.
+    pub formulas: [ExprId; 3],
 }
 
 /// A body with its place in the text.
@@ -394,8 +428,13 @@ impl ConstraintSystem {
     pub fn time_derivatives(graph: &mut Graph, roots: &[ExprId], highest: u8) -> Vec<ExprId> {
         graph.derivatives(roots, |graph, symbol| match symbol {
             Symbol::Time => Some(graph.constant(1.0)),
+            Symbol::Signal { index: TIME_SIGNAL, order: 1.. } => None,
+            Symbol::Signal { index, order } => Some(graph.symbol(Symbol::Signal { index, order: order + 1 })),
             Symbol::Coordinate { index, order } if order < highest => {
                 Some(graph.symbol(Symbol::Coordinate { index, order: order + 1 }))
+            }
+            Symbol::Varied { index, order, variation } if order < highest.min(2) => {
+                Some(graph.symbol(Symbol::Varied { index, order: order + 1, variation }))
             }
             _ => None,
         })
@@ -426,6 +465,12 @@ impl ConstraintSystem {
         });
     }
 
+    /// Where a signal stands among the inputs: time is the last.
+    #[must_use]
+    pub fn signal_place(&self, index: u32) -> usize {
+        if index == TIME_SIGNAL { self.inputs.len().saturating_sub(1) } else { index as usize }
+    }
+
     /// The declaration behind a row.
     #[must_use]
     pub fn declaration_of(&self, row: usize) -> &Declaration {
@@ -448,12 +493,15 @@ impl ConstraintSystem {
         }
         let of = |list: &[ExprId]| kept.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
         (self.nu, self.gamma, self.jerk) = (of(&self.nu), of(&self.gamma), self.jerk.as_deref().map(of));
+        self.by_signal = self.by_signal.iter().map(|list| of(list)).collect();
+        self.by_param = self.by_param.iter().map(|list| of(list)).collect();
         self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
         self.phi_q = phi_q;
         for check in &checks {
             self.declarations[check.declaration].rows -= 1;
         }
         self.checks = checks;
+        self.leave_out_of_variations(&kept);
     }
 
     /// The body that a coordinate is of, if it is of a body.
@@ -496,6 +544,7 @@ impl ConstraintSystem {
     pub fn value_at(&self, formula: ExprId, q: &[f64]) -> f64 {
         self.graph.value(formula, |symbol| match symbol {
             Symbol::Param(k) => self.params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             Symbol::Coordinate { index, order: 0 } => q[index as usize],
             _ => f64::NAN,
         })

@@ -1,6 +1,6 @@
 //! The constraint system as readable text.
 
-use super::{ConditionKind, ConstraintSystem, DeclarationKind, WatchKind};
+use super::{ConditionKind, ConstraintSystem, DeclarationKind, ReductionKind, WatchKind};
 use crate::expr::{ExprId, Printer, Symbol, number};
 
 impl ConstraintSystem {
@@ -10,11 +10,21 @@ impl ConstraintSystem {
         match symbol {
             Symbol::Param(k) => self.params[k as usize].name.clone(),
             Symbol::Time => "t".to_owned(),
+            Symbol::Signal { index, order } => {
+                let name = self.inputs.get(self.signal_place(index)).map_or("t", |input| &input.name);
+                if order == 0 { name.to_owned() } else { format!("{name}.{}", "d".repeat(order as usize)) }
+            }
             Symbol::Coordinate { index, order } => {
                 let name = &self.coordinates[index as usize].name;
                 if order == 0 { name.clone() } else { format!("{name}.{}", "d".repeat(order as usize)) }
             }
-            Symbol::Named(k) => format!("named_{k}"),
+            Symbol::Named(k) => format!("reduction_{}", k + 1),
+            // it is nothing, and may be varied
+            Symbol::Shift(_) => "0".to_owned(),
+            Symbol::Varied { index, order, variation } => {
+                let of = self.symbol_name(Symbol::Coordinate { index, order });
+                self.variation_name(&of, variation)
+            }
         }
     }
 
@@ -52,6 +62,10 @@ impl std::fmt::Display for ConstraintSystem {
         section(f, "coordinates q, with their estimates", coordinates)?;
         self.write_equations(f, &text)?;
         section(f, "measures", self.measure_lines(&text))?;
+        section(f, "asked of the whole analysis", self.reduction_lines(&text))?;
+        let outcomes = self.results.outcomes.iter();
+        let results = outcomes.map(|outcome| (outcome.name.clone(), format!("= {}", text(outcome.value))));
+        section(f, "results", results)?;
         section(f, "conditions", self.condition_lines(&text))?;
         section(f, "watched along the way", self.watch_lines(&text))
     }
@@ -82,7 +96,14 @@ impl ConstraintSystem {
         section(f, "velocity, right side ν of Φ_q q̇ = ν", of_rows(&self.nu).into_iter())?;
         section(f, "acceleration, right side γ of Φ_q q̈ = γ", of_rows(&self.gamma).into_iter())?;
         let jerk = self.jerk.as_deref().map_or(Vec::new(), of_rows);
-        section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())
+        section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())?;
+        for (number, variation) in self.variations().iter().enumerate() {
+            for (of, rights) in ["q", "q̇", "q̈"].into_iter().zip(&variation.rights) {
+                let what = self.variation_name(of, number as u32);
+                section(f, &format!("variation, right side of Φ_q {what} = …"), of_rows(rights).into_iter())?;
+            }
+        }
+        Ok(())
     }
 
     fn table_lines<'s>(&'s self, text: &'s dyn Fn(ExprId) -> String) -> impl Iterator<Item = (String, String)> + 's {
@@ -100,6 +121,27 @@ impl ConstraintSystem {
             parts
                 .into_iter()
                 .filter_map(move |(end, id)| id.map(|id| (format!("{}{end}", measure.name), format!("= {}", text(id)))))
+        })
+    }
+
+    fn reduction_lines<'s>(
+        &'s self,
+        text: &'s dyn Fn(ExprId) -> String,
+    ) -> impl Iterator<Item = (String, String)> + 's {
+        self.results.reductions.iter().enumerate().map(|(k, reduction)| {
+            let of = text(reduction.of);
+            let said = match reduction.kind {
+                ReductionKind::Extreme { largest, when } => {
+                    let which = if largest { "largest" } else { "least" };
+                    if when { format!("the time of the {which} {of}") } else { format!("the {which} {of}") }
+                }
+                ReductionKind::Mean => format!("the mean of {of}"),
+                ReductionKind::Integral => format!("the integral of {of}"),
+                ReductionKind::First => format!("the first {of}"),
+                ReductionKind::Last => format!("the last {of}"),
+                ReductionKind::At(at) => format!("{of} at t = {} s", text(at)),
+            };
+            (self.symbol_name(Symbol::Named(k as u32)), said)
         })
     }
 
@@ -136,9 +178,12 @@ impl ConstraintSystem {
         let mut roots: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         roots.extend(self.coordinates.iter().map(|coordinate| coordinate.estimate));
         roots.extend(self.conditions.iter().map(|condition| condition.positive));
+        roots.extend(self.results.reductions.iter().map(|reduction| reduction.of));
+        roots.extend(self.results.outcomes.iter().map(|outcome| outcome.value));
         roots.extend(self.watches.iter().map(|watch| watch.value));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
         roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));
+        roots.extend(self.variations().iter().flat_map(|variation| variation.rights.iter().flatten()));
         roots.extend(self.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
         roots
     }

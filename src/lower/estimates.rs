@@ -79,6 +79,7 @@ impl Numbers {
     fn extend(&mut self, model: &Mechanism, graph: &Graph, estimates: impl Iterator<Item = ExprId>) {
         let param = |symbol: Symbol| match symbol {
             Symbol::Param(k) => model.params[k as usize].value,
+            Symbol::Shift(_) => 0.0,
             _ => f64::NAN,
         };
         for estimate in estimates.skip(self.q.len()) {

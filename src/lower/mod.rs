@@ -6,22 +6,28 @@ mod contacts;
 mod estimates;
 mod frames;
 mod gears;
+mod inputs;
 mod joints;
 mod parts;
 mod quantities;
+mod results;
 mod size;
 mod uses;
+mod variations;
 mod velocities;
 
-use crate::expr::{Comparison, ExprId, Graph, Symbol};
+use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
-    Owner, Param, Row, SparseRows, Units, Watch,
+    Owner, Param, Row, SparseRows, Units, Variations, Watch,
 };
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use rustc_hash::{FxHashMap, FxHashSet};
+
+/// What holds so many time derivatives of the coordinates has one that holds a third derivative.
+const HOLDS_JERK: u8 = 2;
 
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
 #[must_use]
@@ -44,9 +50,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         known_conditions: FxHashSet::default(),
         watches: Vec::new(),
         fits: Vec::new(),
+        variations: variations::variables(model),
     };
     lowering.tables();
-    lowering.named();
+    lowering.named_up_to(model.named_before_results);
     lowering.body_coordinates();
     lowering.joint_rows();
     lowering.equation_rows();
@@ -54,12 +61,13 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let points = lowering.points();
     let measures = lowering.measures();
     let parts = lowering.part_starts();
+    lowering.append_derivatives(&measures);
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
             .into_iter()
             .flatten()
             .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
-    });
+    }) || model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
@@ -73,32 +81,48 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
                 span: p.declared.span,
             })
             .collect(),
+        inputs: Vec::new(),
+        has_signals: model.has_signals,
+        by_signal: Vec::new(),
+        by_param: Vec::new(),
         bodies: model
             .bodies
             .iter()
             .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span, pose_span: body.pose_span })
             .collect(),
         points,
-        coordinates: lowering.coordinates,
-        declarations: lowering.declarations,
-        rows: lowering.rows,
-        graph: lowering.graph,
+        coordinates: std::mem::take(&mut lowering.coordinates),
+        declarations: std::mem::take(&mut lowering.declarations),
+        rows: std::mem::take(&mut lowering.rows),
+        graph: std::mem::take(&mut lowering.graph),
         phi_q: SparseRows::new(),
         nu: Vec::new(),
         gamma: Vec::new(),
         jerk: None,
+        variations: lowering.variations.take().map(Box::new),
         measures,
-        conditions: lowering.conditions,
+        conditions: std::mem::take(&mut lowering.conditions),
+        results: ir::Results::default(),
         checks: Vec::new(),
-        watches: lowering.watches,
+        watches: std::mem::take(&mut lowering.watches),
         rims: Vec::new(),
-        fits: lowering.fits,
+        fits: std::mem::take(&mut lowering.fits),
         parts,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
-    system.derive(needs_jerk);
+    system.derive(needs_jerk && !model.has_signals);
+    system.derive_variations();
     system.find_rims();
+    // late, so that what is there already is as it would be without
+    inputs::add(model, &mut system);
+    if !model.outcomes.is_empty() {
+        // what is asked of the whole analysis changes nothing above
+        lowering.graph = std::mem::take(&mut system.graph);
+        lowering.coordinates.clone_from(&system.coordinates);
+        system.results = lowering.results();
+        system.graph = lowering.graph;
+    }
     system
 }
 
@@ -125,6 +149,8 @@ struct Lowering<'m> {
     known_conditions: FxHashSet<ExprId>,
     watches: Vec<Watch>,
     fits: Vec<Fit>,
+    /// Where derivatives are taken by something else than time.
+    variations: Option<Variations>,
 }
 
 /// A formula of the model in another graph.
@@ -137,9 +163,15 @@ fn carry(
 ) -> ExprId {
     graph.import(&model.graph, &[id], known, |graph, symbol| match symbol {
         Symbol::Named(k) => named[k as usize],
+        Symbol::Time if model.has_signals => graph.symbol(Symbol::Signal { index: TIME_SIGNAL, order: 0 }),
         other => graph.symbol(other),
     });
     known[&id]
+}
+
+fn units(of: &model::Units) -> Units {
+    let model::Units { si, printed, scale } = of.clone();
+    Units { si, printed, scale }
 }
 
 impl Lowering<'_> {
@@ -153,9 +185,9 @@ impl Lowering<'_> {
         self.graph.import_tables(&self.model.graph, &mut self.known, Graph::symbol);
     }
 
-    /// Named symbols in their order: each speaks only of those before it.
-    fn named(&mut self) {
-        for k in 0..self.model.named.len() {
+    /// Named symbols up to one, in their order: each speaks only of those before it.
+    fn named_up_to(&mut self, end: usize) {
+        for k in self.named.len()..end {
             let id = match self.model.named[k] {
                 Named::Quantity(view, quantity) => self.quantity(view, quantity),
                 Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
@@ -163,6 +195,11 @@ impl Lowering<'_> {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
                 }
+                Named::By(inner, variable) => {
+                    let inner = self.formula(inner);
+                    self.derivative_by(inner, variable)
+                }
+                Named::Reduction(k) => self.reduced(k),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),
             };
@@ -277,7 +314,7 @@ impl Lowering<'_> {
             let kind = DeclarationKind::Joint(joint.kind.word());
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
         }
-        for named in &model.named {
+        for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
                 self.declarations[joint.index()].is_spoken_of = true;
             }
@@ -345,8 +382,7 @@ impl Lowering<'_> {
                 let holds = self.all_hold(&measure.conditions);
                 let value = self.only_where(holds, value);
                 let [first, second] = [first, second].map(|id| id.map(|id| self.only_where(holds, id)));
-                let model::Units { si, printed, scale } = measure.units.clone();
-                Measure { name, value, first, second, span, units: Units { si, printed, scale } }
+                Measure { name, value, first, second, span, units: units(&measure.units) }
             })
             .collect()
     }
@@ -373,9 +409,10 @@ impl Lowering<'_> {
         self.graph.select(holds, id, none)
     }
 
-    /// The time derivative of an expression, unless that needs a fourth derivative of `q`.
+    /// The time derivative of an expression, unless that needs a fourth derivative of `q`, or a third one that is varied.
     fn along_the_motion(&mut self, id: ExprId) -> Option<ExprId> {
-        if self.graph.dependence(id).highest_order() == Some(3) {
+        let dependence = self.graph.dependence(id);
+        if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
             return None;
         }
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])

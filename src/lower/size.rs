@@ -28,6 +28,7 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params[k as usize].value,
+        Symbol::Shift(_) => 0.0,
         _ => f64::NAN,
     });
     let value = |id: ExprId| values[id.index()];
@@ -82,6 +83,7 @@ pub(super) fn of_frames(model: &Mechanism) -> Vec<f64> {
     let mut values = Vec::new();
     model.graph.extend_values(&mut values, |symbol| match symbol {
         Symbol::Param(k) => model.params[k as usize].value,
+        Symbol::Shift(_) => 0.0,
         _ => f64::NAN,
     });
     let points = places(model, &|id: ExprId| values[id.index()], Some(&Uses::of(model)));
@@ -146,6 +148,7 @@ fn places_on<'m>(model: &'m Mechanism, curve: &'m Curve) -> impl Iterator<Item =
         let place = curve.at.map(|id| {
             model.graph.value(id, |symbol| match symbol {
                 Symbol::Param(k) => model.params[k as usize].value,
+                Symbol::Shift(_) => 0.0,
                 Symbol::Named(k) if model.named[k as usize] == Named::Argument => u,
                 _ => f64::NAN,
             })

@@ -5,11 +5,16 @@
 
 mod placement;
 mod print;
+mod quotients;
+mod results;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
 pub use placement::Placement;
+pub use quotients::quotient;
 
-use crate::expr::{ExprId, Graph, TableId};
+pub use results::{Outcome, Reduction, ReductionKind};
+
+use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
 
 /// A name and the place where it is declared.
@@ -91,6 +96,13 @@ pub struct Mechanism {
     /// Each behind the one that it is a part of.
     pub parts: Vec<Part>,
     /// In order of declaration, those of a part where it is declared.
+    /// What derivatives are taken by, by their number.
+    pub variables: Vec<Variable>,
+    /// The numbers of those that all columns are differentiated by, in the order of the columns.
+    pub by: Vec<u32>,
+    /// Whether formulas hold inputs as signals, rather than what these are.
+    pub has_signals: bool,
+    /// In order of declaration.
     pub bodies: Vec<Body>,
     /// Declared points, and literal ones where they were met.
     pub points: Vec<Point>,
@@ -106,6 +118,12 @@ pub struct Mechanism {
     pub equations: Vec<Equation>,
     /// In order of declaration.
     pub measures: Vec<Measure>,
+    /// Results, in order of declaration.
+    pub outcomes: Vec<Outcome>,
+    /// What they ask of the whole analysis, by the number of its symbol.
+    pub reductions: Vec<Reduction>,
+    /// So many named symbols stand for what has nothing to do with results.
+    pub named_before_results: usize,
     /// Formulas that must stay positive for others to have a meaning.
     pub conditions: Vec<Condition>,
     /// What `run` does unless told otherwise.
@@ -125,6 +143,9 @@ impl Mechanism {
             inputs: Vec::new(),
             led: Vec::new(),
             parts: Vec::new(),
+            variables: Vec::new(),
+            by: Vec::new(),
+            has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
             axes: Vec::new(),
@@ -133,6 +154,9 @@ impl Mechanism {
             joints: Vec::new(),
             equations: Vec::new(),
             measures: Vec::new(),
+            outcomes: Vec::new(),
+            reductions: Vec::new(),
+            named_before_results: 0,
             conditions: Vec::new(),
             analysis: None,
         }
@@ -226,8 +250,12 @@ pub struct Param {
 pub struct Input {
     /// Its name.
     pub declared: Declared,
+    /// Its place among the inputs as they are declared, which is the number of its signal.
+    pub number: usize,
     /// What it is, as a formula of time, in SI.
     pub value: ExprId,
+    /// Of its value.
+    pub dimension: Dimension,
 }
 
 /// An input on its way from one value to another.
@@ -264,6 +292,19 @@ pub struct Part {
     pub is_turned_over: bool,
     /// Whether its text is mirrored in the end.
     pub is_mirrored: bool,
+}
+
+/// An input or parameter that derivatives are taken by.
+#[derive(Clone, Debug)]
+pub struct Variable {
+    /// Its name; of a coordinate of a point `A.x`.
+    pub declared: Declared,
+    /// What of the formulas changes: its own parameter, or a shift that is added to its formula.
+    pub symbol: Symbol,
+    /// Of its value.
+    pub dimension: Dimension,
+    /// Whether it is an angle, as far as its words tell.
+    pub is_angle: bool,
 }
 
 /// A body.
@@ -524,8 +565,12 @@ pub enum Named {
     Quantity(Option<PartId>, Quantity),
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
+    /// The derivative of a formula by a variable, by its number, at fixed time.
+    By(ExprId, u32),
     /// Above zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
+    /// A number for the whole analysis, by its place among the reductions.
+    Reduction(u32),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }

@@ -1,7 +1,8 @@
 //! The model as readable text: names resolved, values in SI.
 
 use super::{
-    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity, Side,
+    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
+    Reduction, Side,
 };
 use crate::expr::{ExprId, Printer, Symbol, number};
 use rustc_hash::FxHashMap;
@@ -81,13 +82,26 @@ impl Text<'_> {
         let printer = Printer::new(&self.model.graph, |symbol| match symbol {
             Symbol::Param(k) => self.model.params[k as usize].declared.name.clone(),
             Symbol::Time => "t".to_owned(),
+            Symbol::Signal { index, .. } => {
+                let input = self.model.inputs.iter().find(|input| input.number == index as usize);
+                input.map_or_else(|| "t".to_owned(), |input| input.declared.name.clone())
+            }
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
                 Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
+                Named::By(inner, variable) => {
+                    let by = &self.model.variables[variable as usize].declared.name;
+                    format!("der({}, {by})", self.formula_text(inner))
+                }
+                Named::Reduction(k) => {
+                    let Reduction { kind, of, .. } = &self.model.reductions[k as usize];
+                    kind.written(&self.formula_text(*of), text)
+                }
                 Named::Argument => "u".to_owned(),
             },
-            Symbol::Coordinate { .. } => "q".to_owned(),
+            Symbol::Shift(_) => "0".to_owned(),
+            Symbol::Coordinate { .. } | Symbol::Varied { .. } => "q".to_owned(),
         })
         .with_names(&self.names);
         if whole { printer.definition(id) } else { printer.text(id) }
@@ -191,9 +205,11 @@ impl Mechanism {
             }
         }
         list.extend(self.measures.iter().map(|measure| measure.value));
+        list.extend(self.outcomes.iter().map(|outcome| outcome.value));
+        list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
-            Named::Derivative(inner) => Some(*inner),
-            Named::Quantity(..) | Named::Exists(..) | Named::Argument => None,
+            Named::Derivative(inner) | Named::By(inner, _) => Some(*inner),
+            Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list
     }
@@ -261,6 +277,14 @@ impl std::fmt::Display for Mechanism {
             let [unit, ..] = &measure.units.printed;
             let unit = if *unit == measure.units.si { String::new() } else { format!(" in {unit}") };
             writeln!(f, "  {} = {}{unit}", measure.declared.name, text.formula_text(measure.value))?;
+        }
+        if !self.outcomes.is_empty() {
+            writeln!(f, "\nresults")?;
+        }
+        for outcome in &self.outcomes {
+            let [unit, ..] = &outcome.units.printed;
+            let unit = if *unit == outcome.units.si { String::new() } else { format!(" in {unit}") };
+            writeln!(f, "  {} = {}{unit}", outcome.declared.name, text.formula_text(outcome.value))?;
         }
         if let Some(analysis) = self.analysis {
             let [from, to, every] = [analysis.from, analysis.to, analysis.every].map(number);

@@ -2,7 +2,7 @@
 
 use super::tables::{Place, Reached};
 use super::{Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
-use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TableId, Unary};
+use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
 use crate::ir::{self, ConstraintSystem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
@@ -13,6 +13,7 @@ impl Program {
     #[must_use]
     pub fn new(system: &ConstraintSystem) -> Program {
         let mut layout = Layout::new(system);
+        layout.signals(system);
         let mut outputs = Outputs {
             estimates: layout.place(Stage::Prologue, system.coordinates.iter().map(|c| c.estimate)),
             phi: layout.place(Stage::Position, system.rows.iter().map(|row| row.phi)),
@@ -26,11 +27,20 @@ impl Program {
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
+        let mut rights = |lists: &[Vec<ExprId>]| {
+            lists.iter().map(|list| layout.place(Stage::Velocity, list.iter().copied())).collect()
+        };
+        (outputs.by_signal, outputs.by_param) = (rights(&system.by_signal), rights(&system.by_param));
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        for variation in system.variations() {
+            let rights = variation.rights.each_ref();
+            outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
+        }
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
         outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
         outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));
+        outputs.appended = layout.place(Stage::Measures, system.appended().iter().map(|column| column.value));
         // rims are asked for where nothing but time and position has been evaluated
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
         outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
@@ -59,13 +69,23 @@ pub(super) struct Layout<'s> {
 
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
-        let n = system.coordinates.len() as u32;
-        let params = system.params.len() as u32;
+        let signals = if system.has_signals { system.inputs.len() } else { 0 };
+        let counts =
+            [system.params.len(), system.coordinates.len(), signals, system.by_param.len(), system.variations().len()];
+        Layout::of(&system.graph, counts.map(|count| count as u32))
+    }
+
+    /// For formulas of a graph over so many parameters, coordinates, signals, parameters by which the coordinates are differentiated, and
+    /// variations of the coordinates.
+    pub fn of(graph: &'s Graph, [params, n, signals, by_param, variations]: [u32; 5]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
+        let signals_at = params + 1 + 4 * n;
+        let by_signal = signals_at + 3 * signals;
+        let varied = by_signal + n * (signals + by_param);
         Layout {
-            graph: &system.graph,
-            register_of: vec![NONE; system.graph.len()],
-            pairs: pairs(&system.graph),
+            graph,
+            register_of: vec![NONE; graph.len()],
+            pairs: pairs(graph),
             operations: STAGES.map(|_| Vec::new()).to_vec(),
             constants: Vec::new(),
             comparisons: FxHashMap::default(),
@@ -73,8 +93,17 @@ impl<'s> Layout<'s> {
             tables: FxHashMap::default(),
             table_layouts: Vec::new(),
             reached: FxHashMap::default(),
-            inputs: Inputs { params: 0, time: params, coordinates, n },
-            next: params + 1 + 4 * n,
+            inputs: Inputs {
+                params: 0,
+                time: params,
+                coordinates,
+                n,
+                signals: signals_at,
+                by_signal,
+                count: signals,
+                varied,
+            },
+            next: varied + 3 * n * variations,
         }
     }
 
@@ -98,6 +127,17 @@ impl<'s> Layout<'s> {
             }
         }
         roots.iter().map(|id| self.register_of[id.index()]).collect()
+    }
+
+    /// What signals are by the text, for those who run the program as it is.
+    fn signals(&mut self, system: &ConstraintSystem) {
+        for (signal, input) in system.inputs.iter().enumerate().take(self.inputs.count as usize) {
+            let formulas = self.place(Stage::Time, input.formulas);
+            for (order, a) in formulas.into_iter().enumerate() {
+                let to = self.inputs.signal(signal as u32, order as u32);
+                self.operations[Stage::Time as usize].push(Op::Copy { to, a });
+            }
+        }
     }
 
     fn rim(&mut self, rim: &ir::Rim) -> Rim {
@@ -268,16 +308,22 @@ impl<'s> Layout<'s> {
         self.next - 1
     }
 
-    fn input(&self, symbol: Symbol) -> Register {
+    fn input(&mut self, symbol: Symbol) -> Register {
         match symbol {
             Symbol::Param(k) => self.inputs.params + k,
             Symbol::Time => self.inputs.time,
+            Symbol::Signal { index, order } => {
+                let signal = if index == TIME_SIGNAL { self.inputs.count - 1 } else { index };
+                self.inputs.signal(signal, u32::from(order))
+            }
             Symbol::Coordinate { index, order } => self.inputs.coordinates[order as usize] + index,
+            Symbol::Shift(_) => self.constant(0.0),
+            Symbol::Varied { index, order, variation } => self.inputs.varied(variation, u32::from(order)) + index,
             Symbol::Named(_) => unreachable!("lowering leaves no named symbol"),
         }
     }
 
-    fn finish(self, outputs: Outputs) -> Program {
+    pub fn finish(self, outputs: Outputs) -> Program {
         let switches = self
             .operations
             .iter()

@@ -9,12 +9,15 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 /// From a lowest to a highest value.
 #[derive(Clone, Copy, PartialEq, Debug)]
-struct Interval {
-    low: f64,
-    high: f64,
+pub(super) struct Interval {
+    pub(super) low: f64,
+    pub(super) high: f64,
 }
 
-const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
+/// Over more pieces of a table than this nothing is said of its columns.
+const MOST_PIECES: f64 = 64.0;
+
+pub(super) const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 const UNDECIDED: Interval = Interval { low: 0.0, high: 1.0 };
 
 /// What must not happen: a switch that changes, a condition that fails, a watched quantity that changes its sign.
@@ -183,7 +186,7 @@ impl Enclosure {
 }
 
 /// The operations behind some registers, of some stages, the last one first.
-fn behind(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
+pub(super) fn behind(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
     let mut needed = vec![false; program.registers()];
     for &root in roots {
         needed[root as usize] = true;
@@ -203,7 +206,7 @@ fn behind(program: &Program, roots: &[Register], stages: &[Stage]) -> Vec<Op> {
 }
 
 /// An operation's register and the enclosure of its result.
-fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
+pub(super) fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
     let at = |register: Register| v[register as usize];
     match op {
         Op::Add { to, a, b } => (to, wider(at(a).low + at(b).low, at(a).high + at(b).high)),
@@ -219,12 +222,17 @@ fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
         Op::Compare { comparison, to, a, b } if a == b => (to, point(compare(comparison, 0.0, 0.0))),
         Op::Compare { comparison, to, a, b } => (to, compared(comparison, at(a), at(b))),
         // switches are points once they have been looked at
-        Op::And { to, a, b } => (to, point(at(a).low.min(at(b).low))),
-        Op::Or { to, a, b } => (to, point(at(a).low.max(at(b).low))),
-        Op::Not { to, a } => (to, point(1.0 - at(a).low)),
-        Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
-            (to, if at(condition).low == 0.0 { at(b) } else { at(a) })
-        }
+        Op::And { to, a, b } => (to, exact(at(a).low.min(at(b).low), at(a).high.min(at(b).high))),
+        Op::Or { to, a, b } => (to, exact(at(a).low.max(at(b).low), at(a).high.max(at(b).high))),
+        Op::Not { to, a } => (to, exact(1.0 - at(a).high, 1.0 - at(a).low)),
+        Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => (
+            to,
+            match at(condition) {
+                Interval { low: 0.0, high: 0.0 } => at(b),
+                Interval { low, high } if low <= 0.0 && high >= 0.0 => hull(at(a), at(b)),
+                _ => at(a),
+            },
+        ),
         Op::Copy { to, a } => (to, at(a)),
         Op::Piece { to, table, a } => {
             let layout = &program.tables()[table as usize];
@@ -232,7 +240,17 @@ fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
             let number = |x: f64| piece(layout.pieces as usize, knot, x) as f64;
             (to, Interval { low: number(at(a).low), high: number(at(a).high) })
         }
-        Op::Pick { to, table, column, piece } => (to, picked(program, table, column, at(piece).low, v)),
+        Op::Pick { to, table, column, piece } => {
+            let (first, last) = (at(piece).low, at(piece).high);
+            let one = picked(program, table, column, first, v);
+            // several pieces where the argument goes over a knot: all between
+            let all = if first.total_cmp(&last).is_eq() {
+                one
+            } else {
+                picked_of_all(program, table, column, [first, last], v)
+            };
+            (to, all)
+        }
         // both results are written where it is met
         Op::SinCos { sin, .. } => (sin, WHOLE),
     }
@@ -240,6 +258,16 @@ fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
 
 fn point(value: f64) -> Interval {
     if value.is_nan() { WHOLE } else { Interval { low: value + 0.0, high: value + 0.0 } }
+}
+
+/// Ends that are known exactly.
+fn exact(low: f64, high: f64) -> Interval {
+    if low.is_nan() || high.is_nan() { WHOLE } else { Interval { low: low + 0.0, high: high + 0.0 } }
+}
+
+/// All of both.
+fn hull(a: Interval, b: Interval) -> Interval {
+    Interval { low: a.low.min(b.low), high: a.high.max(b.high) }
 }
 
 /// Rounding may have gone either way.
@@ -279,7 +307,7 @@ fn quotient(a: Interval, b: Interval) -> Interval {
     if b.low <= 0.0 && b.high >= 0.0 { WHOLE } else { corners(a, b, |x, y| x / y) }
 }
 
-fn of_one(function: Unary, a: Interval) -> Interval {
+pub(super) fn of_one(function: Unary, a: Interval) -> Interval {
     let (low, high) = (unary_value(function, a.low), unary_value(function, a.high));
     match function {
         Unary::Sin | Unary::Cos => wave(function, a),
@@ -310,7 +338,8 @@ fn of_two(function: Binary, a: Interval, b: Interval) -> Interval {
         Binary::Min | Binary::Max => Interval { low: value(a.low, b.low), high: value(a.high, b.high) },
         Binary::Hypot => loosened(corners(of_one(Unary::Abs, a), of_one(Unary::Abs, b), value)),
         Binary::Pow if a.low > 0.0 || (a.low >= 0.0 && b.low > 0.0) => loosened(corners(a, b, value)),
-        Binary::Atan2 if b.low > 0.0 => loosened(corners(a, b, value)),
+        // beside the line where it jumps it rises or falls with each operand alone
+        Binary::Atan2 if b.low > 0.0 || a.low > 0.0 || a.high < 0.0 => loosened(corners(a, b, value)),
         Binary::Atan2 => Interval { low: -PI, high: PI },
         // the last is laid out as other operations
         Binary::Pow | Binary::Mod => WHOLE,
@@ -345,4 +374,19 @@ fn picked(program: &Program, table: u32, column: Column, piece: f64, v: &[Interv
     #[allow(clippy::cast_sign_loss)]
     let at = range.start + piece as u32;
     v[at.min(range.end - 1) as usize]
+}
+
+/// The same of all pieces from one to another.
+fn picked_of_all(program: &Program, table: u32, column: Column, [first, last]: [f64; 2], v: &[Interval]) -> Interval {
+    let count = last - first;
+    if count.is_nan() || count > MOST_PIECES {
+        return WHOLE;
+    }
+    let mut all = picked(program, table, column, first, v);
+    let mut piece = first;
+    while piece < last {
+        piece += 1.0;
+        all = hull(all, picked(program, table, column, piece, v));
+    }
+    all
 }

@@ -123,7 +123,7 @@ impl Program {
     /// Runs the operations of one stage; where registers are frozen, all but the switches.
     pub fn run(&self, stage: Stage, registers: &mut Registers) {
         let frozen = match stage {
-            Stage::Prologue | Stage::Measures | Stage::Rims => false,
+            Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims => false,
             Stage::Time => registers.frozen.time,
             _ => registers.frozen.motion,
         };

@@ -13,14 +13,18 @@
 mod compile;
 mod enclose;
 mod evaluate;
+mod formulas;
+mod ranges;
 mod signals;
 mod tables;
 
 pub use enclose::Enclosure;
 pub use evaluate::{Frozen, Registers, either};
+pub use ranges::{Range, Ranges};
 pub use signals::Signal;
 
 use crate::expr::{Binary, Comparison, Unary};
+use rustc_hash::FxHashSet;
 
 /// A place for one number.
 pub type Register = u32;
@@ -30,7 +34,7 @@ impl Stage {
     /// A measure takes the branch it is on.
     #[must_use]
     pub fn can_switch(self) -> bool {
-        !matches!(self, Stage::Prologue | Stage::Measures | Stage::Rims)
+        !matches!(self, Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims)
     }
 }
 
@@ -131,6 +135,9 @@ pub enum Stage {
     Acceleration,
     /// The right side of the jerk equation; needs `q̈`.
     Jerk,
+    /// The right sides of the variations, each of which needs `q̇`, `q̈` and the variations before it. A branch is the one that the
+    /// equations are on.
+    Variation,
     /// The measures; needs all derivatives of `q`.
     Measures,
     /// The rims, where they are asked for; needs `q̇`.
@@ -138,13 +145,14 @@ pub enum Stage {
 }
 
 /// All stages, in the order in which they may be run.
-pub const STAGES: [Stage; 8] = [
+pub const STAGES: [Stage; 9] = [
     Stage::Prologue,
     Stage::Time,
     Stage::Position,
     Stage::Velocity,
     Stage::Acceleration,
     Stage::Jerk,
+    Stage::Variation,
     Stage::Measures,
     Stage::Rims,
 ];
@@ -297,7 +305,40 @@ pub struct Inputs {
     pub coordinates: [Register; 4],
     /// Number of coordinates.
     pub n: u32,
+    /// First signal: value, rate and acceleration of each, one behind the other.
+    pub signals: Register,
+    /// First of the derivatives of `q` by each signal, and then by each parameter where these are asked for; `n` for each.
+    pub by_signal: Register,
+    /// Number of signals.
+    pub count: u32,
+    /// First of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    pub varied: Register,
 }
+
+impl Inputs {
+    /// First register of a variation of `q` (order 0), `q̇` or `q̈`.
+    #[must_use]
+    pub fn varied(&self, variation: u32, order: u32) -> Register {
+        self.varied + (3 * variation + order) * self.n
+    }
+}
+
+impl Inputs {
+    /// The registers of all signals.
+    #[must_use]
+    pub fn all_signals(&self) -> std::ops::Range<Register> {
+        self.signals..self.signals + ORDERS * self.count
+    }
+
+    /// The register of a signal's value, rate or acceleration.
+    #[must_use]
+    pub fn signal(&self, signal: u32, order: u32) -> Register {
+        self.signals + ORDERS * signal + order
+    }
+}
+
+/// What is given of a signal: value, rate, acceleration.
+const ORDERS: u32 = 3;
 
 /// Where a program leaves its results.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
@@ -314,6 +355,14 @@ pub struct Outputs {
     pub gamma: Vec<Register>,
     /// Right side of the jerk equation, `n`, or none.
     pub jerk: Vec<Register>,
+    /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
+    pub variations: Vec<[Vec<Register>; 3]>,
+    /// Derivatives that stand behind all other columns.
+    pub appended: Vec<Register>,
+    /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.
+    pub by_signal: Vec<Vec<Register>>,
+    /// Likewise by parameter, where that is asked for.
+    pub by_param: Vec<Vec<Register>>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.
@@ -330,6 +379,19 @@ pub struct Outputs {
     pub rims: Vec<Rim>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
+}
+
+impl Outputs {
+    /// Shows every register of a result.
+    fn all(&self, mut show: impl FnMut(Register)) {
+        let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
+        let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
+        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms);
+        lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
+        for rim in &self.rims {
+            [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));
+        }
+    }
 }
 
 /// Where a quantity stands at whose zero a formula may have an edge.
@@ -374,6 +436,43 @@ pub struct Switch {
 }
 
 impl Program {
+    /// The same with its signals as inputs: without the operations that say what they are by the text. Registers stay what they are.
+    #[must_use]
+    pub fn with_signals_given(&self) -> Program {
+        let signals = self.inputs.all_signals();
+        let mut is_read = vec![false; self.registers];
+        self.outputs.all(|register| is_read[register as usize] = true);
+        let mut operations = self.operations.clone();
+        for stage in STAGES.into_iter().rev() {
+            let mut kept: Vec<Op> = Vec::new();
+            for &op in self.stage(stage).iter().rev() {
+                let (reads, writes) = self.operands(op);
+                let is_needed = |&to: &Register| is_read[to as usize] && !signals.contains(&to);
+                if writes.iter().any(is_needed) {
+                    for register in reads {
+                        is_read[register as usize] = true;
+                    }
+                    kept.push(op);
+                }
+            }
+            kept.reverse();
+            operations[stage as usize] = kept;
+        }
+        let writes = |op: &Op| op.writes().0[0];
+        let written: FxHashSet<Register> = operations.iter().flatten().map(writes).collect();
+        let stays = |switch: &Switch| written.contains(&switch.to);
+        let switches = self.switches.iter().copied().filter(stays).collect();
+        Program { operations, switches, ..self.clone() }
+    }
+
+    /// The same without results by parameter.
+    #[must_use]
+    pub fn without_params(&self) -> Program {
+        let mut program = self.clone();
+        program.outputs.by_param.clear();
+        program
+    }
+
     /// The tables, by their number.
     #[must_use]
     pub fn tables(&self) -> &[TableLayout] {

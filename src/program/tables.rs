@@ -48,6 +48,8 @@ impl Layout<'_> {
     }
 
     fn reached(&mut self, stage: Stage, table: TableId, x: ExprId) -> Reached {
+        // a derivative has the pieces of its table, and is in the same one
+        let table = self.graph.tables()[table.index()].derived_from.unwrap_or(table);
         if let Some(&reached) = self.reached.get(&(table, x)) {
             return reached;
         }

@@ -5,12 +5,12 @@ use super::order::{BlockEntry, Order};
 use super::tape::{Op, Tape, Value};
 use super::tear::tear;
 use super::{Component, MOST_OPERATIONS, Pivot, RowLayout, Segment, Solver, Tear, Turn, Values};
-use crate::expr::Symbol;
+use crate::expr::{ExprId, Symbol};
 use crate::ir::ConstraintSystem;
 use crate::math;
 use crate::program::{self, Program, Register, Stage};
 use crate::structure::{Block, Determined};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
 pub(super) const CELL: f64 = 1.0 / 134_217_728.0;
@@ -31,9 +31,10 @@ pub(super) fn build(
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
-    let measures = groups.measures(system);
+    let (measures, appended) = (groups.measures(system), groups.appended(system));
     let mut builder = Builder::new(determined, program, values, &groups);
     builder.notes_pivots = notes_pivots;
+    builder.joined = joined(system, program, &measures[groups.blocks.len()], &appended[groups.blocks.len()]);
     let (mut segments, mut registers, mut operations) = (Vec::new(), 0, Vec::new());
     let mut append = |(component, used): (Component, usize), operations: &mut Vec<Op>| {
         let from = operations.len();
@@ -49,12 +50,13 @@ pub(super) fn build(
             registers = registers.max(used);
         }
     };
-    for (group, measures) in groups.blocks.iter().zip(&measures) {
+    for ((group, measures), appended) in groups.blocks.iter().zip(&measures).zip(&appended) {
         builder.begin();
         for &block in group {
             builder.block(&determined.blocks()[block]);
         }
         builder.measures(measures);
+        builder.appended(appended);
         append(builder.finish(), &mut operations);
         if operations.len() > MOST_OPERATIONS {
             return None;
@@ -63,6 +65,7 @@ pub(super) fn build(
     builder.begin();
     builder.is_across = true;
     builder.measures(&measures[groups.blocks.len()]);
+    builder.appended(&appended[groups.blocks.len()]);
     append(builder.finish(), &mut operations);
     let Builder { weights, tears, pivots, turns, layout, .. } = builder;
     Some(Solver { operations, segments, registers, weights, tears, pivots, turns, layout })
@@ -113,16 +116,31 @@ impl Groups {
         let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
         for (k, measure) in system.measures.iter().enumerate() {
             let formulas = [Some(measure.value), measure.first, measure.second];
-            let symbols = formulas.into_iter().flatten().flat_map(|id| system.graph.symbols(id));
-            let mut groups = symbols.filter_map(|symbol| match symbol {
-                Symbol::Coordinate { index, .. } => Some(self.group_of_column[index as usize]),
-                _ => None,
-            });
-            let first = groups.next();
-            let group = first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len());
-            of_group[group].push(k);
+            of_group[self.of(system, formulas.into_iter().flatten())].push(k);
         }
         of_group
+    }
+
+    /// The same of the columns of derivatives.
+    fn appended(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
+        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+        for (k, column) in system.appended().iter().enumerate() {
+            of_group[self.of(system, [column.value])].push(k);
+        }
+        of_group
+    }
+
+    /// The group that some formulas speak of; where there are several, the number behind the last one.
+    fn of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
+        let symbols = formulas.into_iter().flat_map(|id| system.graph.symbols(id));
+        let mut groups = symbols.filter_map(|symbol| match symbol {
+            Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
+                Some(self.group_of_column[index as usize])
+            }
+            _ => None,
+        });
+        let first = groups.next();
+        first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len())
     }
 }
 
@@ -132,6 +150,23 @@ fn root(parent: &mut [usize], mut k: usize) -> usize {
         k = parent[k];
     }
     k
+}
+
+/// The places, among all variations, of those that some measures and appended columns need.
+fn joined(system: &ConstraintSystem, program: &Program, measures: &[usize], appended: &[usize]) -> FxHashSet<u32> {
+    let of_measure = |&k: &usize| {
+        let measure = &system.measures[k];
+        [Some(measure.value), measure.first, measure.second].into_iter().flatten()
+    };
+    let columns = appended.iter().map(|&k| system.appended()[k].value);
+    let formulas: Vec<ExprId> = measures.iter().flat_map(of_measure).chain(columns).collect();
+    let place = |symbol| match symbol {
+        Symbol::Varied { index, order, variation } => {
+            Some(program.inputs.varied(variation, u32::from(order)) - program.inputs.varied(0, 0) + index)
+        }
+        _ => None,
+    };
+    system.graph.symbols_of_all(&formulas).into_iter().filter_map(place).collect()
 }
 
 struct Builder<'s, V> {
@@ -153,6 +188,8 @@ struct Builder<'s, V> {
     tears: Vec<u32>,
     age: u32,
     is_across: bool,
+    /// Places of the variations that join groups.
+    joined: FxHashSet<u32>,
     open: Vec<Register>,
     /// Registers whose values hold for this block alone: they depend on coordinates of later blocks, which cancel in what the
     /// block needs.
@@ -220,6 +257,7 @@ impl<'s, V: Values> Builder<'s, V> {
             tears: Vec::new(),
             age: 0,
             is_across: false,
+            joined: FxHashSet::default(),
             open: Vec::new(),
             passing: Vec::new(),
             is_passing: vec![false; program.registers()],
@@ -454,6 +492,72 @@ impl<'s, V: Values> Builder<'s, V> {
                     self.store(order, column);
                 }
             }
+        }
+        for (number, right) in outputs.by_signal.iter().chain(&outputs.by_param).enumerate() {
+            self.derivatives_by(number as u32, right, block, factors);
+        }
+        self.variations(block, factors);
+    }
+
+    /// Each variation of position, velocity and acceleration of a block.
+    fn variations(&mut self, block: &Block, factors: &Factors) {
+        let program = self.program;
+        for (variation, rights) in program.outputs.variations.iter().enumerate() {
+            for (order, right) in rights.iter().enumerate() {
+                let first = program.inputs.varied(variation as u32, order as u32);
+                let mut sums = Vec::with_capacity(block.rows.len());
+                for &row in &block.rows {
+                    let mut sum = self.value(right[row as usize]);
+                    for (at, column) in self.entries_outside(block, row) {
+                        let slope = self.value(program.outputs.phi_q[at]);
+                        let known = self.value(first + column);
+                        let product = self.tape.mul(slope, known);
+                        sum = self.tape.sub(sum, product);
+                    }
+                    sums.push(sum);
+                }
+                let solution = self.solve(factors, sums);
+                for (&column, &value) in block.columns.iter().zip(&solution) {
+                    self.know(first + column, value);
+                    let place = first - program.inputs.varied + column;
+                    if self.joined.contains(&place) {
+                        let a = self.tape.register(value);
+                        self.tape.act(Op::Store { column: self.layout.varied + place, a });
+                    }
+                }
+            }
+        }
+    }
+
+    /// The derivatives of a block's coordinates by a signal or parameter, whose number counts all of these.
+    fn derivatives_by(&mut self, number: u32, right: &[Register], block: &Block, factors: &Factors) {
+        let outputs = &self.program.outputs;
+        let first = self.program.inputs.by_signal + number * self.program.inputs.n;
+        let mut sums = Vec::with_capacity(block.rows.len());
+        for &row in &block.rows {
+            let mut sum = self.value(right[row as usize]);
+            for (at, column) in self.entries_outside(block, row) {
+                let slope = self.value(outputs.phi_q[at]);
+                let rate = self.value(first + column);
+                let product = self.tape.mul(slope, rate);
+                sum = self.tape.sub(sum, product);
+            }
+            sums.push(sum);
+        }
+        let slopes = self.solve(factors, sums);
+        for (&column, &slope) in block.columns.iter().zip(&slopes) {
+            self.know(first + column, slope);
+            let a = self.tape.register(slope);
+            let column = self.layout.by_signal + number * self.program.inputs.n + column;
+            self.tape.act(Op::Store { column, a });
+        }
+    }
+
+    fn appended(&mut self, columns: &[usize]) {
+        for &k in columns {
+            let value = self.value(self.program.outputs.appended[k]);
+            let a = self.tape.register(value);
+            self.tape.act(Op::Store { column: self.layout.appended + k as u32, a });
         }
     }
 
@@ -718,17 +822,26 @@ impl<'s, V: Values> Builder<'s, V> {
         if let Some(&value) = self.literals.get(&register) {
             return Some(Value::Number(value));
         }
-        if register < inputs.time || self.is_loaded(register) {
+        if register < inputs.time || self.is_loaded(register) || self.is_given_signal(register) {
             return Some(self.tape.push(|to| Op::Load { to, from: register }));
         }
         if register == inputs.time {
             return Some(self.tape.push(|to| Op::Time { to }));
+        }
+        if register >= inputs.varied && register < inputs.varied(self.system.variations().len() as u32, 0) {
+            let column = self.layout.varied + (register - inputs.varied);
+            return self.is_across.then(|| self.tape.push(|to| Op::Column { to, column }));
         }
         let order = (0..4)
             .find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register))?;
         let column = register - inputs.coordinates[order];
         let column = self.layout.coordinates[order] + column;
         self.is_across.then(|| self.tape.push(|to| Op::Column { to, column }))
+    }
+
+    /// Whether a register is of a signal that no operation says.
+    fn is_given_signal(&self, register: Register) -> bool {
+        self.program.inputs.all_signals().contains(&register) && self.definitions[register as usize].is_none()
     }
 
     /// Whether a register of the program keeps its value within a step: it depends on parameters alone, or is a switch.

@@ -139,6 +139,14 @@ pub struct RowLayout {
     pub coordinates: [u32; 4],
     /// First column of the measures, and of their first and second derivatives.
     pub measures: [u32; 3],
+    /// First of the derivatives that stand behind all other columns of the table.
+    pub appended: u32,
+    /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    pub varied: u32,
+    /// Whether there are columns for `q⃛`.
+    pub has_jerk: bool,
+    /// First column of the derivatives of `q` by each signal and parameter, which are behind all others.
+    pub by_signal: u32,
     /// Columns that the table has.
     pub printed: usize,
     /// All columns.
@@ -160,10 +168,13 @@ impl RowLayout {
             measures[order] = next + n;
             next += n + counts[order];
         }
-        coordinates[3] = next;
-        let printed = next as usize;
-        let stride = if system.jerk.is_some() { printed + n as usize } else { printed };
-        RowLayout { coordinates, measures, printed, stride }
+        let appended = next;
+        coordinates[3] = next + system.appended().len() as u32;
+        let (printed, has_jerk) = (coordinates[3] as usize, system.jerk.is_some());
+        let by_signal = coordinates[3] + if has_jerk { n } else { 0 };
+        let varied = by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32;
+        let stride = varied as usize + 3 * system.variations().len() * n as usize;
+        RowLayout { coordinates, measures, appended, varied, has_jerk, by_signal, printed, stride }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
 use super::lead::Leading;
+use super::signals::WithSignals;
 use super::used::{self, Used};
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
@@ -25,6 +26,8 @@ pub struct Choice {
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
     pub samples: Option<PathBuf>,
+    /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
+    pub by: Vec<String>,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -46,6 +49,8 @@ pub struct Checked {
     model: Option<Arc<Mechanism>>,
     /// What leads it to the inputs that it is told, if it is told any.
     leading: Option<Arc<Leading>>,
+    /// What it was checked with.
+    surroundings: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
 }
@@ -104,8 +109,10 @@ impl Checked {
         let settings = settings(&choice.set, &mut sources);
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
-        let (mut model, mut leading) = (None, None);
+        let (mut model, mut leading, mut checked_with) = (None, None, Surroundings::default());
         let is_told = !choice.inputs.is_empty() || choice.samples.is_some();
+        let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
+        let by = choice.by.iter().map(spaceless).collect();
         match (settings, given) {
             (Err(why), Ok(_)) | (Ok(_), Err(why)) => diagnostics.extend(why),
             (Err(why), Err(more)) => {
@@ -114,7 +121,8 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let surroundings = Surroundings { settings, library, files, given, bound: Vec::new(), lead: None };
+                let surroundings = Surroundings { settings, library, files, given, by, ..Surroundings::default() };
+                checked_with = surroundings.clone();
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);
                 model = found.filter(|_| !diagnostics.has_errors()).map(Arc::new);
@@ -125,7 +133,16 @@ impl Checked {
                     (is_told || has_parts).then(|| Arc::new(Leading { read, number, surroundings, sources, is_told }));
             }
         }
-        Checked { leading, ..Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics) }
+        let checked = Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics);
+        Checked { leading, surroundings: Arc::new(checked_with), ..checked }
+    }
+
+    /// The model in which inputs are signals, where there are any.
+    fn with_signals(&self) -> Option<WithSignals> {
+        let has_inputs = self.model.as_ref().is_some_and(|model| !model.inputs.is_empty());
+        let surroundings = Surroundings { has_signals: true, ..(*self.surroundings).clone() };
+        let number = self.number.filter(|_| has_inputs)?;
+        Some(WithSignals::new(self.parsed.clone(), number, surroundings))
     }
 
     fn with(
@@ -136,15 +153,8 @@ impl Checked {
         mut diagnostics: Diagnostics,
     ) -> Checked {
         diagnostics.sort_by_place();
-        Checked {
-            parsed,
-            number,
-            library,
-            model,
-            leading: None,
-            diagnostics: Arc::new(diagnostics),
-            symbols: Arc::default(),
-        }
+        let (diagnostics, surroundings, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
+        Checked { parsed, number, library, model, leading: None, surroundings, diagnostics, symbols }
     }
 
     /// The texts that its diagnostics speak of.
@@ -203,7 +213,10 @@ impl Checked {
         match &self.model {
             None => (None, Diagnostics::default()),
             Some(model) => {
-                Compiled::of(self.sources().clone(), lower::lower(model), redundant, self.leading.clone(), cancel)
+                let system = lower::lower(model);
+                let leading = self.leading.clone();
+                let (compiled, said) = Compiled::of(self.sources().clone(), system, redundant, leading, cancel);
+                (compiled.map(|compiled| compiled.with_signals(self.with_signals())), said)
             }
         }
     }

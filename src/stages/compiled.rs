@@ -1,9 +1,11 @@
 //! The third stage: a mechanism that is determined, with the operations that evaluate it.
 
 use super::lead::Leading;
+use super::signals::WithSignals;
+use super::used_at::UsedAt;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
-use crate::diag::Diagnostics;
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -43,8 +45,12 @@ pub struct Compiled {
     sources: Sources,
     determined: Arc<Determined>,
     program: Arc<OnceLock<Arc<Program>>>,
-    /// Where it begins, if it is told other inputs than its own.
-    leading: Option<(Arc<Leading>, Redundant)>,
+    /// Where it begins, if it has parts, or is told other inputs than its own.
+    leading: Option<Arc<Leading>>,
+    used_at: UsedAt,
+    redundant: Redundant,
+    /// The same with its inputs as signals, where it has any.
+    with_signals: Option<WithSignals>,
 }
 
 impl Compiled {
@@ -58,15 +64,49 @@ impl Compiled {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
+        let used_at = UsedAt::of(&system);
         match analysis::determine(system, redundant == Redundant::LeftOut) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
-            Err(why) => (None, why),
+            Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {
-                let determined = Arc::new(determined);
-                let leading = leading.map(|leading| (leading, redundant));
-                (Some(Compiled { sources, determined, program: Arc::default(), leading }), said)
+                let (determined, said) = (Arc::new(determined), used_at.told(said));
+                let (program, with_signals) = (Arc::default(), None);
+                let compiled = Compiled { sources, determined, program, leading, used_at, redundant, with_signals };
+                (Some(compiled), said)
             }
         }
+    }
+
+    /// The same, with what it takes to have it with its inputs as signals.
+    pub(super) fn with_signals(self, with_signals: Option<WithSignals>) -> Compiled {
+        Compiled { with_signals, ..self }
+    }
+
+    /// The same mechanism with its inputs as signals, where it has any: its measures have the derivatives that they have here.
+    pub(super) fn signals(&self, cancel: &Cancel) -> Result<Option<Compiled>, Diagnostics> {
+        let Some(with_signals) = &self.with_signals else {
+            return Ok(None);
+        };
+        let mut system = with_signals.system()?;
+        system.align_measures(&self.system().measures);
+        if !self.system().by_param.is_empty() {
+            system.derive_by_params().map_err(|table| by_table(&table))?;
+        }
+        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, None, cancel);
+        compiled.map(Some).ok_or(said)
+    }
+
+    /// The same mechanism, whose equations are differentiated by its parameters too.
+    pub(super) fn by_params(&self) -> Result<Compiled, Diagnostics> {
+        let mut system = self.system().clone();
+        if system.params.is_empty() {
+            let why = format!("mechanism `{}` has no parameters to be sensitive to", system.name);
+            return Err(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out").into());
+        }
+        system.derive_by_params().map_err(|table| by_table(&table))?;
+        let leading = self.leading.clone();
+        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, leading, &Cancel::default());
+        compiled.map(|compiled| compiled.with_signals(self.with_signals.clone())).ok_or(said)
     }
 
     /// The texts that its diagnostics speak of.
@@ -103,6 +143,18 @@ impl Compiled {
     #[must_use]
     pub fn units(&self) -> Vec<ColumnUnit> {
         analysis::units(self.system())
+    }
+
+    /// The names of the results, numbers for the whole analysis, with the units in which they are told.
+    #[must_use]
+    pub fn results(&self) -> Vec<(String, ColumnUnit)> {
+        analysis::results(self.system())
+    }
+
+    /// What is wrong with results of an analysis from one time to another (s).
+    #[must_use]
+    pub fn refused_results(&self, interval: [f64; 2]) -> Diagnostics {
+        analysis::refused_results(self.system(), interval)
     }
 
     /// How many coordinates and equations there are, by body and declaration, as a table.
@@ -148,7 +200,12 @@ impl Compiled {
 
     /// What leads it to the inputs that it is told, if it is told any, and whether redundant equations are left out there too.
     pub(super) fn leading(&self) -> Option<(&Leading, bool)> {
-        self.leading.as_ref().map(|(leading, redundant)| (&**leading, *redundant == Redundant::LeftOut))
+        self.leading.as_deref().map(|leading| (leading, self.redundant == Redundant::LeftOut))
+    }
+
+    /// Where its parts are used.
+    pub(super) fn used_at(&self) -> &UsedAt {
+        &self.used_at
     }
 
     pub(crate) fn system(&self) -> &ConstraintSystem {
@@ -162,6 +219,13 @@ impl Compiled {
     pub(crate) fn program(&self) -> &Arc<Program> {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }
+}
+
+/// What is said of a table whose derivatives by parameters are asked for.
+fn by_table(table: &str) -> Diagnostics {
+    Diagnostic::new(Code::E0706, format!("table `{table}` is made of parameters, by which it is not differentiated"))
+        .help("leave `--with sensitivities` out, or write numbers into the table")
+        .into()
 }
 
 /// For tests of what is inside.

@@ -2,9 +2,12 @@
 
 use super::{Compiled, RunOptions};
 use crate::analysis::{self, Times};
+use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::emit::{self, File, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::program::Program;
 use crate::solver::BlockTables;
+use std::sync::Arc;
 
 /// Rows and numbers at most that a crate is tested against.
 const MOST_ROWS: usize = 20;
@@ -17,6 +20,8 @@ pub struct RustOptions {
     pub file: String,
     /// Whether it assembles the mechanism and follows its motion, beside evaluating the equations.
     pub with_motion: bool,
+    /// Whether it gives the derivatives of the coordinates by the parameters too.
+    pub with_sensitivities: bool,
     /// How many variants or times are solved at once, beside one alone.
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as tables instead of lines.
@@ -27,7 +32,9 @@ impl RustOptions {
     /// All of one mechanism, from a file.
     #[must_use]
     pub fn of(file: impl Into<String>) -> RustOptions {
-        RustOptions { file: file.into(), with_motion: true, lanes: None, largest_straight: LARGEST_STRAIGHT }
+        let (with_motion, with_sensitivities) = (true, false);
+        let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
+        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, largest_straight }
     }
 }
 
@@ -35,34 +42,97 @@ impl Compiled {
     /// A Rust module; with what is to be said of it. Nothing where the start cannot be assembled, or it would be too large.
     #[must_use]
     pub fn rust(&self, options: &RustOptions) -> (Option<String>, Diagnostics) {
-        let mut said = Diagnostics::default();
-        match self.unit(options, &mut said) {
-            Ok(unit) => (Some(emit::rust(&unit)), said),
-            Err(why) => (None, (*why).into()),
-        }
+        self.emitted(options, |unit, _| Ok(emit::rust(unit)))
     }
 
     /// The files of a crate of a name around that module, which holds itself against the rows of the file's analysis, or of the
     /// first second. Where the motion stops on its way, what is said tells why.
     #[must_use]
     pub fn package(&self, name: &str, options: &RustOptions) -> (Option<Vec<File>>, Diagnostics) {
+        self.emitted(options, |unit, said| {
+            let reference = self.reference(said)?;
+            Ok(emit::package(unit, &reference, name))
+        })
+    }
+
+    /// What is made of a unit; with what is to be said of it.
+    fn emitted<T>(
+        &self,
+        options: &RustOptions,
+        make: impl FnOnce(&Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
+    ) -> (Option<T>, Diagnostics) {
+        let by_params = if options.with_sensitivities { self.by_params().map(Some) } else { Ok(None) };
+        let by_params = match by_params {
+            Ok(compiled) => compiled,
+            Err(why) => return (None, why),
+        };
+        let compiled = by_params.as_ref().unwrap_or(self);
+        let signals = match compiled.signals_for_code(options) {
+            Ok(signals) => signals,
+            Err(why) => return (None, why),
+        };
         let mut said = Diagnostics::default();
-        let made = self.unit(options, &mut said).and_then(|unit| {
-            let reference = self.reference(&mut said)?;
-            Ok(emit::package(&unit, &reference, name))
-        });
+        let made = compiled.unit(options, signals.as_ref(), &mut said).and_then(|unit| make(&unit, &mut said));
         match made {
-            Ok(files) => (Some(files), said),
+            Ok(made) => (Some(made), said),
             Err(why) => (None, (*why).into()),
         }
     }
 
-    fn unit<'u>(&'u self, options: &'u RustOptions, said: &mut Diagnostics) -> Result<Unit<'u>, Box<Diagnostic>> {
-        let motion = if options.with_motion { Some(self.motion(said)?) } else { None };
-        let (system, program, sources) = (self.system(), &**self.program(), self.sources());
+    /// Whether it can be written for others.
+    ///
+    /// # Errors
+    /// A measure holds a derivative by an input or parameter, which is computed by `run` alone.
+    pub(crate) fn can_be_emitted(&self) -> Result<(), Box<Diagnostic>> {
+        let system = self.system();
+        let is_varied = |id| system.graph.dependence(id).highest_varied_order().is_some();
+        match system.measures.iter().find(|measure| is_varied(measure.value)) {
+            None => Ok(()),
+            Some(measure) => {
+                let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
+                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "cannot be emitted");
+                Err(Box::new(diagnostic.help("`mechc run` computes it; leave the measure out of what is emitted")))
+            }
+        }
+    }
+
+    /// The mechanism with its inputs as signals, where it has any and is to be solved.
+    fn signals_for_code(&self, options: &RustOptions) -> Result<Option<Signals>, Diagnostics> {
+        if !options.with_motion {
+            return Ok(None);
+        }
+        let compiled = self.signals(&Cancel::default())?;
+        Ok(compiled.map(|compiled| Signals { given: compiled.program().with_signals_given(), compiled }))
+    }
+
+    fn unit<'u>(
+        &'u self,
+        options: &'u RustOptions,
+        signals: Option<&'u Signals>,
+        said: &mut Diagnostics,
+    ) -> Result<Unit<'u>, Box<Diagnostic>> {
+        self.can_be_emitted()?;
+        let program = &**self.program();
+        let motion = if options.with_motion { Some(self.motion(program, None, said)?) } else { None };
+        let (system, sources) = (self.system(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;
         let (lanes, largest_straight) = (*lanes, *largest_straight);
-        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight };
+        let following = match signals {
+            None => None,
+            Some(Signals { compiled, given: program }) => {
+                // of the assembly all is said already
+                let begin = motion.as_ref().map(|motion| motion.q.as_slice());
+                let motion = Some(compiled.motion(program, begin, &mut Diagnostics::default())?);
+                let system = compiled.system();
+                let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following: None };
+                Some(Following { unit: Box::new(unit), by_text: compiled.program() })
+            }
+        };
+        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following };
+        if options.with_sensitivities && emit::is_large(&unit) {
+            let why = format!("sensitivities are for mechanisms of up to {largest_straight} operations");
+            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out")));
+        }
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
@@ -70,16 +140,32 @@ impl Compiled {
         Ok(unit)
     }
 
-    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s.
-    fn motion(&self, said: &mut Diagnostics) -> Result<Motion, Box<Diagnostic>> {
+    /// What it takes to follow the motion from the start of the file's analysis, or from 0 s, by the operations of a program;
+    /// where it begins, if that is known.
+    fn motion(
+        &self,
+        program: &Program,
+        begin: Option<&[f64]>,
+        said: &mut Diagnostics,
+    ) -> Result<Motion, Box<Diagnostic>> {
         let from = self.analysis().map_or(0.0, |[from, ..]| from);
-        let (started, remarks) = self.start(from, &RunOptions::default());
-        said.extend(remarks);
-        let mut started = started?;
+        let mut started = if begin.is_some() {
+            let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+            analysis::start_from(determined, own, from, begin, analysis::TOLERANCE, &Cancel::default())?
+        } else {
+            let (started, remarks) = self.start(from, &RunOptions::default());
+            said.extend(remarks);
+            started?
+        };
         said.extend(started.remarks());
-        let solver = started.solver_for_code().ok_or_else(|| Box::new(too_large()))?;
+        let mut solver_of =
+            |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
+        let by_params = !program.outputs.by_param.is_empty();
+        let solver = solver_of(&program.without_params())?;
+        let sensitive = if by_params { Some(solver_of(program)?) } else { None };
         Ok(Motion {
             solver,
+            sensitive,
             blocks: BlockTables::new(self.determined()),
             q: started.q().to_vec(),
             bounds: started.bounds(),
@@ -127,6 +213,13 @@ impl Compiled {
         said.extend(why);
         Ok(Reference { columns, rows, steps: number - 1, every, stopped })
     }
+}
+
+/// A mechanism with its inputs as signals.
+struct Signals {
+    compiled: Compiled,
+    /// Its program without the operations that say what they are by the text.
+    given: Program,
 }
 
 fn too_large() -> Diagnostic {

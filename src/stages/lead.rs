@@ -2,7 +2,7 @@
 //! inputs are; the whole where the inputs that it is told lead it, from where it is with its own.
 
 use super::lines::{Line, Target, lines};
-use crate::analysis::{self, Asked, LeadOptions};
+use crate::analysis::{self, LeadOptions, Request};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::expr::Symbol;
@@ -52,7 +52,7 @@ impl Leading {
             said: Diagnostics::default(),
         };
         let led =
-            if self.is_told { starts.to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
+            if self.is_told { starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
         let system = determined.system();
         let begin = led.or_else(|| {
             let settings = &self.surroundings.settings;
@@ -116,15 +116,16 @@ struct Starts<'s> {
 }
 
 impl<'s> Starts<'s> {
-    fn to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
+    fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let led = Surroundings { lead: Some(Lead { times, inputs: Vec::new() }), ..self.surroundings.clone() };
+        let lead = Some(Lead { times, inputs: Vec::new() });
+        let led = Surroundings { lead, by: Vec::new(), ..self.surroundings.clone() };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
         let from = if whole.0.system().parts.is_empty() {
             None
         } else {
-            let own = Surroundings { given: Given::default(), ..self.surroundings.clone() };
+            let own = Surroundings { given: Given::default(), by: Vec::new(), ..self.surroundings.clone() };
             Some(self.assembled(tree, own)?.q)
         };
         // if alone it is nowhere, there is nothing to lead
@@ -157,7 +158,7 @@ impl<'s> Starts<'s> {
         let system = determined.system();
         let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
         let cancel = self.options.cancel.clone();
-        let mut leader = |asked: &[Asked]| self.parts(system, asked, t, settings);
+        let mut leader = |asked: &[Request]| self.parts(system, asked, t, settings);
         analysis::with_parts(determined, program, t, estimates, &mut leader, &cancel)
     }
 
@@ -165,14 +166,14 @@ impl<'s> Starts<'s> {
     fn parts(
         &mut self,
         system: &ConstraintSystem,
-        asked: &[Asked],
+        asked: &[Request],
         t: f64,
         settings: &[Setting],
     ) -> Vec<Option<Vec<f64>>> {
         let mut to_lead: Vec<ToLead<'_>> = Vec::new();
         let mut found: Vec<Option<Found>> = Vec::with_capacity(asked.len());
         let mut is_asked: FxHashSet<Ends> = FxHashSet::default();
-        for Asked { part, inputs } in asked {
+        for Request { part, inputs } in asked {
             let start = &system.parts[*part];
             let Some((key, alone)) = self.part_alone(system, start, settings) else {
                 found.push(None);
@@ -273,7 +274,9 @@ impl<'s> Starts<'s> {
         }
         let Surroundings { library, files, .. } = self.surroundings.clone();
         let given = Given::default();
-        let surroundings = Surroundings { settings, library, files, given, bound: params, lead: None };
+        let by = Vec::new();
+        let (lead, has_signals) = (None, false);
+        let surroundings = Surroundings { settings, library, files, given, by, bound: params, lead, has_signals };
         let alone = self.text_of(start).and_then(|tree| self.assembled(tree, surroundings)).map(Rc::new);
         if let Some(alone) = &alone {
             self.said.extend(alone.remarks.clone());

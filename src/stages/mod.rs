@@ -16,7 +16,9 @@ mod lead;
 mod lines;
 mod parsed;
 mod run;
+mod signals;
 mod used;
+mod used_at;
 
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};

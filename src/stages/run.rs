@@ -1,7 +1,8 @@
 //! The last stage: a motion in progress, row by row.
 
 use super::Compiled;
-use crate::analysis::{self, ColumnUnit, LeadOptions, Motion, Started, Times};
+use super::used_at::UsedAt;
+use crate::analysis::{self, Answers, Asked, ColumnUnit, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use std::sync::Arc;
@@ -65,6 +66,11 @@ pub struct Run {
     times: Times,
     cancel: Cancel,
     has_ended: bool,
+    has_stopped: bool,
+    /// What results are computed from; none where there are none.
+    asked: Option<Asked>,
+    results: usize,
+    used_at: UsedAt,
 }
 
 impl Compiled {
@@ -97,24 +103,44 @@ impl Compiled {
 
 impl Run {
     fn of(compiled: &Compiled, times: &Times, options: &RunOptions) -> (Option<Run>, Diagnostics) {
+        let refused = times.interval().map(|interval| analysis::refused_results(compiled.system(), interval));
+        if let Some(refused) = refused.filter(Diagnostics::has_errors) {
+            return (None, refused);
+        }
         let (started, mut said) = compiled.start(times.from(), options);
         let mut started = match started {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,
             Err(why) => {
-                said.push(*why);
+                said.push(compiled.used_at().tell(*why));
                 return (None, said);
             }
         };
-        said.extend(started.remarks());
+        said.extend(compiled.used_at().told(started.remarks()));
         let assembly = assembly(compiled, &mut started, times.from());
+        let results = compiled.system().results.outcomes.len();
+        let interval = times.interval().filter(|_| results > 0);
+        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
         }
         let (columns, units) = (compiled.columns().into(), compiled.units().into());
         let (times, cancel) = (times.clone(), options.cancel.clone());
-        (Some(Run { motion, columns, units, assembly, times, cancel, has_ended: false }), said)
+        let run = Run {
+            motion,
+            columns,
+            units,
+            assembly,
+            times,
+            cancel,
+            has_ended: false,
+            has_stopped: false,
+            asked,
+            results,
+            used_at: compiled.used_at().clone(),
+        };
+        (Some(run), said)
     }
 
     /// The names of the numbers of a row.
@@ -151,12 +177,23 @@ impl Run {
         }
         let row = self.motion.next_row();
         self.has_ended = !matches!(row, Some(Ok(_)));
-        row
+        self.has_stopped |= matches!(row, Some(Err(_)));
+        row.map(|row| row.map_err(|why| Box::new(self.used_at.tell(*why))))
+    }
+
+    /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for, and each without a value
+    /// once the motion has stopped. The motion is followed once more for them, the first time that they are asked for.
+    pub fn results(&mut self) -> Option<Answers> {
+        let asked = self.asked.take()?;
+        if self.has_stopped {
+            return Some(Answers { values: vec![None; self.results], notes: Vec::new() });
+        }
+        Some(asked.answer())
     }
 
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
-        self.motion.take_remarks()
+        self.used_at.told(self.motion.take_remarks())
     }
 }
 

@@ -165,6 +165,15 @@ pub enum ItemKind {
         /// The unit behind `in`.
         unit: Option<WrittenUnit>,
     },
+    /// `result NAME = EXPR in UNIT`
+    Result {
+        /// Its name.
+        name: Name,
+        /// Its formula, over reductions.
+        value: Expr,
+        /// The unit behind `in`.
+        unit: Option<WrittenUnit>,
+    },
     /// What does not follow the grammar
     Broken {
         /// The names that it may have declared.

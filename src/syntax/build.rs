@@ -225,6 +225,11 @@ impl Reader<'_> {
                 point: self.next_expr(&mut inner)?,
                 unit: self.printed(inner.next())?,
             },
+            Rule::result => ItemKind::Result {
+                name: self.next_name(&mut inner)?,
+                value: self.next_expr(&mut inner)?,
+                unit: self.printed(inner.next())?,
+            },
             Rule::analysis => ItemKind::Analysis {
                 from: self.next_expr(&mut inner)?,
                 to: self.next_expr(&mut inner)?,
@@ -529,6 +534,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::constraint
             | Rule::measure
             | Rule::trace
+            | Rule::result
             | Rule::printed
             | Rule::unit_product
             | Rule::unit_factor

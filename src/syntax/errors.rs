@@ -339,6 +339,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::measure
         | Rule::trace
         | Rule::part
+        | Rule::result
         | Rule::analysis
         | Rule::kw_param
         | Rule::kw_fn
@@ -351,6 +352,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_measure
         | Rule::kw_trace
         | Rule::kw_part
+        | Rule::kw_result
         | Rule::kw_analysis => "a declaration",
         Rule::point
         | Rule::axis

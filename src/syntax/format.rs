@@ -94,6 +94,7 @@ enum Group {
     Constraints,
     Drivers,
     Measures,
+    Results,
     Analysis,
     Broken,
 }
@@ -111,6 +112,7 @@ impl Group {
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
             ItemKind::Equation { driver: true, .. } => Group::Drivers,
             ItemKind::Measure { .. } | ItemKind::Trace { .. } => Group::Measures,
+            ItemKind::Result { .. } => Group::Results,
             ItemKind::Analysis { .. } => Group::Analysis,
             ItemKind::Broken { .. } => Group::Broken,
         }
@@ -174,6 +176,9 @@ fn item_cells(item: &Item, block: &str) -> Vec<String> {
         }
         ItemKind::Trace { name, point, unit: printed } => {
             cells(["trace", &named(name), &(defined(point) + &in_unit(printed.as_ref()))])
+        }
+        ItemKind::Result { name, value, unit: printed } => {
+            cells(["result", &named(name), &(defined(value) + &in_unit(printed.as_ref()))])
         }
         ItemKind::Analysis { from, to, every } => {
             vec![format!("analysis from {} to {} every {}", expression(from), expression(to), expression(every))]

@@ -198,7 +198,8 @@ impl<'a> Intent<'a> {
         let is_power = |word: &str| word.parse::<u32>().is_ok() || ["/", "*", "^", "-"].contains(&word);
         let is_unit = behind.iter().all(|word| is_power(word) || Unit::named(word).is_some());
         let start = self.before.iter().position(|token| token.text == "=").map(|k| &self.before[k + 1..]);
-        let is_printed = keyword == "trace" || keyword == "measure" && start.is_some_and(holds_quantity);
+        let is_printed =
+            ["trace", "result"].contains(&keyword) || keyword == "measure" && start.is_some_and(holds_quantity);
         if is_printed && is_unit {
             let unit = unit.to_owned() + &behind.concat();
             let words = format!("the unit in which it is printed stands behind `in`: `in {unit}`");

@@ -54,6 +54,7 @@ impl Function {
         match (self.least, self.most) {
             (1, 1) => "one argument".to_owned(),
             (2, 2) => "two arguments".to_owned(),
+            (1, 2) => "one argument or two".to_owned(),
             (least, usize::MAX) => format!("{least} arguments or more"),
             (least, _) => format!("{least} arguments"),
         }
@@ -279,14 +280,15 @@ pub static FUNCTIONS: &[Function] = &[
     Function {
         word: word(
             "der",
-            &["der(e)"],
-            "the time derivative of e, along the motion",
-            "It stands in measures only. It may be nested up to the third derivative, the jerk: `der(der(der(x(P))))`. Divides the \
-             dimension by time.",
+            &["der(e)", "der(e, NAME)"],
+            "the time derivative of e, along the motion; or its derivative by an input or param",
+            "It stands in measures only. By time it may be nested up to the third derivative, the jerk: `der(der(der(x(P))))`. By an \
+             input it is the velocity ratio, `der(rotation(rocker), turn)`, by a param the sensitivity, `der(x(P), crank_length)`; two \
+             of these may be nested, with up to two by time. Divides the dimension by that of what it is taken by.",
             "measure speed = hypot(der(x(arm.tip)), der(y(arm.tip)))",
         ),
         least: 1,
-        most: 1,
+        most: 2,
         group: Group::Derivative,
         gives_way: false,
     },

@@ -111,7 +111,8 @@ mechanism lever {
     "\
 part front: lever()
 part back:  lever(reach = 60 mm, turn = angle(front.arm)) on front.arm at (80 mm, 0, 90 deg) mirrored
-trace tip = back.arm.tip",
+trace tip = back.arm.tip
+analysis from 0 s to 1 s every 0.1 s",
 );
 
 /// A rack and pinion of which no pose says on which side of the axis the pinion lies.
@@ -310,6 +311,19 @@ pub static KEYWORDS: &[Keyword] = &[
     ),
     keyword(
         Role::Opener,
+        "result",
+        &["result NAME = FORMULA", "result NAME = FORMULA in UNIT"],
+        "one number for the whole analysis",
+        "Over `max(e)`, `min(e)`, `argmax(e)`, `argmin(e)`, `mean(e)`, `rms(e)`, `integral(e)`, `first(e)`, `last(e)` and `at(e, T)`, where \
+         e is a formula of a measure, and over params, functions, tables and other results. `mechc run` tells it, and \
+         `--results OUT.json` writes it. It depends on no output step. The word begins a declaration only where one begins, \
+         and is a name elsewhere.",
+        Example::Arm(
+            "result reach = max(x(arm.tip)) - min(x(arm.tip)) in mm\nresult when  = argmax(y(arm.tip))\nanalysis from 0 s to 1 s every 10 ms",
+        ),
+    ),
+    keyword(
+        Role::Opener,
         "input",
         &["input NAME = FORMULA"],
         "a signal that comes from outside, as from an encoder",
@@ -474,8 +488,8 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
     keyword(
         Role::Place,
         "in",
-        &["measure NAME = FORMULA in UNIT", "trace NAME = P in UNIT"],
-        "stands before the unit in which a measure or trace is printed",
+        &["measure NAME = FORMULA in UNIT", "trace NAME = P in UNIT", "result NAME = FORMULA in UNIT"],
+        "stands before the unit in which a measure, trace or result is printed",
         "Units with powers, joined by `*` and `/`: `in mm/s^2`. The columns of the derivatives are in that unit per second. Formulas \
          and emitted code see SI. Behind a number `in` is the inch, unless a unit follows it.",
         Example::Arm("measure height = y(arm.tip) / 2 in mm\nmeasure tilt   = rotation(main) in deg"),

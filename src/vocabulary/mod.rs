@@ -11,6 +11,7 @@ mod keywords;
 mod other_names;
 mod page;
 mod quantities;
+mod reductions;
 mod synonyms;
 mod units;
 
@@ -22,6 +23,7 @@ pub use keywords::{KEYWORDS, Keyword, Role, is_declaration, is_feature};
 pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
+pub use reductions::{REDUCTIONS, ReductionWord};
 pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
 pub use units::{CompoundUnit, UNITS, Unit};
 
@@ -55,6 +57,8 @@ pub enum Category {
     Motion,
     /// Is called with points, bodies or joints, and is a number.
     Quantity,
+    /// Is called with a formula in a result, and is a number for the whole analysis.
+    Reduction,
     /// Joins two bodies.
     Joint,
     /// Follows a number.
@@ -96,10 +100,11 @@ pub fn words() -> impl Iterator<Item = &'static Word> {
     let keywords = KEYWORDS.iter().map(|keyword| &keyword.word);
     let functions = FUNCTIONS.iter().map(|function| &function.word);
     let quantities = QUANTITIES.iter().map(|quantity| &quantity.word);
+    let reductions = REDUCTIONS.iter().map(|reduction| &reduction.word);
     let joints = JOINTS.iter().map(|joint| &joint.word);
     let constants = CONSTANTS.iter().map(|constant| &constant.word);
     let units = UNITS.iter().map(|unit| &unit.word);
-    keywords.chain(joints).chain(quantities).chain(functions).chain(constants).chain(units)
+    keywords.chain(joints).chain(quantities).chain(functions).chain(reductions).chain(constants).chain(units)
 }
 
 /// Whether a name is that of a function or quantity, and so cannot be that of the user's unless it gives way; some quantities give way.

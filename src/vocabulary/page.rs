@@ -3,15 +3,16 @@
 use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
 use super::{
-    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, Role,
-    Synonym, UNITS, Unit, Word, words,
+    Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
+    Role, Synonym, UNITS, Unit, Word, words,
 };
 
 /// Lines of prose are not longer (in characters).
 const WIDTH: usize = 100;
 
 /// The kinds of words that have a page, by their names.
-pub const OVERVIEWS: &[&str] = &["functions", "motions", "quantities", "joints", "units", "keywords", "constants"];
+pub const OVERVIEWS: &[&str] =
+    &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
 /// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
 #[must_use]
@@ -27,6 +28,7 @@ impl Category {
             Category::Function => "a function",
             Category::Motion => "a motion function",
             Category::Quantity => "a kinematic quantity",
+            Category::Reduction => "a reduction, in results",
             Category::Joint => "a joint",
             Category::Unit => "a unit",
             Category::Constant => "a constant",
@@ -38,11 +40,11 @@ impl Word {
     /// The text of a mechanism that shows it.
     #[must_use]
     pub fn example(&self) -> String {
-        let mut before = "";
+        let mut used = "";
         let inside = match self.example {
             Example::Whole(inside) => inside.to_owned(),
-            Example::Using(used, inside) => {
-                before = used;
+            Example::Using(other, inside) => {
+                used = other;
                 inside.to_owned()
             }
             Example::Of(other) => return words().find(|word| word.name == other).map_or(String::new(), Word::example),
@@ -56,7 +58,7 @@ impl Word {
             }
         };
         let lines: Vec<String> = inside.lines().map(|line| format!("    {line}")).collect();
-        format!("{before}mechanism example {{\n{}\n}}\n", lines.join("\n"))
+        format!("mechanism example {{\n{}\n}}\n{used}", lines.join("\n"))
     }
 }
 
@@ -110,7 +112,7 @@ fn details(word: &Word) -> Vec<String> {
     if !word.more.is_empty() {
         details.push(word.more.to_owned());
     }
-    if Function::named(word.name).is_some_and(|function| function.gives_way) {
+    if word.category == Category::Function && Function::named(word.name).is_some_and(|function| function.gives_way) {
         details.push("A function or table of the file that is called so hides it.".to_owned());
     }
     let quantity = QuantityWord::named(word.name).filter(|_| word.category == Category::Quantity);
@@ -162,6 +164,12 @@ fn overview(name: &str) -> Option<String> {
             let intro = "Numbers that depend on where the bodies are. An equation between them is a `constraint`, one with time a \
                          `driver`, and a formula of them a `measure`.";
             list("Kinematic quantities", intro, &quantities)
+        }
+        "reductions" => {
+            let reductions: Vec<&Word> = REDUCTIONS.iter().map(|reduction| &reduction.word).collect();
+            let intro = "What a `result` asks of a formula over the whole analysis; they stand in results alone. But for `max` and `min`, a \
+                         `fn` or `table` of the mechanism that is called so is meant where it is called.";
+            list("Reductions", intro, &reductions)
         }
         "joints" => {
             let joints: Vec<&Word> = JOINTS.iter().map(|joint| &joint.word).collect();

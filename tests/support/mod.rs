@@ -184,6 +184,7 @@ pub fn follow(compiled: &Compiled, times: &Times, options: &RunOptions, outcome:
         }
     }
     outcome.diagnostics.extend(run.take_remarks());
+    outcome.diagnostics.extend(run.results().into_iter().flat_map(|answers| answers.notes));
     outcome.diagnostics.extend(why);
     true
 }
@@ -218,6 +219,13 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     found.sort();
     assert!(!found.is_empty(), "no .{ending} below {folder}");
     found
+}
+
+/// The reference cases that can be emitted: no measure of theirs is differentiated by an input or parameter.
+pub fn emitted_cases() -> Vec<PathBuf> {
+    let mut paths = files("tests/cases", "mech");
+    paths.retain(|path| stem(path) != "sensitivities");
+    paths
 }
 
 /// `name` of `folder/name.mech`.

@@ -128,6 +128,9 @@ fn kind_shape(kind: &ItemKind) -> String {
             format!("trace {} {} {}", name.text, shape(point), unit_shape(unit.as_ref()))
         }
         ItemKind::Part(part) => part_shape(part),
+        ItemKind::Result { name, value, unit } => {
+            format!("result {} {} {}", name.text, shape(value), unit_shape(unit.as_ref()))
+        }
         ItemKind::Broken { .. } => "broken".to_owned(),
         ItemKind::Analysis { from, to, every } => format!("analysis {} {} {}", shape(from), shape(to), shape(every)),
     }

@@ -3,11 +3,13 @@
 mod assembly;
 mod determinacy;
 mod motion;
+mod results;
 mod singularity;
 
 pub(super) use assembly::*;
 pub(super) use determinacy::*;
 pub(super) use motion::*;
+pub(super) use results::*;
 pub(super) use singularity::*;
 
 use crate::diag::{Diagnostic, readable};

@@ -47,6 +47,25 @@ pub fn measure_without_value(system: &ConstraintSystem, index: usize, t: f64, ro
         .datum("rows", rows as usize)
 }
 
+/// The columns of derivatives by an input or parameter have no value in some rows.
+pub fn derivatives_without_value(system: &ConstraintSystem, variable: usize, t: f64, rows: u64) -> Diagnostic {
+    let variables = system.variations.as_ref().map(|variations| &variations.variables);
+    let variable = variables.and_then(|variables| variables.get(variable));
+    let name = variable.map_or("", |variable| &variable.name);
+    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
+    let message = format!("derivatives by `{name}` have no value at {}", at(t));
+    let diagnostic = Diagnostic::new(Code::W0603, message);
+    let label = format!("infinite, undefined, or too near to a singular position {how_many}");
+    let diagnostic = match variable {
+        Some(variable) => diagnostic.at(variable.span, label),
+        None => diagnostic.note(label),
+    };
+    diagnostic
+        .note("their cells are empty there; everything else is as good as ever")
+        .datum("t", t)
+        .datum("rows", rows as usize)
+}
+
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let condition = &system.conditions[index];
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);

@@ -279,7 +279,8 @@ impl<'s> Formulas<'s> {
 
     fn symbol(&mut self, id: ExprId, symbol: Symbol) -> Piece {
         match symbol {
-            Symbol::Time => Piece::new("t", 0.45, Level::Atom),
+            // what is typeset has inputs as formulas of time
+            Symbol::Time | Symbol::Signal { .. } => Piece::new("t", 0.45, Level::Atom),
             Symbol::Param(k) => {
                 let name = param(self.system, k as usize);
                 Piece::new(name.text, name.width, Level::Atom)
@@ -287,6 +288,11 @@ impl<'s> Formulas<'s> {
             Symbol::Coordinate { index, order } => {
                 let name = coordinate(self.system, index as usize, order);
                 Piece::new(name.text, name.width, Level::Atom)
+            }
+            Symbol::Shift(_) => Piece::new("0", 0.5, Level::Atom),
+            Symbol::Varied { .. } => {
+                let name = self.system.symbol_name(symbol);
+                Piece::new(format!(r"\mathtt{{{}}}", name.replace('_', r"\_")), 0.6 * name.len() as f64, Level::Atom)
             }
             Symbol::Named(k) => {
                 let number = self.terms.len() + 1;

@@ -53,6 +53,7 @@ pub fn latex(system: &ConstraintSystem, file: &str) -> String {
     writer.head(file);
     writer.coordinates();
     writer.params();
+    writer.inputs();
     writer.tables();
     writer.equations();
     writer.measures();
@@ -74,6 +75,7 @@ fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu.iter().chain(&system.gamma));
+    roots.extend(system.inputs.iter().map(|input| input.formulas[0]));
     roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
     roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
     roots
@@ -146,6 +148,20 @@ impl Writer<'_> {
             let value = format!("{sign}{}", numeral(of.value.abs()).text);
             let unit = unit(&of.unit);
             self.entry(&param(self.system, k).text, &format!("{value}{unit}"));
+        }
+    }
+
+    /// What inputs are by the text; equations hold these formulas.
+    fn inputs(&mut self) {
+        if !self.system.inputs.is_empty() {
+            self.section("Inputs");
+            self.text +=
+                "What each is as long as nobody says otherwise; the equations hold these formulas in its place.\n\n";
+        }
+        for (k, input) in self.system.inputs.iter().enumerate() {
+            let text = self.formulas.text(input.formulas[0]);
+            self.entry(&symbol(&input.name, Style::Italic, k).text, &text);
+            self.terms();
         }
     }
 

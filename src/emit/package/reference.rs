@@ -4,7 +4,7 @@
 
 #![allow(clippy::approx_constant, clippy::excessive_precision)]
 
-use $library::{COLUMNS, Error, Params, START_TIME, assemble, step};
+use $library::{COLUMNS, Error, $usesParams, START_TIME, assemble$more, step};
 
 #[test]
 fn the_motion_is_that_of_mechc_run() -> Result<(), Error> {
@@ -30,7 +30,7 @@ fn a_time_that_is_no_number_is_an_error() -> Result<(), Error> {
     Ok(())
 }
 
-/// What stands in a row.
+$follow/// What stands in a row.
 #[rustfmt::skip]
 const NAMES: [&str; COLUMNS] = [
 $names];

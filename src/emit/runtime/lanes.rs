@@ -30,6 +30,11 @@ pub mod lanes {
 //# if watches
         watched: [[bool; WATCHES]; LANES],
 //# end
+//# if inputs
+        /// What follows inputs in each lane, and whether they have led there rather than the time.
+        led: [following::Led; LANES],
+        is_led: [bool; LANES],
+//# end
     }
 
     impl States {
@@ -89,6 +94,9 @@ pub mod lanes {
         fn lane(&self, k: usize) -> State {
             let [first, ..] = &self.models;
             let model = self.models.get(k).unwrap_or(first).clone();
+//# if inputs
+            let [first_led, ..] = &self.led;
+//# end
             let mut solutions = [self.now().lane(k), self.other().lane(k)];
             for at in &mut solutions {
                 at.is_settled = true;
@@ -106,6 +114,10 @@ pub mod lanes {
                 is_smooth: self.is_smooth.get(k).copied().unwrap_or(false),
                 steepness: of(&self.steepness, k),
                 step: of(&self.step, k),
+//# if inputs
+                led: self.led.get(k).unwrap_or(first_led).clone(),
+                is_led: self.is_led.get(k).copied().unwrap_or(false),
+//# end
 //# if rims
                 passed: [f64::NEG_INFINITY; RIMS],
 //# end
@@ -119,6 +131,11 @@ pub mod lanes {
             state.is_smooth = false;
             let result = step(t, &mut state);
             self.both().1.set_lane(k, state.at());
+//# if inputs
+            if let (Some(led), Some(is_led)) = (self.led.get_mut(k), self.is_led.get_mut(k)) {
+                (*led, *is_led) = (state.led.clone(), state.is_led);
+            }
+//# end
             if let Some(is_smooth) = self.is_smooth.get_mut(k) {
                 *is_smooth = false;
             }
@@ -159,6 +176,10 @@ pub mod lanes {
             is_smooth: [false; LANES],
             steepness: [one.steepness; LANES],
             step: [LONGEST_STEP; LANES],
+//# if inputs
+            led: core::array::from_fn(|_| one.led.clone()),
+            is_led: [false; LANES],
+//# end
 //# if sides
             sides: [one.at().sides; LANES],
 //# end
@@ -178,6 +199,11 @@ pub mod lanes {
             if let Some(steepness) = states.steepness.get_mut(k) {
                 *steepness = state.steepness;
             }
+//# if inputs
+            if let Some(led) = states.led.get_mut(k) {
+                led.clone_from(&state.led);
+            }
+//# end
 //# if sides
             if let Some(sides) = states.sides.get_mut(k) {
                 *sides = state.at().sides;
@@ -209,6 +235,31 @@ pub mod lanes {
         results
     }
 
+//# if inputs
+    /// Leads every lane to inputs of its own, each with the bits that it would have alone, one after
+    /// the other: lanes that follow share no vector instructions.
+    ///
+    /// What comes back says of each lane whether it has got there, and if not, why; it stays as it was.
+    pub fn follow_each(
+        inputs: &[Inputs; LANES],
+        states: &mut States,
+    ) -> [Result<(), Error>; LANES] {
+        let mut results = [Ok(()); LANES];
+        for (k, (inputs, result)) in inputs.iter().zip(&mut results).enumerate() {
+            let mut state = states.lane(k);
+            *result = follow(inputs, &mut state);
+            states.both().0.set_lane(k, state.at());
+            if let (Some(led), Some(is_led)) = (states.led.get_mut(k), states.is_led.get_mut(k)) {
+                (*led, *is_led) = (state.led, state.is_led);
+            }
+            if let Some(is_smooth) = states.is_smooth.get_mut(k) {
+                *is_smooth = false;
+            }
+        }
+        results
+    }
+
+//# end
     /// Tries one step of every lane; says which ones have got there.
     fn advance(t: &Each, states: &mut States) -> [bool; LANES] {
         let [first, second] = &mut states.solutions;
@@ -276,6 +327,10 @@ pub mod lanes {
             let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP * states.steepness[k];
             let is_solved = is_solved && is_finite[k];
             is_done[k] = is_solved && is_short;
+//# if inputs
+            // time takes up where inputs have led
+            is_done[k] &= !states.is_led[k];
+//# end
         }
 //# if newton
         for k in 0..LANES {

@@ -33,14 +33,14 @@ impl Results for Solution {
 
 impl Solution {
 //# if measures
-    fn lists(&self) -> [&[f64]; 6] {
+    fn lists(&self) -> [&[f64]; $lists] {
         let [values, rates, accelerations] = self.measures.lists();
-        [&self.q, values, &self.qd, rates, &self.qdd, accelerations]
+        [&self.q, values, &self.qd, rates, &self.qdd, accelerations$by_signal]
     }
 //# end
 //# if !measures
-    fn lists(&self) -> [&[f64]; 3] {
-        [&self.q, &self.qd, &self.qdd]
+    fn lists(&self) -> [&[f64]; $lists] {
+        [&self.q, &self.qd, &self.qdd$by_signal]
     }
 //# end
 
@@ -48,17 +48,20 @@ impl Solution {
         let mut rest = column.wrapping_sub(1);
 //# if measures
         let of = &mut self.measures;
-        let lists: [&mut [f64]; 6] = [
+        let lists: [&mut [f64]; $lists] = [
             &mut self.q,
             &mut of.values,
             &mut self.qd,
             &mut of.rates,
             &mut self.qdd,
             &mut of.accelerations,
+//# if led
+            self.by_signal.as_flattened_mut(),
+//# end
         ];
 //# end
 //# if !measures
-        let lists: [&mut [f64]; 3] = [&mut self.q, &mut self.qd, &mut self.qdd];
+        let lists: [&mut [f64]; $lists] = [&mut self.q, &mut self.qd, &mut self.qdd$by_signal_mut];
 //# end
         for list in lists {
             if rest < list.len() {
@@ -83,12 +86,12 @@ struct Segment {
 fn solve(guess: &[f64; TEARS], t: f64, $m: &Model$sides_argument, at: &mut Solution) {
     at.begin(t);
 //# if params
-    let params = m.params.list();
+    let params = $p.list();
 //# end
 //# if !params
     let params = [];
 //# end
-    let inputs: Inputs<'_> = [&params, $known, $given_sides, &[t], &[], &[], &[], &[]];
+    let inputs: Inputs<'_> = [&params, $known, $given_sides, &$time, &[], &[], &[], &[]];
     let mut v = [0.0; REGISTERS];
     for segment in &SEGMENTS {
         let code = SOLVE.get(segment.code[0]..segment.code[1]).unwrap_or(&[]);

@@ -1,3 +1,4 @@
+//# if !led
 /// Steps that one call of [`step`] takes at most.
 pub const MOST_STEPS: usize = 1_000_000;
 
@@ -76,9 +77,16 @@ pub fn assemble(params: &Params) -> Result<State, Error> {
             if next >= 1.0 {
                 let ratio = found.steepest / usual;
                 let steepness = if ratio > 0.0 { ratio } else { 1.0 };
+//# if inputs
+                let led = following::Led::new(&params);
+//# end
                 return Ok(State {
                     steepness,
                     model,
+//# if inputs
+                    led,
+                    is_led: false,
+//# end
                     solutions: [found, at],
                     is_second: false,
                     is_smooth: false,
@@ -116,6 +124,27 @@ fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
     }
 }
 
+//# if inputs
+/// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its
+/// time, on the way that [`follow`] takes.
+fn take_up_time(state: &mut State, most: usize) -> Result<(), Error> {
+    let t = state.at().t;
+    let inputs = Inputs::at(t, &state.model.params);
+    following::follow_within(&inputs, state, most)?;
+    let q = state.at().q;
+    let mut near = Solution::ZERO;
+    (near.t, near.q) = (t, q);
+//# if motion
+    near.sides = sides_of_motion(&q, t, &state.model.params, &sides_at(t, &state.model));
+//# end
+    let [first, second] = &mut state.solutions;
+    let at = if state.is_second { second } else { first };
+    reach(&tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
+    (state.is_led, state.is_smooth) = (false, false);
+    Ok(())
+}
+
+//# end
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
 /// and acceleration are those of the branch that it is on, whichever way `t` lies.
 ///
@@ -143,6 +172,11 @@ pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> 
     if !(t - state.at().t).is_finite() {
         return Err(Error::NotANumber);
     }
+//# if inputs
+    if state.is_led {
+        take_up_time(state, most)?;
+    }
+//# end
     for _ in 0..most {
         let now = state.at().t;
         let left = t - now;
@@ -202,6 +236,7 @@ pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> 
     }
 }
 
+//# end
 /// Why a step is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Fault {
@@ -234,6 +269,7 @@ impl Fault {
     }
 }
 
+//# if !led
 /// One step to a time; says whether a longer one would do as well.
 fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     let [first, second] = &mut state.solutions;
@@ -358,6 +394,7 @@ fn larger(a: f64, b: f64) -> f64 {
     if b <= a { a } else { b }
 }
 
+//# end
 //# if sides
 /// Solves at a time, from a guess; `from` is where the motion comes from.
 fn reach(
@@ -408,9 +445,16 @@ fn reach(
         // once more from a position that is known, and if that does not help either, that
         let h = t - from.t;
         let mut q = from.q;
+//# if led
+        for (q, rate) in q.iter_mut().zip(along(&from.by_signal, &m.way.direction())) {
+            *q += h * rate;
+        }
+//# end
+//# if !led
         for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
             *q += h * (qd + 0.5 * h * qdd);
         }
+//# end
         let pivoted = solve_with_pivoting(&q, t, m$sides)?;
         solve(&tears(&pivoted.q), t, m$sides, at);
         let first = pivoted.first;
@@ -438,6 +482,9 @@ fn reach(
 //# end
 //# if sides
     at.sides = *sides;
+//# end
+//# if led
+    at.signals = m.way.values(t);
 //# end
 //# if measures
     at.measures.leave_out();
@@ -481,6 +528,7 @@ fn rounding(at: &Solution, m: &Model) -> f64 {
     f64::EPSILON * amplified
 }
 
+//# if !led
 /// Why even the shortest step from a state towards a time is refused.
 fn explain(state: &State, fault: Fault, t: f64) -> Error {
     let (at, p) = (state.at(), &state.model.params);
@@ -525,6 +573,7 @@ fn explain(state: &State, fault: Fault, t: f64) -> Error {
     }
 }
 
+//# end
 /// What solves the equations at a time.
 #[derive(Clone, Debug)]
 struct Solution {
@@ -532,6 +581,11 @@ struct Solution {
     q: Q,
     qd: Qd,
     qdd: Qdd,
+//# if led
+    /// The derivatives of the coordinates by each signal, and what these are.
+    by_signal: [Q; SIGNALS],
+    signals: [f64; SIGNALS],
+//# end
 //# if measures
     measures: Measures,
 //# end
@@ -561,6 +615,10 @@ impl Solution {
         q: [0.0; N],
         qd: [0.0; N],
         qdd: [0.0; N],
+//# if led
+        by_signal: [[0.0; N]; SIGNALS],
+        signals: [0.0; SIGNALS],
+//# end
 //# if measures
         measures: Measures::ZERO,
 //# end
@@ -614,7 +672,13 @@ impl Solution {
 
     fn is_finite(&self) -> bool {
         let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
+//# if led
+        let is_finite = all.all(|value| value.is_finite());
+        is_finite && self.by_signal.iter().flatten().all(|value| value.is_finite())
+//# end
+//# if !led
         all.all(|value| value.is_finite())
+//# end
     }
 }
 //# if newton
@@ -703,6 +767,11 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     let (qdd, _) = elimination.solve(&slopes, &$gamma(&at.q, &qd, t, p$sides));
 //# if jerk
     let (qddd, _) = elimination.solve(&slopes, &$jerk(&at.q, &qd, &qdd, t, p$sides));
+//# end
+//# if led
+    for (slopes_by, right) in at.by_signal.iter_mut().zip(&rights_by_signal(&at.q, t, p$sides)) {
+        *slopes_by = elimination.solve(&slopes, right).0.map(|x| x + 0.0);
+    }
 //# end
     (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
 //# if measures

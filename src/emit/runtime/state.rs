@@ -48,6 +48,11 @@ pub struct State {
     steepness: f64,
     /// The step that goes well (s).
     step: f64,
+//# if inputs
+    /// What follows inputs, and whether they have led here rather than the time.
+    led: following::Led,
+    is_led: bool,
+//# end
 //# if rims
     /// By rim: the time at which it was looked at last (s).
     passed: [f64; RIMS],
@@ -67,6 +72,18 @@ impl State {
         self.at().t
     }
 
+//# if inputs
+    /// The inputs: what they were followed to, or what their formulas say at this time.
+    #[must_use]
+    pub fn inputs(&self) -> Inputs {
+        if self.is_led {
+            self.led.inputs()
+        } else {
+            Inputs::at(self.at().t, &self.model.params)
+        }
+    }
+
+//# end
     /// The parameters.
     #[must_use]
     pub fn params(&self) -> &Params {

@@ -1,0 +1,3354 @@
+//! Kinematics of mechanism `four_bar`, written by mechc 0.1.0 from `four_bar.mech`.
+//!
+//! - coordinates `q`: 9 (m, rad), equations `phi = 0`: 9
+//! - `phi_q`: 21 entries that do not vanish, see [`PHI_Q_PATTERN`]
+//! - parameters: 1; those that follow from others are worked out
+//! - the motion: [`assemble`], then [`step`] from time to time
+//! - the motion by its inputs: [`follow`] from [`Inputs`] to others
+//! - needs no other crate
+//! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
+
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
+
+/// The parameters, in SI; those of the file by default.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Params {
+    /// `crank_length` (m), line 3
+    pub crank_length: f64,
+}
+
+impl Default for Params {
+    #[rustfmt::skip]
+    fn default() -> Self {
+        Self {
+            crank_length: 1.0,
+        }
+    }
+}
+
+impl Params {
+    /// Part of the way from these to others.
+    #[rustfmt::skip]
+    fn towards(&self, other: &Self, part: f64) -> Self {
+        Self {
+            crank_length: self.crank_length + part * (other.crank_length - self.crank_length),
+        }
+    }
+
+    #[rustfmt::skip]
+    fn is_finite(&self) -> bool {
+        let all = [
+            self.crank_length,
+        ];
+        all.into_iter().all(f64::is_finite)
+    }
+}
+
+/// Number of coordinates, and of equations.
+pub const N: usize = 9;
+
+/// Number of entries of `phi_q` that do not vanish.
+pub const ENTRIES: usize = 21;
+
+/// Coordinates (m, rad).
+pub type Q = [f64; N];
+
+/// Velocities (m/s, rad/s).
+pub type Qd = [f64; N];
+
+/// Accelerations (m/s^2, rad/s^2).
+pub type Qdd = [f64; N];
+
+/// Where each coordinate stands in `q`.
+pub mod coordinate {
+    /// `crank.x` (m), line 6
+    pub const CRANK_X: usize = 0;
+    /// `crank.y` (m), line 6
+    pub const CRANK_Y: usize = 1;
+    /// `crank.phi` (rad), line 6
+    pub const CRANK_PHI: usize = 2;
+    /// `coupler.x` (m), line 7
+    pub const COUPLER_X: usize = 3;
+    /// `coupler.y` (m), line 7
+    pub const COUPLER_Y: usize = 4;
+    /// `coupler.phi` (rad), line 7
+    pub const COUPLER_PHI: usize = 5;
+    /// `rocker.x` (m), line 8
+    pub const ROCKER_X: usize = 6;
+    /// `rocker.y` (m), line 8
+    pub const ROCKER_Y: usize = 7;
+    /// `rocker.phi` (rad), line 8
+    pub const ROCKER_PHI: usize = 8;
+}
+
+/// Which equation each joint, constraint or driver wrote.
+pub mod row {
+    /// joint `main 1`, line 9
+    pub const MAIN_1: usize = 0;
+    /// joint `main 2`, line 9
+    pub const MAIN_2: usize = 1;
+    /// joint `pin 1`, line 10
+    pub const PIN_1: usize = 2;
+    /// joint `pin 2`, line 10
+    pub const PIN_2: usize = 3;
+    /// joint `knee 1`, line 11
+    pub const KNEE_1: usize = 4;
+    /// joint `knee 2`, line 11
+    pub const KNEE_2: usize = 5;
+    /// joint `pivot 1`, line 12
+    pub const PIVOT_1: usize = 6;
+    /// joint `pivot 2`, line 12
+    pub const PIVOT_2: usize = 7;
+    /// driver `motor`, line 13
+    pub const MOTOR: usize = 8;
+}
+
+/// Row and column of each value that [`phi_q`] gives.
+#[rustfmt::skip]
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+    (0, 0),
+    (1, 1),
+    (2, 0),
+    (2, 2),
+    (2, 3),
+    (3, 1),
+    (3, 2),
+    (3, 4),
+    (4, 3),
+    (4, 5),
+    (4, 6),
+    (4, 8),
+    (5, 4),
+    (5, 5),
+    (5, 7),
+    (5, 8),
+    (6, 6),
+    (6, 8),
+    (7, 7),
+    (7, 8),
+    (8, 2),
+];
+
+/// The bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// `crank`, line 6
+    Crank,
+    /// `coupler`, line 7
+    Coupler,
+    /// `rocker`, line 8
+    Rocker,
+}
+
+/// Where a body is, or how its place changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (m)
+    pub x: f64,
+    /// (m)
+    pub y: f64,
+    /// (rad)
+    pub phi: f64,
+}
+
+impl Pose {
+    /// That of a body, out of the coordinates or their derivatives.
+    #[rustfmt::skip]
+    #[must_use]
+    pub fn of(q: &[f64; N], body: Body) -> Self {
+        match body {
+            Body::Crank => Self { x: q[0], y: q[1], phi: q[2] },
+            Body::Coupler => Self { x: q[3], y: q[4], phi: q[5] },
+            Body::Rocker => Self { x: q[6], y: q[7], phi: q[8] },
+        }
+    }
+}
+
+/// Where each measure stands among the values, all in SI.
+pub mod measure {
+    /// `tip`, line 14
+    pub const TIP: usize = 0;
+    /// `push`, line 15
+    pub const PUSH: usize = 1;
+    /// `asked`, line 16
+    pub const ASKED: usize = 2;
+}
+
+/// How many they are.
+pub const MEASURES: usize = 3;
+
+/// Where the first time derivative of each measure that has one stands among the rates.
+pub mod measure_rate {
+    /// `tip`, line 14
+    pub const TIP: usize = 0;
+    /// `push`, line 15
+    pub const PUSH: usize = 1;
+    /// `asked`, line 16
+    pub const ASKED: usize = 2;
+}
+
+/// How many they are.
+pub const RATES: usize = 3;
+
+/// Where the second time derivative of each measure that has one stands among the accelerations.
+pub mod measure_acceleration {
+    /// `tip`, line 14
+    pub const TIP: usize = 0;
+    /// `asked`, line 16
+    pub const ASKED: usize = 1;
+}
+
+/// How many they are.
+pub const ACCELERATIONS: usize = 2;
+
+/// The measures with their time derivatives; `NAN` where one has no value.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Measures {
+    /// By the indices in [`measure`].
+    pub values: [f64; MEASURES],
+    /// First time derivatives, by the indices in [`measure_rate`].
+    pub rates: [f64; RATES],
+    /// Second time derivatives, by the indices in [`measure_acceleration`].
+    pub accelerations: [f64; ACCELERATIONS],
+}
+
+/// The residual of the equations (m, m^2 or rad).
+///
+/// 32 operations.
+pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let coupler_phi = q[5];
+    let coupler_x = q[3];
+    let coupler_y = q[4];
+    let crank_phi = q[2];
+    let crank_x = q[0];
+    let crank_y = q[1];
+    let crank_length = p.crank_length;
+    let rocker_phi = q[8];
+    let rocker_x = q[6];
+    let rocker_y = q[7];
+
+    let v1 = 2.0 * t;
+    let (s2, _) = sin_cos(v1);
+    let v3 = 1.5 * s2;
+    let v4 = 0.5235987755982988 + v3;
+    let (s5, c5) = sin_cos(coupler_phi);
+    let v6 = 3.5 * c5;
+    let v7 = 3.5 * s5;
+    let v8 = v6 + coupler_x;
+    let v9 = v7 + coupler_y;
+    let (s10, c10) = sin_cos(crank_phi);
+    let v11 = -crank_x;
+    let v12 = -crank_y;
+    let v13 = c10 * crank_length;
+    let v14 = s10 * crank_length;
+    let v15 = crank_x + v13;
+    let v16 = crank_y + v14;
+    let v17 = v15 - coupler_x;
+    let v18 = v16 - coupler_y;
+    let (s19, c19) = sin_cos(rocker_phi);
+    let v20 = 1.5 * c19;
+    let v21 = 1.5 * s19;
+    let v22 = v20 + rocker_x;
+    let v23 = v21 + rocker_y;
+    let v24 = v8 - v22;
+    let v25 = v9 - v23;
+    let v26 = -1.5 * c19;
+    let v27 = -1.5 * s19;
+    let v28 = rocker_x + v26;
+    let v29 = rocker_y + v27;
+    let v30 = 4.0 - v28;
+    let v31 = -v29;
+    let v32 = crank_phi - v4;
+
+    out[0] = v11;
+    out[1] = v12;
+    out[2] = v17;
+    out[3] = v18;
+    out[4] = v24;
+    out[5] = v25;
+    out[6] = v30;
+    out[7] = v31;
+    out[8] = v32;
+    out
+}
+
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
+///
+/// 12 operations.
+pub fn phi_q(q: &[f64; N], _t: f64, p: &Params) -> [f64; ENTRIES] {
+    let mut out = [0.0; ENTRIES];
+    let coupler_phi = q[5];
+    let crank_phi = q[2];
+    let crank_length = p.crank_length;
+    let rocker_phi = q[8];
+
+    let (s1, c1) = sin_cos(coupler_phi);
+    let v2 = 3.5 * c1;
+    let (s3, c3) = sin_cos(crank_phi);
+    let v4 = c3 * crank_length;
+    let v5 = s3 * crank_length;
+    let (s6, c6) = sin_cos(rocker_phi);
+    let v7 = 1.5 * c6;
+    let v8 = 1.5 * s6;
+    let v9 = -1.5 * c6;
+    let v10 = -1.5 * s6;
+    let v11 = -v5;
+    let v12 = -3.5 * s1;
+
+    out[0] = -1.0;
+    out[1] = -1.0;
+    out[2] = 1.0;
+    out[3] = v11;
+    out[4] = -1.0;
+    out[5] = 1.0;
+    out[6] = v4;
+    out[7] = -1.0;
+    out[8] = 1.0;
+    out[9] = v12;
+    out[10] = -1.0;
+    out[11] = v8;
+    out[12] = 1.0;
+    out[13] = v2;
+    out[14] = -1.0;
+    out[15] = v9;
+    out[16] = -1.0;
+    out[17] = v10;
+    out[18] = -1.0;
+    out[19] = v7;
+    out[20] = 1.0;
+    out
+}
+
+/// The partial derivative of `phi` by time (the equation's unit per s).
+///
+/// 3 operations.
+pub fn phi_t(_q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let v1 = 2.0 * t;
+    let (_, c2) = sin_cos(v1);
+    let v3 = 3.0 * c2;
+
+    out[8] = -v3;
+    out
+}
+
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
+///
+/// 3 operations.
+pub fn nu(_q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let v1 = 2.0 * t;
+    let (_, c2) = sin_cos(v1);
+    let v3 = 3.0 * c2;
+
+    out[8] = v3;
+    out
+}
+
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
+///
+/// 28 operations.
+pub fn gamma(q: &[f64; N], qd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let coupler_phi = q[5];
+    let crank_phi = q[2];
+    let rocker_phi = q[8];
+    let coupler_phi_d = qd[5];
+    let crank_phi_d = qd[2];
+    let rocker_phi_d = qd[8];
+    let crank_length = p.crank_length;
+
+    let v1 = 2.0 * t;
+    let (s2, _) = sin_cos(v1);
+    let (s3, c3) = sin_cos(coupler_phi);
+    let (s4, c4) = sin_cos(crank_phi);
+    let (s5, c5) = sin_cos(rocker_phi);
+    let v6 = s3 * coupler_phi_d;
+    let v7 = c3 * coupler_phi_d;
+    let v8 = coupler_phi_d * v7;
+    let v9 = coupler_phi_d * v6;
+    let v10 = -6.0 * s2;
+    let v11 = s4 * crank_phi_d;
+    let v12 = c4 * crank_phi_d;
+    let v13 = s5 * rocker_phi_d;
+    let v14 = c5 * rocker_phi_d;
+    let v15 = -3.5 * v8;
+    let v16 = -3.5 * v9;
+    let v17 = crank_phi_d * v12;
+    let v18 = crank_phi_d * v11;
+    let v19 = crank_length * v17;
+    let v20 = crank_length * v18;
+    let v21 = rocker_phi_d * v14;
+    let v22 = rocker_phi_d * v13;
+    let v23 = 1.5 * v21;
+    let v24 = v15 + v23;
+    let v25 = 1.5 * v22;
+    let v26 = v16 + v25;
+    let v27 = -v24;
+    let v28 = -v26;
+
+    out[2] = v19;
+    out[3] = v20;
+    out[4] = v27;
+    out[5] = v28;
+    out[6] = v23;
+    out[7] = v25;
+    out[8] = v10;
+    out
+}
+
+/// Right side of the jerk equation `phi_q qddd = jerk`.
+///
+/// 64 operations.
+pub fn jerk(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], t: f64, p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let coupler_phi = q[5];
+    let crank_phi = q[2];
+    let rocker_phi = q[8];
+    let coupler_phi_d = qd[5];
+    let crank_phi_d = qd[2];
+    let rocker_phi_d = qd[8];
+    let coupler_phi_dd = qdd[5];
+    let crank_phi_dd = qdd[2];
+    let rocker_phi_dd = qdd[8];
+    let crank_length = p.crank_length;
+
+    let v1 = 2.0 * t;
+    let (_, c2) = sin_cos(v1);
+    let (s3, c3) = sin_cos(coupler_phi);
+    let (s4, c4) = sin_cos(crank_phi);
+    let (s5, c5) = sin_cos(rocker_phi);
+    let v6 = s3 * coupler_phi_d;
+    let v7 = c3 * coupler_phi_d;
+    let v8 = coupler_phi_d * v7;
+    let v9 = coupler_phi_d * v6;
+    let v10 = s4 * crank_phi_d;
+    let v11 = c4 * crank_phi_d;
+    let v12 = s5 * rocker_phi_d;
+    let v13 = c5 * rocker_phi_d;
+    let v14 = crank_phi_d * v11;
+    let v15 = crank_phi_d * v10;
+    let v16 = rocker_phi_d * v13;
+    let v17 = rocker_phi_d * v12;
+    let v18 = s3 * coupler_phi_dd;
+    let v19 = v8 + v18;
+    let v20 = c3 * coupler_phi_dd;
+    let v21 = v20 - v9;
+    let v22 = v7 * coupler_phi_dd;
+    let v23 = coupler_phi_d * v21;
+    let v24 = v22 + v23;
+    let v25 = s4 * crank_phi_dd;
+    let v26 = v14 + v25;
+    let v27 = c4 * crank_phi_dd;
+    let v28 = v27 - v15;
+    let v29 = s5 * rocker_phi_dd;
+    let v30 = v16 + v29;
+    let v31 = c5 * rocker_phi_dd;
+    let v32 = v31 - v17;
+    let v33 = v22 + v24;
+    let v34 = -3.5 * v33;
+    let v35 = v6 * coupler_phi_dd;
+    let v36 = coupler_phi_d * v19;
+    let v37 = v35 + v36;
+    let v38 = v35 + v37;
+    let v39 = v11 * crank_phi_dd;
+    let v40 = crank_phi_d * v28;
+    let v41 = v39 + v40;
+    let v42 = v10 * crank_phi_dd;
+    let v43 = crank_phi_d * v26;
+    let v44 = v42 + v43;
+    let v45 = v13 * rocker_phi_dd;
+    let v46 = rocker_phi_d * v32;
+    let v47 = v45 + v46;
+    let v48 = v12 * rocker_phi_dd;
+    let v49 = rocker_phi_d * v30;
+    let v50 = v48 + v49;
+    let v51 = -3.5 * v38;
+    let v52 = v39 + v41;
+    let v53 = v42 + v44;
+    let v54 = crank_length * v52;
+    let v55 = crank_length * v53;
+    let v56 = v45 + v47;
+    let v57 = v48 + v50;
+    let v58 = 1.5 * v56;
+    let v59 = v34 + v58;
+    let v60 = 1.5 * v57;
+    let v61 = v51 + v60;
+    let v62 = -v59;
+    let v63 = -v61;
+    let v64 = -12.0 * c2;
+
+    out[2] = v54;
+    out[3] = v55;
+    out[4] = v62;
+    out[5] = v63;
+    out[6] = v58;
+    out[7] = v60;
+    out[8] = v64;
+    out
+}
+
+/// The Jacobian as a full matrix, row by row.
+pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
+    let mut full = [[0.0; N]; N];
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
+    }
+    full
+}
+
+/// The measures with their time derivatives, from the coordinates, their velocities and
+/// accelerations, and their third derivatives.
+pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd, qddd: &[f64; N], t: f64, p: &Params) -> Measures {
+    let mut all = all_measures(q, qd, qdd, qddd, t, p).into_iter();
+    let mut next = || all.next().unwrap_or(f64::NAN) + 0.0;
+    Measures {
+        values: core::array::from_fn(|_| next()),
+        rates: core::array::from_fn(|_| next()),
+        accelerations: core::array::from_fn(|_| next()),
+    }
+}
+
+/// The measures, their rates and their accelerations, one behind the other.
+///
+/// 29 operations.
+fn all_measures(
+    q: &[f64; N],
+    qd: &[f64; N],
+    qdd: &[f64; N],
+    qddd: &[f64; N],
+    t: f64,
+    _p: &Params,
+) -> [f64; 8] {
+    let mut out = [0.0; 8];
+    let coupler_phi = q[5];
+    let coupler_x = q[3];
+    let coupler_phi_d = qd[5];
+    let coupler_phi_dd = qdd[5];
+    let coupler_x_dd = qdd[3];
+    let coupler_x_d = qd[3];
+    let qddd5 = qddd[5];
+    let qddd3 = qddd[3];
+
+    let v1 = 2.0 * t;
+    let (s2, c2) = sin_cos(v1);
+    let v3 = 1.5 * s2;
+    let v4 = 0.5235987755982988 + v3;
+    let (s5, c5) = sin_cos(coupler_phi);
+    let v6 = 3.5 * c5;
+    let v7 = v6 + coupler_x;
+    let v8 = 3.0 * c2;
+    let v9 = s5 * coupler_phi_d;
+    let v10 = c5 * coupler_phi_d;
+    let v11 = coupler_phi_d * v10;
+    let v12 = coupler_phi_d * v9;
+    let v13 = -6.0 * s2;
+    let v14 = s5 * coupler_phi_dd;
+    let v15 = v11 + v14;
+    let v16 = c5 * coupler_phi_dd;
+    let v17 = v16 - v12;
+    let v18 = v10 * coupler_phi_dd;
+    let v19 = coupler_phi_d * v17;
+    let v20 = v18 + v19;
+    let v21 = -3.5 * v15;
+    let v22 = v21 + coupler_x_dd;
+    let v23 = -3.5 * v9;
+    let v24 = v23 + coupler_x_d;
+    let v25 = s5 * qddd5;
+    let v26 = v18 + v25;
+    let v27 = v20 + v26;
+    let v28 = -3.5 * v27;
+    let v29 = v28 + qddd3;
+
+    out[0] = v7;
+    out[1] = v22;
+    out[2] = v4;
+    out[3] = v24;
+    out[4] = v29;
+    out[5] = v8;
+    out[6] = v22;
+    out[7] = v13;
+    out
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 36;
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// The mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State {
+    model: Model,
+    /// The solution of now and the one before, or the next one in the making.
+    solutions: [Solution; 2],
+    /// Whether that of now is the second.
+    is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    steepness: f64,
+    /// The step that goes well (s).
+    step: f64,
+    /// What follows inputs, and whether they have led here rather than the time.
+    led: following::Led,
+    is_led: bool,
+}
+
+impl State {
+    /// The solution of now.
+    fn at(&self) -> &Solution {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The inputs: what they were followed to, or what their formulas say at this time.
+    #[must_use]
+    pub fn inputs(&self) -> Inputs {
+        if self.is_led {
+            self.led.inputs()
+        } else {
+            Inputs::at(self.at().t, &self.model.params)
+        }
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &Params {
+        &self.model.params
+    }
+
+    /// The coordinates (m, rad), by the indices in [`coordinate`].
+    #[must_use]
+    pub fn q(&self) -> &Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &Qd {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &Qdd {
+        &self.at().qdd
+    }
+
+    /// Where a body is (m, m, rad).
+    #[must_use]
+    pub fn pose(&self, body: Body) -> Pose {
+        Pose::of(&self.at().q, body)
+    }
+
+    /// How fast a body moves (m/s, m/s, rad/s).
+    #[must_use]
+    pub fn velocity(&self, body: Body) -> Pose {
+        Pose::of(&self.at().qd, body)
+    }
+
+    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
+    #[must_use]
+    pub fn acceleration(&self, body: Body) -> Pose {
+        Pose::of(&self.at().qdd, body)
+    }
+
+    /// The measures, by the indices in [`measure`], and their first and second time derivatives; `NAN` where
+    /// one has no value, and no step fails for that.
+    #[must_use]
+    pub fn measures(&self) -> &Measures {
+        &self.at().measures
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
+    /// then their first and their second derivatives.
+    #[must_use]
+    pub fn row(&self) -> [f64; COLUMNS] {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.iter().chain(values);
+        let first = at.qd.iter().chain(rates);
+        let second = at.qdd.iter().chain(accelerations);
+        let all = zeroth.chain(first).chain(second);
+        let mut row = [at.t; COLUMNS];
+        for (cell, value) in row.iter_mut().skip(1).zip(all) {
+            *cell = *value;
+        }
+        row
+    }
+}
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 3.0;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.09375;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 3e-12;
+
+/// Iterations of Newton at most.
+const ITERATIONS: usize = 6;
+
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+const LARGEST_CORRECTION: f64 = 0.05;
+
+/// A correction of just half a cell of the grid, to rounding, stays in it.
+const HALF_A_CELL: f64 = 0.500001;
+
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 2;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+#[rustfmt::skip]
+static TEAR_SCALES: [f64; TEARS] = [
+    1.0, 1.0,
+];
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    1.0, 1.0, 1.0, 3.5,
+    3.5, 1.0, 3.0, 3.0,
+    1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 0.5235987755982988, 0.8660254037844387,
+    0.49999999999999994, 0.7695009577260922, 3.6899641688409766, 1.4676095473243331,
+    1.7789875846735397,
+];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 1;
+
+/// Whether they are negative where all pivots are positive.
+#[rustfmt::skip]
+static TURNED: [bool; TURNS] = [
+    false,
+];
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+static CELLS: [f64; N] = [
+    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
+    1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
+    7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 6;
+
+/// The blocks whose determinants change.
+#[rustfmt::skip]
+static TURNING: [usize; TURNS] = [
+    5,
+];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = blocks::work_of(4);
+
+/// What may be left of an equation, beside the norm of its row.
+const TOLERANCE: f64 = 1e-12;
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 4,
+    ],
+    rows: &[
+        0, 1, 8, 2,
+        3, 4, 5, 6,
+        7,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 12, 16, 18,
+        20, 21,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        3, 5, 6, 8,
+        4, 5, 7, 8,
+        6, 8, 7, 8,
+        2,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    units: &[
+        1.0, 1.0, 1.0, 2.0,
+        2.0, 1.0, 2.0, 2.0,
+        1.0,
+    ],
+};
+
+impl Measures {
+    const ZERO: Self = Self {
+        values: [0.0; MEASURES],
+        rates: [0.0; RATES],
+        accelerations: [0.0; ACCELERATIONS],
+    };
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.values, &self.rates, &self.accelerations]
+    }
+
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
+        for value in self.values.iter_mut().chain(rest) {
+            if !value.is_finite() {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+struct Model {
+    params: Params,
+}
+
+impl Model {
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
+}
+
+/// Steps that one call of [`step`] takes at most.
+pub const MOST_STEPS: usize = 1_000_000;
+
+/// Trials on the way from the file's parameters to others at most, and the smallest part of it.
+const MOST_PARTS: usize = 10_000;
+const SMALLEST_PART: f64 = 1e-6;
+
+/// The largest motion of a step, beside the size of a body or 1 rad.
+const LARGEST_MOTION: f64 = 0.5;
+
+/// The step before tells of one that is so many times as long at most.
+const FARTHEST_BEND: f64 = 4.0;
+
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+const LARGEST_GAP: f64 = 1e-3;
+
+/// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the
+/// second it is too near to a singular one.
+const STEEP: f64 = 1e3;
+const STEEPEST: f64 = 1e6;
+
+/// Rounding may make so much of velocities and accelerations that are given out.
+const ACCURACY: f64 = 1e-9;
+
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+const SINGULAR: f64 = 1e2;
+
+/// A dead point is no further off than this part of the span.
+const NEAR_FOLD: f64 = 1e-5;
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = Params::default();
+    let mut at = Solution::ZERO;
+    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
+    let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 {
+            file.towards(params, next)
+        } else {
+            *params
+        };
+        let model = Model::new(&params);
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
+                let led = following::Led::new(&params);
+                return Ok(State {
+                    steepness,
+                    model,
+                    led,
+                    is_led: false,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: LONGEST_STEP,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
+    let mut near = Solution::ZERO;
+    (near.t, near.q) = (START_TIME, *q);
+    reach(&tears(q), &near, START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION {
+        Ok(())
+    } else {
+        Err(Fault::TooFar)
+    }
+}
+
+/// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its
+/// time, on the way that [`follow`] takes.
+fn take_up_time(state: &mut State, most: usize) -> Result<(), Error> {
+    let t = state.at().t;
+    let inputs = Inputs::at(t, &state.model.params);
+    following::follow_within(&inputs, state, most)?;
+    let q = state.at().q;
+    let mut near = Solution::ZERO;
+    (near.t, near.q) = (t, q);
+    let [first, second] = &mut state.solutions;
+    let at = if state.is_second { second } else { first };
+    reach(&tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
+    (state.is_led, state.is_smooth) = (false, false);
+    Ok(())
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led {
+        take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let next = if state.step >= 0.999 * left.abs() {
+            t
+        } else {
+            now + state.step.copysign(left)
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm {
+                    state.step.max(2.0 * size)
+                } else {
+                    state.step.min(size)
+                };
+                state.step = longest.min(LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < SMALLEST_STEP || now + state.step == now {
+                    state.step = SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t {
+        Ok(())
+    } else {
+        Err(Error::TooFar)
+    }
+}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            _ => Error::Divergence,
+        }
+    }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second {
+        (second, first)
+    } else {
+        (first, second)
+    };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
+    let mut way = if state.is_smooth {
+        bend(from, at, h)
+    } else {
+        [0.0; TEARS]
+    };
+    let mut guess = x;
+    let rates = v.iter().zip(&a);
+    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    // what both ends' velocities and accelerations make of the way between (Hermite)
+    let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
+    let mut gaps = [0.0; TEARS];
+    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    let gap = largest(&gaps, &TEAR_SCALES);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    let steepest = at.steepest / state.steepness;
+    if at.is_negative != from.is_negative || steepest > STEEPEST {
+        return Err(Fault::Singular);
+    }
+    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
+        return Err(Fault::Singular);
+    }
+    state.is_smooth = true;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value,
+/// velocity and acceleration at two times make a polynomial of degree 5 (Hermite).
+fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return [0.0; TEARS];
+    }
+    let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
+    let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
+    let mut bend = [0.0; TEARS];
+    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// The largest value beside its scale; what is not a number wins.
+fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
+    let pairs = values.iter().zip(scales);
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; what is not a number wins.
+fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+fn reach(
+    guess: &[f64; TEARS],
+    from: &Solution,
+    t: f64,
+    m: &Model,
+    at: &mut Solution,
+) -> Result<(), Fault> {
+    solve(guess, t, m, at);
+    if !at.is_settled || !at.holds {
+        // once more from a position that is known, and if that does not help either, that
+        let h = t - from.t;
+        let mut q = from.q;
+        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
+            *q += h * (qd + 0.5 * h * qdd);
+        }
+        let pivoted = solve_with_pivoting(&q, t, m)?;
+        solve(&tears(&pivoted.q), t, m, at);
+        let first = pivoted.first;
+        if !at.is_settled || !at.holds {
+            *at = pivoted;
+        }
+        at.first = first;
+    }
+    at.measures.leave_out();
+    if at.is_finite() {
+        Ok(())
+    } else {
+        Err(Fault::NotANumber)
+    }
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
+/// amplified by as much as the position is near to a singular one.
+fn rounding(at: &Solution, m: &Model) -> f64 {
+    let p = &m.params;
+    let slopes = phi_q(&at.q, at.t, p);
+    let mut norms = [f64::MIN_POSITIVE; N];
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
+        if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = nu(&at.q, at.t, p);
+    let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
+    let gamma = gamma(&at.q, &at.qd, at.t, p);
+    let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Why even the shortest step from a state towards a time is refused.
+fn explain(state: &State, fault: Fault, t: f64) -> Error {
+    let (at, p) = (state.at(), &state.model.params);
+    let values = phi(&at.q, t, p);
+    if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
+        return Error::NotANumber;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return Error::Divergence;
+    }
+    // a motion that comes to a dead point after a time u is as the root of u, whose slope over
+    // twice its curvature is u
+    let rates = at.qd.iter().zip(&at.qdd).zip(&SCALES);
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed {
+            (v.abs() / scale, 0.5 * v / a)
+        } else {
+            (speed, left)
+        }
+    };
+    let (_, left) = rates.fold((0.0, 0.0), sooner);
+    let left = if t < at.t { -left } else { left };
+    if left > 0.0 && left < NEAR_FOLD * SPAN {
+        Error::LockUp
+    } else {
+        Error::Bifurcation
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+struct Solution {
+    t: f64,
+    q: Q,
+    qd: Qd,
+    qdd: Qdd,
+    measures: Measures,
+    /// By block of equations: whether its determinant is negative.
+    is_negative: [bool; TURNS],
+    /// Whether Newton has arrived.
+    is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    holds: bool,
+    /// Newton's largest first correction, scaled.
+    first: f64,
+    /// One over the smallest pivot, scaled.
+    steepest: f64,
+}
+
+impl Solution {
+    const ZERO: Self = Self {
+        t: 0.0,
+        q: [0.0; N],
+        qd: [0.0; N],
+        qdd: [0.0; N],
+        measures: Measures::ZERO,
+        is_negative: [false; TURNS],
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Makes ready for being solved for.
+    fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = TURNED;
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Takes over how an iteration went.
+    fn note(&mut self, newton: &Newton) {
+        self.is_settled &= newton.has_settled;
+        self.first = larger(self.first, newton.first);
+    }
+
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+        if let Some(is_negative) = self.is_negative.get_mut(turn) {
+            *is_negative ^= inverse < 0.0;
+        }
+        self.steepest = larger(self.steepest, inverse.abs() * weight);
+    }
+
+    /// Why it cannot be used.
+    fn fault(&self) -> Fault {
+        if self.is_finite() {
+            Fault::TooFar
+        } else {
+            Fault::NotANumber
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
+        all.all(|value| value.is_finite())
+    }
+}
+
+/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
+/// in where it ends.
+struct Newton {
+    is_first: bool,
+    is_open: bool,
+    is_lost: bool,
+    has_settled: bool,
+    first: f64,
+}
+
+impl Newton {
+    fn new() -> Self {
+        Self {
+            is_first: true,
+            is_open: false,
+            is_lost: false,
+            has_settled: false,
+            first: 0.0,
+        }
+    }
+
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+        let size = delta.abs();
+        if self.is_first {
+            self.first = larger(self.first, size / scale);
+        }
+        self.is_open |= size > HALF_A_CELL * cell;
+        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+        x + delta
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    fn is_done(&mut self) -> bool {
+        self.has_settled = !self.is_open && !self.is_lost;
+        let is_done = self.has_settled || self.is_lost;
+        (self.is_first, self.is_open) = (false, false);
+        is_done
+    }
+}
+
+/// The grid point next to a value.
+fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+
+/// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
+/// digits. All coordinates lie on a grid while Newton goes on.
+fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
+    let p = &m.params;
+    let mut at = Solution::ZERO;
+    (at.t, at.q) = (t, *q);
+    let mut elimination = Elimination::new();
+    let mut is_settled = false;
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.iter_mut().zip(&CELLS) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = phi_q(&at.q, t, p);
+        let right = phi(&at.q, t, p).map(|value| -value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, &SCALES);
+        }
+        is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
+        at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
+        if is_settled {
+            break;
+        }
+    }
+    if !is_settled {
+        return Err(at.fault());
+    }
+    let slopes = phi_q(&at.q, t, p);
+    let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
+    let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
+    let (qddd, _) = elimination.solve(&slopes, &jerk(&at.q, &qd, &qdd, t, p));
+    (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
+    at.measures = measures(&at.q, &qd, &qdd, &qddd, t, p);
+    let values = phi(&at.q, t, p);
+    at.holds = is_next_to_nothing(&values, &slopes, &at.q);
+    at.q = at.q.map(|x| x + 0.0);
+    at.steepest = 1.0 / pivot;
+    let negative = &elimination.is_negative;
+    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// The work of solving linear equations in blocks.
+struct Elimination {
+    work: [f64; WORK],
+    is_negative: [bool; BLOCKS],
+}
+
+impl Elimination {
+    fn new() -> Self {
+        Self {
+            work: [0.0; WORK],
+            is_negative: [false; BLOCKS],
+        }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
+        let mut x = [0.0; N];
+        let (work, is_negative) = (&mut self.work, &mut self.is_negative);
+        let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
+        (x, pivot)
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of
+/// the coordinates.
+fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
+    let mut bounds = [0.0; N];
+    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
+        let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.iter().zip(&bounds);
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+
+/// Of all coordinates those that Newton solves for.
+#[rustfmt::skip]
+fn tears(q: &[f64; N]) -> [f64; TEARS] {
+    [
+        q[8], q[5],
+    ]
+}
+
+/// Position, velocity and acceleration at a time. Newton begins with a guess of `rocker.phi`,
+/// `coupler.phi`; all else follows.
+///
+/// 162 operations.
+fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
+    at.begin(t);
+    let v1 = 2.0 * t;
+    let (s2, c2) = sin_cos(v1);
+    let crank_phi = 1.5 * s2 + 0.5235987755982988;
+    at.q[2] = crank_phi + 0.0;
+    let crank_phi_d = 3.0 * c2;
+    at.qd[2] = crank_phi_d + 0.0;
+    let crank_phi_dd = -6.0 * s2;
+    at.qdd[2] = crank_phi_dd + 0.0;
+    let v6 = -12.0 * c2;
+    let v7 = m.params.crank_length;
+    let (s8, c8) = sin_cos(crank_phi);
+    let coupler_x = c8 * v7;
+    at.q[3] = coupler_x + 0.0;
+    let coupler_y = s8 * v7;
+    let v11 = coupler_y * crank_phi_d;
+    let coupler_x_d = -v11;
+    at.qd[3] = coupler_x_d + 0.0;
+    let v13 = c8 * crank_phi_d;
+    let v14 = crank_phi_d * v13;
+    let v15 = v7 * v14;
+    let v16 = coupler_y * crank_phi_dd + v15;
+    let coupler_x_dd = -v16;
+    at.qdd[3] = coupler_x_dd + 0.0;
+    let v18 = s8 * crank_phi_d;
+    let v19 = crank_phi_d * v18;
+    let v20 = c8 * crank_phi_dd - v19;
+    let v21 = v13 * crank_phi_dd;
+    let v22 = crank_phi_d * v20 + v21;
+    let v23 = v21 + v22;
+    let v24 = v7 * v23;
+    let v25 = coupler_y * v6 + v24;
+    at.q[4] = coupler_y + 0.0;
+    let coupler_y_d = coupler_x * crank_phi_d;
+    at.qd[4] = coupler_y_d + 0.0;
+    let v27 = v7 * v19;
+    let v28 = v27 - coupler_x * crank_phi_dd;
+    let coupler_y_dd = -v28;
+    at.qdd[4] = coupler_y_dd + 0.0;
+    let v30 = s8 * crank_phi_dd + v14;
+    let v31 = v18 * crank_phi_dd;
+    let v32 = crank_phi_d * v30 + v31;
+    let v33 = v31 + v32;
+    let v34 = v7 * v33;
+    let v35 = v34 - coupler_x * v6;
+    let mut x1 = guess[0];
+    let mut x2 = guess[1];
+    let mut s36 = 0.0;
+    let mut c36 = 0.0;
+    let mut s40 = 0.0;
+    let mut c40 = 0.0;
+    let mut v58 = 0.0;
+    let mut v61 = 0.0;
+    let mut newton = Newton::new();
+    for _ in 0..ITERATIONS {
+        x1 = on_grid(x1, 7.450580596923828e-9);
+        x2 = on_grid(x2, 7.450580596923828e-9);
+        (s36, c36) = sin_cos(x1);
+        let v37 = -1.5 * c36;
+        let v38 = 4.0 - v37;
+        let v39 = -1.5 * s36;
+        (s40, c40) = sin_cos(x2);
+        let v41 = -3.5 * s40;
+        let v42 = 1.5 * s36;
+        let v43 = 3.5 * c40;
+        let v44 = 1.5 * c36;
+        let v45 = v37 - v44;
+        let v46 = v42 - v39;
+        let v47 = v46 * v43;
+        let v48 = v47 - v41 * v45;
+        let v49 = 1.0 / v48;
+        let v50 = v44 + v38;
+        let v51 = v43 + coupler_x;
+        let v52 = v51 - v50;
+        let v53 = v42 - v39;
+        let v54 = 3.5 * s40 + coupler_y;
+        let v55 = v54 - v53;
+        let v56 = v41 * v55;
+        let v57 = v56 - v43 * v52;
+        v58 = v57 * v49;
+        let v59 = v45 * v52;
+        let v60 = v59 - v46 * v55;
+        v61 = v60 * v49;
+        x1 = newton.corrected(x1, v58, 7.450580596923828e-9, 1.0);
+        x2 = newton.corrected(x2, v61, 7.450580596923828e-9, 1.0);
+        if newton.is_done() {
+            break;
+        }
+    }
+    at.note(&newton);
+    let v62 = 0.5 * v58;
+    let v63 = c36 - v62 * s36;
+    let v64 = v58 * v63 + s36;
+    let v65 = v62 * c36 + s36;
+    let v66 = c36 - v58 * v65;
+    let v67 = -1.5 * v66;
+    let rocker_x = 4.0 - v67;
+    let v69 = -1.5 * v64;
+    let v70 = 1.5 * v66;
+    let v71 = v70 + rocker_x;
+    let v72 = 0.5 * v61;
+    let v73 = c40 - v72 * s40;
+    let v74 = v61 * v73 + s40;
+    let v75 = v72 * c40 + s40;
+    let v76 = c40 - v61 * v75;
+    let v77 = 3.5 * v76;
+    let v78 = v77 + coupler_x;
+    let v79 = v78 - v71;
+    at.holds &= v79.abs() <= 5.4226575191377436e-12;
+    let v80 = 1.5 * v64;
+    let v81 = v80 - v69;
+    let v82 = 3.5 * v74 + coupler_y;
+    let v83 = v82 - v81;
+    at.holds &= v83.abs() <= 5.263268038005443e-12;
+    let v84 = -3.5 * v74;
+    let v85 = v67 - v70;
+    let v86 = v80 - v69;
+    let v87 = v86 * v77;
+    let v88 = v87 - v84 * v85;
+    let v89 = 1.0 / v88;
+    at.q[5] = x2 + 0.0;
+    let rocker_y = -v69;
+    at.q[7] = rocker_y + 0.0;
+    at.q[6] = rocker_x + 0.0;
+    at.q[8] = x1 + 0.0;
+    at.pivot(0, v89, 28.487789677465305);
+    let v91 = v77 * v11;
+    let v92 = v84 * coupler_y_d + v91;
+    let rocker_phi_d = v92 * v89;
+    let v94 = v86 * coupler_y_d;
+    let v95 = v85 * v11 + v94;
+    let v96 = v95 * v89;
+    let rocker_x_d = v69 * rocker_phi_d;
+    let rocker_y_d = v70 * rocker_phi_d;
+    let coupler_phi_d = -v96;
+    at.qd[5] = coupler_phi_d + 0.0;
+    at.qd[7] = rocker_y_d + 0.0;
+    at.qd[6] = rocker_x_d + 0.0;
+    at.qd[8] = rocker_phi_d + 0.0;
+    let v100 = v66 * rocker_phi_d;
+    let v101 = rocker_phi_d * v100;
+    let v102 = 1.5 * v101;
+    let v103 = v76 * v96;
+    let v104 = v96 * v103;
+    let v105 = -3.5 * v104 + v102;
+    let v106 = v16 - v105;
+    let v107 = v64 * rocker_phi_d;
+    let v108 = rocker_phi_d * v107;
+    let v109 = 1.5 * v108;
+    let v110 = v74 * v96;
+    let v111 = v96 * v110;
+    let v112 = -3.5 * v111 + v109;
+    let v113 = v28 - v112;
+    let v114 = v113 - v109;
+    let v115 = v106 - v102;
+    let v116 = v77 * v115;
+    let v117 = v116 - v84 * v114;
+    let rocker_phi_dd = v117 * v89;
+    let v119 = v86 * v114;
+    let v120 = v119 - v85 * v115;
+    let coupler_phi_dd = v120 * v89;
+    let v122 = v102 - v69 * rocker_phi_dd;
+    let v123 = v109 - v70 * rocker_phi_dd;
+    at.qdd[5] = coupler_phi_dd + 0.0;
+    let rocker_y_dd = -v123;
+    at.qdd[7] = rocker_y_dd + 0.0;
+    let rocker_x_dd = -v122;
+    at.qdd[6] = rocker_x_dd + 0.0;
+    at.qdd[8] = rocker_phi_dd + 0.0;
+    let v126 = v66 * rocker_phi_dd - v108;
+    let v127 = v100 * rocker_phi_dd;
+    let v128 = rocker_phi_d * v126 + v127;
+    let v129 = v127 + v128;
+    let v130 = 1.5 * v129;
+    let v131 = v76 * coupler_phi_dd - v111;
+    let v132 = v103 * coupler_phi_dd;
+    let v133 = v96 * v131 + v132;
+    let v134 = v132 + v133;
+    let v135 = v130 - -3.5 * v134;
+    let v136 = v25 - v135;
+    let v137 = v64 * rocker_phi_dd + v101;
+    let v138 = v107 * rocker_phi_dd;
+    let v139 = rocker_phi_d * v137 + v138;
+    let v140 = v138 + v139;
+    let v141 = 1.5 * v140;
+    let v142 = v74 * coupler_phi_dd + v104;
+    let v143 = v110 * coupler_phi_dd;
+    let v144 = v96 * v142 + v143;
+    let v145 = v143 + v144;
+    let v146 = v141 - -3.5 * v145;
+    let v147 = v35 - v146;
+    let v148 = v147 - v141;
+    let v149 = v136 - v130;
+    let v150 = v86 * v148;
+    let v151 = v150 - v85 * v149;
+    let v152 = v151 * v89;
+    at.measures.values[0] = v78 + 0.0;
+    let v153 = -3.5 * v110 + v11;
+    let v154 = -v153;
+    at.measures.rates[0] = v154 + 0.0;
+    let v155 = -3.5 * v142 - v16;
+    at.measures.accelerations[0] = v155 + 0.0;
+    at.measures.values[1] = v155 + 0.0;
+    let v156 = v74 * v152 - v132;
+    let v157 = v156 - v133;
+    let v158 = -3.5 * v157 - v25;
+    at.measures.rates[1] = v158 + 0.0;
+    let v159 = 2.0 * t;
+    let (s160, c160) = sin_cos(v159);
+    let v161 = 1.5 * s160 + 0.5235987755982988;
+    at.measures.values[2] = v161 + 0.0;
+    let v162 = 3.0 * c160;
+    at.measures.rates[2] = v162 + 0.0;
+    let v163 = -6.0 * s160;
+    at.measures.accelerations[1] = v163 + 0.0;
+}
+
+#[rustfmt::skip]
+mod blocks {
+
+// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
+//
+// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
+// round nothing.
+
+/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
+/// before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks<'b> {
+    /// How many equations each block has.
+    pub sizes: &'b [usize],
+    /// The equations, block by block.
+    pub rows: &'b [usize],
+    /// The unknowns, block by block.
+    pub columns: &'b [usize],
+    /// Where the entries of each equation begin, and where those of the last one end.
+    pub starts: &'b [usize],
+    /// The unknown of each entry.
+    pub entries: &'b [usize],
+    /// By unknown: its place in `columns`.
+    pub places: &'b [usize],
+    /// By unknown: the power of two that it is measured by.
+    pub units: &'b [f64],
+}
+
+/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+///
+/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
+/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
+/// number wins.
+pub fn solve(
+    blocks: &Blocks<'_>,
+    values: &[f64],
+    right: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+    is_negative: &mut [bool],
+) -> f64 {
+    let (mut smallest, mut at) = (f64::INFINITY, 0);
+    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
+        let places = at..at + size;
+        at += size;
+        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
+            break;
+        };
+        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
+            break;
+        };
+        for (line, &row) in lines(matrix, size + 1).zip(rows) {
+            fill(blocks, row, places.start, values, right, x, line);
+        }
+        let Some(solution) = solution.get_mut(..size) else {
+            break;
+        };
+        let pivot;
+        (pivot, *is_negative) = eliminate(matrix, solution);
+        smallest = if pivot >= smallest { smallest } else { pivot };
+        for (&column, &value) in columns.iter().zip(&*solution) {
+            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
+                *x = value * unit;
+            }
+        }
+    }
+    smallest
+}
+
+/// How many numbers the work for a block of a size takes.
+#[must_use]
+pub const fn work_of(size: usize) -> usize {
+    size * (size + 2)
+}
+
+/// A matrix row by row.
+fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
+    let mut left = matrix;
+    core::iter::from_fn(move || {
+        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
+        left = rest;
+        Some(line)
+    })
+}
+
+/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
+    line.fill(0.0);
+    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
+    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
+    let (Some(&from), Some(&to)) = ends else {
+        return;
+    };
+    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
+    let size = line.len() - 1;
+    for (&column, &value) in entries {
+        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
+        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
+        match line.get_mut(place).filter(|_| place < size) {
+            Some(entry) => {
+                *entry = value * unit;
+                largest = if entry.abs() > largest { entry.abs() } else { largest };
+            }
+            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
+        }
+    }
+    if let Some(last) = line.last_mut() {
+        *last = sum;
+    }
+    if largest > 0.0 && largest.is_finite() {
+        // two over the power of two that is not above it
+        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        for entry in line {
+            *entry *= factor;
+        }
+    }
+}
+
+/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
+/// determinant is negative.
+fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
+    let width = x.len() + 1;
+    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
+    let mut left = &mut *matrix;
+    for k in 0..x.len() {
+        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
+            break;
+        };
+        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
+        for line in lines(below, width) {
+            if entry(line).abs() > entry(first).abs() {
+                is_negative = !is_negative;
+                for (a, b) in first.iter_mut().zip(line) {
+                    core::mem::swap(a, b);
+                }
+            }
+        }
+        let pivot = entry(first);
+        is_negative ^= pivot < 0.0;
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
+        for line in lines(below, width) {
+            let factor = entry(line) / pivot;
+            if factor != 0.0 {
+                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        left = below;
+    }
+    let mut rest = &*matrix;
+    for k in (0..x.len()).rev() {
+        let Some((before, line)) = rest.split_at_checked(k * width) else {
+            break;
+        };
+        rest = before;
+        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
+        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
+        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
+            *x = sum / pivot;
+        }
+    }
+    (smallest, is_negative)
+}
+
+}
+
+/// What is given of an input, in SI: its value, and how that changes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Signal {
+    /// The value.
+    pub value: f64,
+    /// Its first time derivative.
+    pub rate: f64,
+    /// Its second time derivative.
+    pub acceleration: f64,
+}
+
+/// Number of inputs.
+pub const INPUTS: usize = 1;
+
+/// Number of signals: time is one where formulas hold it beside inputs.
+const SIGNALS: usize = 1;
+
+/// Where each input stands in what [`influence`] gives.
+pub mod input {
+    /// `turn` (a pure number)
+    pub const TURN: usize = 0;
+}
+
+/// What comes from outside.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Inputs {
+    /// `turn` (a pure number)
+    pub turn: Signal,
+}
+
+impl Inputs {
+    /// What the text's formulas say at a time (s).
+    #[must_use]
+    pub fn at(t: f64, params: &Params) -> Self {
+        let all = following::by_text(t, params);
+        let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
+        let order = |order: usize| core::array::from_fn(|k| get(3 * k + order));
+        Self::of(&order(0), &order(1), &order(2))
+    }
+
+    #[rustfmt::skip]
+    fn of(values: &[f64; SIGNALS], rates: &[f64; SIGNALS], accelerations: &[f64; SIGNALS]) -> Self {
+        let of = |list: &[f64; SIGNALS], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
+        let signal = |k: usize| Signal {
+            value: of(values, k),
+            rate: of(rates, k),
+            acceleration: of(accelerations, k),
+        };
+        Self {
+            turn: signal(0),
+        }
+    }
+
+    /// Values, rates and accelerations.
+    #[rustfmt::skip]
+    fn lists(&self) -> ([f64; SIGNALS], [f64; SIGNALS], [f64; SIGNALS]) {
+        let all = [self.turn];
+        (all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration))
+    }
+
+    fn are_finite(&self) -> bool {
+        let (values, rates, accelerations) = self.lists();
+        let mut all = values.iter().chain(&rates).chain(&accelerations);
+        all.all(|value| value.is_finite())
+    }
+}
+
+// who needs but some of it is not told so
+#[allow(unused_imports)]
+pub use following::{follow, follow_within, influence};
+
+/// What follows inputs: along a way from 0 to 1, on which `t` is a place.
+#[rustfmt::skip]
+mod following {
+    use super::*;
+
+    /// Value, rate and acceleration of each signal by the text's formulas.
+    ///
+    /// 6 operations.
+    pub(super) fn by_text(t: f64, _p: &Params) -> [f64; 3 * SIGNALS] {
+        let mut out = [0.0; 3 * SIGNALS];
+        let v1 = 2.0 * t;
+        let (s2, c2) = sin_cos(v1);
+        let v3 = 1.5 * s2;
+        let v4 = 0.5235987755982988 + v3;
+        let v5 = 3.0 * c2;
+        let v6 = -6.0 * s2;
+
+        out[0] = v4;
+        out[1] = v5;
+        out[2] = v6;
+        out
+    }
+
+    /// Leads a state from its inputs to others, along the straight line between them, in as many steps
+    /// as the branch asks for; their rates and accelerations there decide velocities and accelerations.
+    ///
+    /// It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
+    /// allowed. A kink of a formula on the way is passed. What a measure makes of more than the
+    /// accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
+    /// back to what these say of the inputs at the state's time.
+    ///
+    /// # Errors
+    /// Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].
+    pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
+        follow_within(inputs, state, MOST_STEPS)
+    }
+
+    /// As [`follow`], in so many steps at most, for those who have a deadline: each solves the
+    /// equations about once, and one that has to be made shorter counts as well.
+    ///
+    /// # Errors
+    /// Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
+    /// way, and the same call goes on from there.
+    pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<(), Error> {
+        if !inputs.are_finite() {
+            return Err(Error::NotANumber);
+        }
+        let was_led = state.is_led;
+        if !was_led {
+            let at = state.at();
+            let (q, t) = (at.q, at.t);
+            state.led.begin(&q, t)?;
+        }
+        let result = state.led.go(inputs, most, state.steepness);
+        if matches!(result, Ok(()) | Err(Error::TooFar)) {
+            state.is_led = true;
+            let [first, second] = &mut state.solutions;
+            let to = if state.is_second { second } else { first };
+            state.led.leave_in(to);
+        }
+        result
+    }
+
+    /// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
+    /// shift of it, along the branch that the state is on.
+    ///
+    /// # Errors
+    /// The equations cannot be solved with the inputs as signals.
+    pub fn influence(state: &State) -> Result<[Q; INPUTS], Error> {
+        let by_signal = if state.is_led {
+            state.led.at().by_signal
+        } else {
+            let mut led = Led::new(state.params());
+            led.begin(state.q(), state.t())?;
+            led.at().by_signal
+        };
+        let mut by_input = [[0.0; N]; INPUTS];
+        by_input.iter_mut().zip(by_signal).for_each(|(to, from)| *to = from);
+        Ok(by_input)
+    }
+
+    /// The shortest step, as a part of the way.
+    const SMALLEST_STEP: f64 = 1e-12;
+
+    /// A way of the signals: a straight line from 0 to 1.
+    #[derive(Clone, Debug)]
+    struct Way {
+        params: Params,
+        from: [f64; SIGNALS],
+        to: [f64; SIGNALS],
+        rates: [f64; SIGNALS],
+        accelerations: [f64; SIGNALS],
+    }
+
+    impl Way {
+        fn new(params: &Params) -> Self {
+            let zero = [0.0; SIGNALS];
+            Self {
+                params: *params,
+                from: zero,
+                to: zero,
+                rates: zero,
+                accelerations: zero,
+            }
+        }
+
+        /// The value of a signal at a place of the way.
+        #[inline]
+        fn value(&self, k: usize, t: f64) -> f64 {
+            match (self.from.get(k), self.to.get(k)) {
+                (Some(_), Some(to)) if t >= 1.0 => *to,
+                (Some(from), Some(to)) => from + t * (to - from),
+                _ => f64::NAN,
+            }
+        }
+
+        fn values(&self, t: f64) -> [f64; SIGNALS] {
+            core::array::from_fn(|k| self.value(k, t))
+        }
+
+        /// How the signals change along the whole way.
+        fn direction(&self) -> [f64; SIGNALS] {
+            core::array::from_fn(|k| self.value(k, 1.0) - self.value(k, 0.0))
+        }
+    }
+
+    /// What follows signals.
+    #[derive(Clone, Debug)]
+    pub(super) struct Led {
+        model: Model,
+        /// The solution of now and the one before, or the next one in the making; their times are
+        /// places of the way.
+        solutions: [Solution; 2],
+        /// Whether that of now is the second.
+        is_second: bool,
+        /// Whether the one before lies on the same smooth motion.
+        is_smooth: bool,
+        /// The change of a signal that goes well in a step.
+        stride: f64,
+    }
+
+    impl Led {
+        pub(super) fn new(params: &Params) -> Self {
+            Self {
+                model: Model::new(&Way::new(params)),
+                solutions: [Solution::ZERO, Solution::ZERO],
+                is_second: false,
+                is_smooth: false,
+                stride: f64::INFINITY,
+            }
+        }
+
+        /// The solution of now.
+        fn at(&self) -> &Solution {
+            let [first, second] = &self.solutions;
+            if self.is_second { second } else { first }
+        }
+
+        /// The inputs that have been followed to.
+        pub(super) fn inputs(&self) -> Inputs {
+            let way = &self.model.way;
+            Inputs::of(&self.at().signals, &way.rates, &way.accelerations)
+        }
+
+        /// Begins at a position that the text's formulas give at a time (s).
+        fn begin(&mut self, q: &Q, t: f64) -> Result<(), Error> {
+            let way = &mut self.model.way;
+            (way.to, way.rates, way.accelerations) = Inputs::at(t, &way.params).lists();
+            way.from = way.to;
+            let mut near = Solution::ZERO;
+            (near.t, near.q) = (1.0, *q);
+            self.is_smooth = false;
+            let [first, second] = &mut self.solutions;
+            let now = if self.is_second { second } else { first };
+            reach(&tears(q), &near, 1.0, &self.model, now).map_err(Fault::at_start)?;
+            if now.first <= LARGEST_CORRECTION {
+                Ok(())
+            } else {
+                Err(Error::Divergence)
+            }
+        }
+
+        /// Goes from the signals of now to inputs.
+        fn go(&mut self, inputs: &Inputs, most: usize, steepness: f64) -> Result<(), Error> {
+            let from = self.at().signals;
+            let way = &mut self.model.way;
+            let before = (way.from, way.to, way.rates, way.accelerations);
+            way.from = from;
+            (way.to, way.rates, way.accelerations) = inputs.lists();
+            let [first, second] = &mut self.solutions;
+            let now = if self.is_second { second } else { first };
+            now.t = 0.0;
+            let length = way.direction().into_iter().map(f64::abs).fold(0.0, larger);
+            let stride = self.stride;
+            // the solution at the beginning, once it is behind the one before
+            let mut home = None;
+            for _ in 0..most {
+                let now = self.at().t;
+                let step = f64::max(self.stride / length, SMALLEST_STEP);
+                // no crumb at the end; a way without length is one step
+                let wanted = if step < 0.999 * (1.0 - now) {
+                    now + step
+                } else {
+                    1.0
+                };
+                let next = wanted;
+                let (is_last, size) = (next >= 1.0, next - now);
+                match self.advance(next, is_last, steepness) {
+                    Ok(is_calm) => {
+                        if is_calm {
+                            self.stride = f64::max(self.stride, 2.0 * size * length);
+                        } else if length > 0.0 {
+                            self.stride = f64::min(self.stride, size * length);
+                        }
+                        if is_last {
+                            return Ok(());
+                        }
+                        if home.is_none() {
+                            home = Some(self.other().clone());
+                        }
+                    }
+                    Err(fault) => {
+                        let half = 0.5 * size;
+                        self.stride = half * length;
+                        self.is_smooth = false;
+                        if half < SMALLEST_STEP || now + half == now {
+                            let why = self.explain(fault, next, steepness);
+                            self.stride = stride;
+                            let way = &mut self.model.way;
+                            (way.from, way.to, way.rates, way.accelerations) = before;
+                            if let Some(home) = home {
+                                let [first, second] = &mut self.solutions;
+                                let now = if self.is_second { second } else { first };
+                                *now = home;
+                            }
+                            return Err(why);
+                        }
+                    }
+                }
+            }
+            Err(Error::TooFar)
+        }
+
+        /// One step to a place of the way; says whether a longer one would do as well.
+        fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64) -> Result<bool, Fault> {
+            let [first, second] = &mut self.solutions;
+            let (from, at) = if self.is_second {
+                (second, first)
+            } else {
+                (first, second)
+            };
+            let (from, m) = (&*from, &self.model);
+            let h = t - from.t;
+            let direction = m.way.direction();
+            let change = direction.map(|rate| h * rate);
+            let (x, v) = (tears(&from.q), tears_along(from, &change));
+            let mut way = if self.is_smooth {
+                bend(from, at, &v, &change)
+            } else {
+                [0.0; TEARS]
+            };
+            let mut guess = x;
+            for ((way, guess), v) in way.iter_mut().zip(&mut guess).zip(&v) {
+                *way += v;
+                *guess += *way;
+            }
+            // what is not a number is not small either
+            let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
+            if !is_short {
+                return Err(Fault::TooFar);
+            }
+            reach(&guess, from, t, m, at)?;
+            // what the slopes at both ends make of the way between
+            let (y, w) = (tears(&at.q), tears_along(at, &change));
+            let mut gaps = [0.0; TEARS];
+            let (ways, rates) = (y.iter().zip(&x), v.iter().zip(&w));
+            for ((gap, (y, x)), (v, w)) in gaps.iter_mut().zip(ways).zip(rates) {
+                *gap = y - x - 0.5 * (v + w);
+            }
+            let gap = largest(&gaps, &TEAR_SCALES);
+            let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+            if !is_near {
+                return Err(Fault::TooFar);
+            }
+            let steepest = at.steepest / steepness;
+            if at.is_negative != from.is_negative || steepest > STEEPEST {
+                return Err(Fault::Singular);
+            }
+            if is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY {
+                return Err(Fault::Singular);
+            }
+            self.is_smooth = true;
+            self.is_second = !self.is_second;
+            Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+        }
+
+        /// The one before, or the next one in the making.
+        fn other(&self) -> &Solution {
+            let [first, second] = &self.solutions;
+            if self.is_second { first } else { second }
+        }
+
+        /// Leaves the solution of now for those who ask.
+        fn leave_in(&self, to: &mut super::Solution) {
+            let at = self.at();
+            (to.q, to.qd, to.qdd) = (at.q, at.qd, at.qdd);
+            to.measures = at.measures;
+        }
+
+        /// Why even the shortest step towards a place of the way is refused.
+        fn explain(&self, fault: Fault, t: f64, steepness: f64) -> Error {
+            let (at, m) = (self.at(), &self.model);
+            let p = &m.way;
+            let values = phi(&at.q, t, p);
+            if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
+                return Error::NotANumber;
+            }
+            if at.steepest < SINGULAR * steepness {
+                // a formula may jump without a branch of its own
+                let mut beyond = at.clone();
+                let is_there = fault == Fault::TooFar && reach(&tears(&at.q), at, t, m, &mut beyond).is_ok();
+                return if is_there {
+                    Error::NotSmooth
+                } else {
+                    Error::Divergence
+                };
+            }
+            // a motion that comes to a dead point after a way u is as the root of u, whose slope over
+            // twice its curvature is u
+            let mut along = m.clone();
+            (along.way.rates, along.way.accelerations) = (m.way.direction(), [0.0; SIGNALS]);
+            let mut moving = at.clone();
+            solve(&tears(&at.q), at.t, &along, &mut moving);
+            let rates = moving.qd.iter().zip(&moving.qdd).zip(&SCALES);
+            let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+                if v.abs() / scale > speed {
+                    (v.abs() / scale, 0.5 * v / a)
+                } else {
+                    (speed, left)
+                }
+            };
+            let (_, left) = rates.fold((0.0, 0.0), sooner);
+            // a way may be short itself
+            let longest = m.way.direction().into_iter().map(f64::abs).fold(0.0, larger);
+            if left > 0.0 && left < NEAR_FOLD * (1.0 + 1.0 / longest) {
+                Error::LockUp
+            } else {
+                Error::Bifurcation
+            }
+        }
+    }
+
+    /// How coordinates change along a direction of the signals.
+    fn along(by_signal: &[Q; SIGNALS], direction: &[f64; SIGNALS]) -> Q {
+        let mut sum = [0.0; N];
+        for (slopes, change) in by_signal.iter().zip(direction) {
+            sum.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope * change);
+        }
+        sum
+    }
+
+    /// The same of those that Newton solves for.
+    fn tears_along(at: &Solution, direction: &[f64; SIGNALS]) -> [f64; TEARS] {
+        let mut sum = [0.0; TEARS];
+        for (slopes, change) in at.by_signal.iter().zip(direction) {
+            sum.iter_mut().zip(&tears(slopes)).for_each(|(sum, slope)| *sum += slope * change);
+        }
+        sum
+    }
+
+    /// What the motion since the solution before adds to the way `v` that the slopes of now make of a
+    /// change of the signals: values and slopes at two places make a cubic (Hermite). Where the signals
+    /// turn elsewhere, the change of the slopes counts alone.
+    fn bend(
+        now: &Solution,
+        before: &Solution,
+        v: &[f64; TEARS],
+        change: &[f64; SIGNALS],
+    ) -> [f64; TEARS] {
+        let (mut product, mut square, mut size) = (0.0, 0.0, 0.0);
+        let mut behind = [0.0; SIGNALS];
+        let ends = now.signals.iter().zip(&before.signals);
+        for ((behind, (now, before)), change) in behind.iter_mut().zip(ends).zip(change) {
+            *behind = now - before;
+            product += *behind * change;
+            square += *behind * *behind;
+            size += change * change;
+        }
+        let u = product / square;
+        if u.is_nan() || u.abs() > FARTHEST_BEND {
+            return [0.0; TEARS];
+        }
+        let (x, y) = (tears(&now.q), tears(&before.q));
+        let is_straight = size - u * product <= LARGEST_TURN * size;
+        let mut bend = [0.0; TEARS];
+        if is_straight {
+            let slopes = tears_along(now, &behind).into_iter().zip(tears_along(before, &behind));
+            for ((bend, (x, y)), (v, w)) in bend.iter_mut().zip(x.iter().zip(&y)).zip(slopes) {
+                let (value, slope) = (y - x + v, v - w);
+                *bend = u * u * (3.0 * value - slope + u * (2.0 * value - slope));
+            }
+        } else {
+            let slopes = v.iter().zip(tears_along(before, change));
+            for (bend, (v, w)) in bend.iter_mut().zip(slopes) {
+                *bend = 0.5 * u * (v - w);
+            }
+        }
+        bend
+    }
+
+    /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.
+    const LARGEST_TURN: f64 = 0.01;
+
+    /// Iterations of Newton at most.
+    const ITERATIONS: usize = 6;
+
+    /// Newton's first correction at most, beside the size of a body or 1 rad.
+    const LARGEST_CORRECTION: f64 = 0.05;
+
+    /// A correction of just half a cell of the grid, to rounding, stays in it.
+    const HALF_A_CELL: f64 = 0.500001;
+
+    /// Number of coordinates that Newton solves for; the others follow.
+    const TEARS: usize = 2;
+
+    /// What a change of each of them is judged against (m, or 1 rad).
+    #[rustfmt::skip]
+    static TEAR_SCALES: [f64; TEARS] = [
+        1.0, 1.0,
+    ];
+
+    /// Number of blocks of equations whose determinants change with the position.
+    const TURNS: usize = 1;
+
+    /// Whether they are negative where all pivots are positive.
+    #[rustfmt::skip]
+    static TURNED: [bool; TURNS] = [
+        false,
+    ];
+
+    /// The width of a cell of each coordinate's grid.
+    #[rustfmt::skip]
+    static CELLS: [f64; N] = [
+        7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
+        1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
+        7.450580596923828e-9,
+    ];
+
+    /// Number of blocks of equations that can be solved one after the other.
+    const BLOCKS: usize = 6;
+
+    /// The blocks whose determinants change.
+    #[rustfmt::skip]
+    static TURNING: [usize; TURNS] = [
+        5,
+    ];
+
+    /// Numbers that the elimination of the largest block works on.
+    const WORK: usize = blocks::work_of(4);
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64 = 1e-12;
+
+    /// How the equations fall apart into blocks.
+    #[rustfmt::skip]
+    static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
+        sizes: &[
+            1, 1, 1, 1,
+            1, 4,
+        ],
+        rows: &[
+            0, 1, 8, 2,
+            3, 4, 5, 6,
+            7,
+        ],
+        columns: &[
+            0, 1, 2, 3,
+            4, 5, 7, 6,
+            8,
+        ],
+        starts: &[
+            0, 1, 2, 5,
+            8, 12, 16, 18,
+            20, 21,
+        ],
+        entries: &[
+            0, 1, 0, 2,
+            3, 1, 2, 4,
+            3, 5, 6, 8,
+            4, 5, 7, 8,
+            6, 8, 7, 8,
+            2,
+        ],
+        places: &[
+            0, 1, 2, 3,
+            4, 5, 7, 6,
+            8,
+        ],
+        units: &[
+            1.0, 1.0, 1.0, 2.0,
+            2.0, 1.0, 2.0, 2.0,
+            1.0,
+        ],
+    };
+
+    const ENTRIES: usize = 21;
+
+    /// Row and column of each value that `phi_q` gives.
+    static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+        (0, 0),
+        (1, 1),
+        (2, 0),
+        (2, 2),
+        (2, 3),
+        (3, 1),
+        (3, 2),
+        (3, 4),
+        (4, 3),
+        (4, 5),
+        (4, 6),
+        (4, 8),
+        (5, 4),
+        (5, 5),
+        (5, 7),
+        (5, 8),
+        (6, 6),
+        (6, 8),
+        (7, 7),
+        (7, 8),
+        (8, 2),
+    ];
+
+    const KNOWN: usize = 1;
+
+    /// A way, with what follows from its parameters alone.
+    #[derive(Clone, Debug)]
+    struct Model {
+        way: Way,
+        known: [f64; KNOWN],
+    }
+
+    impl Model {
+        fn new(way: &Way) -> Self {
+            Self { way: way.clone(), known: known(way) }
+        }
+    }
+
+    /// What follows from the parameters alone.
+    ///
+    /// 1 operations.
+    fn known(_p: &Way) -> [f64; KNOWN] {
+        let mut out = [0.0; KNOWN];
+        let v1 = 1.0 / 0.0;
+
+        out[0] = v1;
+        out
+    }
+
+    /// Why a step is refused.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+    enum Fault {
+        /// Something is not a number.
+        NotANumber,
+        /// The step is too long for the motion.
+        TooFar,
+        /// The position is on another branch, or too near to one.
+        Singular,
+    }
+
+    impl Fault {
+        /// Why a mechanism cannot be assembled.
+        fn at_start(self) -> Error {
+            match self {
+                Self::NotANumber => Error::NotANumber,
+                _ => Error::Divergence,
+            }
+        }
+    }
+
+    /// Solves at a time, from a guess; `from` is where the motion comes from.
+    fn reach(
+        guess: &[f64; TEARS],
+        from: &Solution,
+        t: f64,
+        m: &Model,
+        at: &mut Solution,
+    ) -> Result<(), Fault> {
+        solve(guess, t, m, at);
+        if !at.is_settled || !at.holds {
+            // once more from a position that is known, and if that does not help either, that
+            let h = t - from.t;
+            let mut q = from.q;
+            for (q, rate) in q.iter_mut().zip(along(&from.by_signal, &m.way.direction())) {
+                *q += h * rate;
+            }
+            let pivoted = solve_with_pivoting(&q, t, m)?;
+            solve(&tears(&pivoted.q), t, m, at);
+            let first = pivoted.first;
+            if !at.is_settled || !at.holds {
+                *at = pivoted;
+            }
+            at.first = first;
+        }
+        at.signals = m.way.values(t);
+        at.measures.leave_out();
+        if at.is_finite() {
+            Ok(())
+        } else {
+            Err(Fault::NotANumber)
+        }
+    }
+
+    /// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
+    /// amplified by as much as the position is near to a singular one.
+    fn rounding(at: &Solution, m: &Model) -> f64 {
+        let p = &m.way;
+        let slopes = phi_q(&at.q, at.t, p);
+        let mut norms = [f64::MIN_POSITIVE; N];
+        for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
+            if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
+                *norm = larger(*norm, slope.abs() * scale);
+            }
+        }
+        let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+        let nu = nu(&at.q, at.t, p);
+        let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
+        let gamma = gamma(&at.q, &at.qd, at.t, p);
+        let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
+        let amplified = larger(larger(velocity, acceleration), 1.0);
+        f64::EPSILON * amplified
+    }
+
+    /// What solves the equations at a time.
+    #[derive(Clone, Debug)]
+    struct Solution {
+        t: f64,
+        q: Q,
+        qd: Qd,
+        qdd: Qdd,
+        /// The derivatives of the coordinates by each signal, and what these are.
+        by_signal: [Q; SIGNALS],
+        signals: [f64; SIGNALS],
+        measures: Measures,
+        /// By block of equations: whether its determinant is negative.
+        is_negative: [bool; TURNS],
+        /// Whether Newton has arrived.
+        is_settled: bool,
+        /// Whether no digits were lost, and the equations hold.
+        holds: bool,
+        /// Newton's largest first correction, scaled.
+        first: f64,
+        /// One over the smallest pivot, scaled.
+        steepest: f64,
+    }
+
+    impl Solution {
+        const ZERO: Self = Self {
+            t: 0.0,
+            q: [0.0; N],
+            qd: [0.0; N],
+            qdd: [0.0; N],
+            by_signal: [[0.0; N]; SIGNALS],
+            signals: [0.0; SIGNALS],
+            measures: Measures::ZERO,
+            is_negative: [false; TURNS],
+            is_settled: true,
+            holds: true,
+            first: 0.0,
+            steepest: 0.0,
+        };
+
+        /// Makes ready for being solved for.
+        fn begin(&mut self, t: f64) {
+            self.t = t;
+            self.is_negative = TURNED;
+            (self.is_settled, self.holds) = (true, true);
+            (self.first, self.steepest) = (0.0, 0.0);
+        }
+
+        /// Takes over how an iteration went.
+        fn note(&mut self, newton: &Newton) {
+            self.is_settled &= newton.has_settled;
+            self.first = larger(self.first, newton.first);
+        }
+
+        /// Takes note of one over a pivot, and of what makes that a pure number.
+        fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+            if let Some(is_negative) = self.is_negative.get_mut(turn) {
+                *is_negative ^= inverse < 0.0;
+            }
+            self.steepest = larger(self.steepest, inverse.abs() * weight);
+        }
+
+        /// Why it cannot be used.
+        fn fault(&self) -> Fault {
+            if self.is_finite() {
+                Fault::TooFar
+            } else {
+                Fault::NotANumber
+            }
+        }
+
+        fn is_finite(&self) -> bool {
+            let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
+            let is_finite = all.all(|value| value.is_finite());
+            is_finite && self.by_signal.iter().flatten().all(|value| value.is_finite())
+        }
+    }
+
+    /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
+    /// in where it ends.
+    struct Newton {
+        is_first: bool,
+        is_open: bool,
+        is_lost: bool,
+        has_settled: bool,
+        first: f64,
+    }
+
+    impl Newton {
+        fn new() -> Self {
+            Self {
+                is_first: true,
+                is_open: false,
+                is_lost: false,
+                has_settled: false,
+                first: 0.0,
+            }
+        }
+
+        /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+        fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+            let size = delta.abs();
+            if self.is_first {
+                self.first = larger(self.first, size / scale);
+            }
+            self.is_open |= size > HALF_A_CELL * cell;
+            self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+            x + delta
+        }
+
+        /// Whether no further iteration is needed, or none helps.
+        fn is_done(&mut self) -> bool {
+            self.has_settled = !self.is_open && !self.is_lost;
+            let is_done = self.has_settled || self.is_lost;
+            (self.is_first, self.is_open) = (false, false);
+            is_done
+        }
+    }
+
+    /// The grid point next to a value.
+    fn on_grid(x: f64, cell: f64) -> f64 {
+        // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+        let rounding = 6_755_399_441_055_744.0 * cell;
+        (x + rounding) - rounding
+    }
+
+    /// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
+    /// digits. All coordinates lie on a grid while Newton goes on.
+    fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
+        let p = &m.way;
+        let mut at = Solution::ZERO;
+        (at.t, at.q) = (t, *q);
+        let mut elimination = Elimination::new();
+        let mut is_settled = false;
+        for iteration in 0..ITERATIONS {
+            for (q, cell) in at.q.iter_mut().zip(&CELLS) {
+                *q = on_grid(*q, *cell);
+            }
+            let slopes = phi_q(&at.q, t, p);
+            let right = phi(&at.q, t, p).map(|value| -value);
+            let (x, _) = elimination.solve(&slopes, &right);
+            if iteration == 0 {
+                at.first = largest(&x, &SCALES);
+            }
+            is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
+            at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
+            if is_settled {
+                break;
+            }
+        }
+        if !is_settled {
+            return Err(at.fault());
+        }
+        let slopes = phi_q(&at.q, t, p);
+        let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
+        let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
+        for (slopes_by, right) in at.by_signal.iter_mut().zip(&rights_by_signal(&at.q, t, p)) {
+            *slopes_by = elimination.solve(&slopes, right).0.map(|x| x + 0.0);
+        }
+        (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
+        at.measures = measures(&at.q, &qd, &qdd, t, p);
+        let values = phi(&at.q, t, p);
+        at.holds = is_next_to_nothing(&values, &slopes, &at.q);
+        at.q = at.q.map(|x| x + 0.0);
+        at.steepest = 1.0 / pivot;
+        let negative = &elimination.is_negative;
+        for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
+            *turned = negative.get(*block).copied().unwrap_or(false);
+        }
+        if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+    }
+
+    /// The work of solving linear equations in blocks.
+    struct Elimination {
+        work: [f64; WORK],
+        is_negative: [bool; BLOCKS],
+    }
+
+    impl Elimination {
+        fn new() -> Self {
+            Self {
+                work: [0.0; WORK],
+                is_negative: [false; BLOCKS],
+            }
+        }
+
+        /// The solution for a right side, and the smallest pivot.
+        fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
+            let mut x = [0.0; N];
+            let (work, is_negative) = (&mut self.work, &mut self.is_negative);
+            let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
+            (x, pivot)
+        }
+    }
+
+    /// Whether what is left of the equations is within their tolerance, and what rounding makes of
+    /// the coordinates.
+    fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
+        let mut bounds = [0.0; N];
+        for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
+            let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
+            if let (Some(scale), Some(q), Some(bound)) = sizes {
+                *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+            }
+        }
+        let mut pairs = values.iter().zip(&bounds);
+        pairs.all(|(value, bound)| value.abs() <= *bound)
+    }
+
+    /// Of all coordinates those that Newton solves for.
+    #[rustfmt::skip]
+    fn tears(q: &[f64; N]) -> [f64; TEARS] {
+        [
+            q[8], q[5],
+        ]
+    }
+
+    /// Position, velocity and acceleration at a time. Newton begins with a guess of `rocker.phi`,
+    /// `coupler.phi`; all else follows.
+    ///
+    /// 120 operations.
+    fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
+        at.begin(t);
+        at.q[2] = m.way.value(0, t) + 0.0;
+        at.qd[2] = m.way.rates[0] + 0.0;
+        let crank_phi_dd = m.way.accelerations[0];
+        at.qdd[2] = crank_phi_dd + 0.0;
+        at.by_signal[0][2] = 1.0;
+        let v2 = m.way.params.crank_length;
+        let (s3, c3) = sin_cos(m.way.value(0, t));
+        let coupler_x = c3 * v2;
+        at.q[3] = coupler_x + 0.0;
+        let coupler_y = s3 * v2;
+        let v6 = coupler_y * m.way.rates[0];
+        let coupler_x_d = -v6;
+        at.qd[3] = coupler_x_d + 0.0;
+        let v8 = c3 * m.way.rates[0];
+        let v9 = m.way.rates[0] * v8;
+        let v10 = v2 * v9;
+        let v11 = coupler_y * crank_phi_dd + v10;
+        let coupler_x_dd = -v11;
+        at.qdd[3] = coupler_x_dd + 0.0;
+        let v13 = -coupler_y;
+        at.by_signal[0][3] = v13 + 0.0;
+        at.q[4] = coupler_y + 0.0;
+        let coupler_y_d = coupler_x * m.way.rates[0];
+        at.qd[4] = coupler_y_d + 0.0;
+        let v15 = s3 * m.way.rates[0];
+        let v16 = m.way.rates[0] * v15;
+        let v17 = v2 * v16;
+        let v18 = v17 - coupler_x * crank_phi_dd;
+        let coupler_y_dd = -v18;
+        at.qdd[4] = coupler_y_dd + 0.0;
+        at.by_signal[0][4] = coupler_x + 0.0;
+        let mut x1 = guess[0];
+        let mut x2 = guess[1];
+        let mut s20 = 0.0;
+        let mut c20 = 0.0;
+        let mut s24 = 0.0;
+        let mut c24 = 0.0;
+        let mut v42 = 0.0;
+        let mut v45 = 0.0;
+        let mut newton = Newton::new();
+        for _ in 0..ITERATIONS {
+            x1 = on_grid(x1, 7.450580596923828e-9);
+            x2 = on_grid(x2, 7.450580596923828e-9);
+            (s20, c20) = sin_cos(x1);
+            let v21 = -1.5 * c20;
+            let v22 = 4.0 - v21;
+            let v23 = -1.5 * s20;
+            (s24, c24) = sin_cos(x2);
+            let v25 = -3.5 * s24;
+            let v26 = 1.5 * s20;
+            let v27 = 3.5 * c24;
+            let v28 = 1.5 * c20;
+            let v29 = v21 - v28;
+            let v30 = v26 - v23;
+            let v31 = v30 * v27;
+            let v32 = v31 - v25 * v29;
+            let v33 = 1.0 / v32;
+            let v34 = v28 + v22;
+            let v35 = v27 + coupler_x;
+            let v36 = v35 - v34;
+            let v37 = v26 - v23;
+            let v38 = 3.5 * s24 + coupler_y;
+            let v39 = v38 - v37;
+            let v40 = v25 * v39;
+            let v41 = v40 - v27 * v36;
+            v42 = v41 * v33;
+            let v43 = v29 * v36;
+            let v44 = v43 - v30 * v39;
+            v45 = v44 * v33;
+            x1 = newton.corrected(x1, v42, 7.450580596923828e-9, 1.0);
+            x2 = newton.corrected(x2, v45, 7.450580596923828e-9, 1.0);
+            if newton.is_done() {
+                break;
+            }
+        }
+        at.note(&newton);
+        let v46 = 0.5 * v42;
+        let v47 = c20 - v46 * s20;
+        let v48 = v42 * v47 + s20;
+        let v49 = v46 * c20 + s20;
+        let v50 = c20 - v42 * v49;
+        let v51 = -1.5 * v50;
+        let rocker_x = 4.0 - v51;
+        let v53 = -1.5 * v48;
+        let v54 = 1.5 * v50;
+        let v55 = v54 + rocker_x;
+        let v56 = 0.5 * v45;
+        let v57 = c24 - v56 * s24;
+        let v58 = v45 * v57 + s24;
+        let v59 = v56 * c24 + s24;
+        let v60 = c24 - v45 * v59;
+        let v61 = 3.5 * v60;
+        let v62 = v61 + coupler_x;
+        let v63 = v62 - v55;
+        at.holds &= v63.abs() <= 5.4226575191377436e-12;
+        let v64 = 1.5 * v48;
+        let v65 = v64 - v53;
+        let v66 = 3.5 * v58 + coupler_y;
+        let v67 = v66 - v65;
+        at.holds &= v67.abs() <= 5.263268038005443e-12;
+        let v68 = -3.5 * v58;
+        let v69 = v51 - v54;
+        let v70 = v64 - v53;
+        let v71 = v70 * v61;
+        let v72 = v71 - v68 * v69;
+        let v73 = 1.0 / v72;
+        at.q[5] = x2 + 0.0;
+        let rocker_y = -v53;
+        at.q[7] = rocker_y + 0.0;
+        at.q[6] = rocker_x + 0.0;
+        at.q[8] = x1 + 0.0;
+        at.pivot(0, v73, 28.487789677465305);
+        let v75 = v61 * v6;
+        let v76 = v68 * coupler_y_d + v75;
+        let rocker_phi_d = v76 * v73;
+        let v78 = v70 * coupler_y_d;
+        let v79 = v69 * v6 + v78;
+        let v80 = v79 * v73;
+        let rocker_x_d = v53 * rocker_phi_d;
+        let rocker_y_d = v54 * rocker_phi_d;
+        let coupler_phi_d = -v80;
+        at.qd[5] = coupler_phi_d + 0.0;
+        at.qd[7] = rocker_y_d + 0.0;
+        at.qd[6] = rocker_x_d + 0.0;
+        at.qd[8] = rocker_phi_d + 0.0;
+        let v84 = v50 * rocker_phi_d;
+        let v85 = rocker_phi_d * v84;
+        let v86 = 1.5 * v85;
+        let v87 = v60 * v80;
+        let v88 = v80 * v87;
+        let v89 = -3.5 * v88 + v86;
+        let v90 = v11 - v89;
+        let v91 = v48 * rocker_phi_d;
+        let v92 = rocker_phi_d * v91;
+        let v93 = 1.5 * v92;
+        let v94 = v58 * v80;
+        let v95 = v80 * v94;
+        let v96 = -3.5 * v95 + v93;
+        let v97 = v18 - v96;
+        let v98 = v97 - v93;
+        let v99 = v90 - v86;
+        let v100 = v61 * v99;
+        let v101 = v100 - v68 * v98;
+        let rocker_phi_dd = v101 * v73;
+        let v103 = v70 * v98;
+        let v104 = v103 - v69 * v99;
+        let coupler_phi_dd = v104 * v73;
+        let v106 = v86 - v53 * rocker_phi_dd;
+        let v107 = v93 - v54 * rocker_phi_dd;
+        at.qdd[5] = coupler_phi_dd + 0.0;
+        let rocker_y_dd = -v107;
+        at.qdd[7] = rocker_y_dd + 0.0;
+        let rocker_x_dd = -v106;
+        at.qdd[6] = rocker_x_dd + 0.0;
+        at.qdd[8] = rocker_phi_dd + 0.0;
+        let v110 = v61 * coupler_y;
+        let v111 = v68 * coupler_x + v110;
+        let v112 = v111 * v73;
+        let v113 = v70 * coupler_x;
+        let v114 = v69 * coupler_y + v113;
+        let v115 = v114 * v73;
+        let v116 = v53 * v112;
+        let v117 = v54 * v112;
+        let v118 = -v115;
+        at.by_signal[0][5] = v118 + 0.0;
+        at.by_signal[0][7] = v117 + 0.0;
+        at.by_signal[0][6] = v116 + 0.0;
+        at.by_signal[0][8] = v112 + 0.0;
+        at.measures.values[0] = v62 + 0.0;
+        let v119 = -3.5 * v94 + v6;
+        let v120 = -v119;
+        at.measures.rates[0] = v120 + 0.0;
+        let v121 = v58 * coupler_phi_dd + v88;
+        let v122 = -3.5 * v121 - v11;
+        at.measures.accelerations[0] = v122 + 0.0;
+        at.measures.values[1] = v122 + 0.0;
+        at.measures.rates[1] = m.known[0] + 0.0;
+        at.measures.values[2] = m.way.value(0, t) + 0.0;
+        at.measures.rates[2] = m.way.rates[0] + 0.0;
+        let v123 = m.way.accelerations[0];
+        at.measures.accelerations[1] = v123 + 0.0;
+    }
+
+    /// As [`super::phi`], with the signals of a way.
+    ///
+    /// 28 operations.
+    fn phi(q: &[f64; N], t: f64, p: &Way) -> [f64; N] {
+        let mut out = [0.0; N];
+        let coupler_phi = q[5];
+        let coupler_x = q[3];
+        let coupler_y = q[4];
+        let crank_phi = q[2];
+        let crank_x = q[0];
+        let crank_y = q[1];
+        let crank_length = p.params.crank_length;
+        let rocker_phi = q[8];
+        let rocker_x = q[6];
+        let rocker_y = q[7];
+        let turn = p.value(0, t);
+
+        let (s1, c1) = sin_cos(coupler_phi);
+        let v2 = 3.5 * c1;
+        let v3 = 3.5 * s1;
+        let v4 = v2 + coupler_x;
+        let v5 = v3 + coupler_y;
+        let (s6, c6) = sin_cos(crank_phi);
+        let v7 = -crank_x;
+        let v8 = -crank_y;
+        let v9 = c6 * crank_length;
+        let v10 = s6 * crank_length;
+        let v11 = crank_x + v9;
+        let v12 = crank_y + v10;
+        let v13 = v11 - coupler_x;
+        let v14 = v12 - coupler_y;
+        let (s15, c15) = sin_cos(rocker_phi);
+        let v16 = 1.5 * c15;
+        let v17 = 1.5 * s15;
+        let v18 = v16 + rocker_x;
+        let v19 = v17 + rocker_y;
+        let v20 = v4 - v18;
+        let v21 = v5 - v19;
+        let v22 = -1.5 * c15;
+        let v23 = -1.5 * s15;
+        let v24 = rocker_x + v22;
+        let v25 = rocker_y + v23;
+        let v26 = 4.0 - v24;
+        let v27 = -v25;
+        let v28 = crank_phi - turn;
+
+        out[0] = v7;
+        out[1] = v8;
+        out[2] = v13;
+        out[3] = v14;
+        out[4] = v20;
+        out[5] = v21;
+        out[6] = v26;
+        out[7] = v27;
+        out[8] = v28;
+        out
+    }
+
+    /// As [`super::phi_q`], with the signals of a way.
+    ///
+    /// 12 operations.
+    fn phi_q(q: &[f64; N], _t: f64, p: &Way) -> [f64; ENTRIES] {
+        let mut out = [0.0; ENTRIES];
+        let coupler_phi = q[5];
+        let crank_phi = q[2];
+        let crank_length = p.params.crank_length;
+        let rocker_phi = q[8];
+
+        let (s1, c1) = sin_cos(coupler_phi);
+        let v2 = 3.5 * c1;
+        let (s3, c3) = sin_cos(crank_phi);
+        let v4 = c3 * crank_length;
+        let v5 = s3 * crank_length;
+        let (s6, c6) = sin_cos(rocker_phi);
+        let v7 = 1.5 * c6;
+        let v8 = 1.5 * s6;
+        let v9 = -1.5 * c6;
+        let v10 = -1.5 * s6;
+        let v11 = -v5;
+        let v12 = -3.5 * s1;
+
+        out[0] = -1.0;
+        out[1] = -1.0;
+        out[2] = 1.0;
+        out[3] = v11;
+        out[4] = -1.0;
+        out[5] = 1.0;
+        out[6] = v4;
+        out[7] = -1.0;
+        out[8] = 1.0;
+        out[9] = v12;
+        out[10] = -1.0;
+        out[11] = v8;
+        out[12] = 1.0;
+        out[13] = v2;
+        out[14] = -1.0;
+        out[15] = v9;
+        out[16] = -1.0;
+        out[17] = v10;
+        out[18] = -1.0;
+        out[19] = v7;
+        out[20] = 1.0;
+        out
+    }
+
+    /// As [`super::nu`], with the signals of a way.
+    ///
+    /// 0 operations.
+    fn nu(_q: &[f64; N], _t: f64, p: &Way) -> [f64; N] {
+        let mut out = [0.0; N];
+        let turn_d = p.rates[0];
+
+        out[8] = turn_d;
+        out
+    }
+
+    /// As [`super::gamma`], with the signals of a way.
+    ///
+    /// 25 operations.
+    fn gamma(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Way) -> [f64; N] {
+        let mut out = [0.0; N];
+        let coupler_phi = q[5];
+        let crank_phi = q[2];
+        let rocker_phi = q[8];
+        let coupler_phi_d = qd[5];
+        let crank_phi_d = qd[2];
+        let rocker_phi_d = qd[8];
+        let crank_length = p.params.crank_length;
+        let turn_dd = p.accelerations[0];
+
+        let (s1, c1) = sin_cos(coupler_phi);
+        let (s2, c2) = sin_cos(crank_phi);
+        let (s3, c3) = sin_cos(rocker_phi);
+        let v4 = s1 * coupler_phi_d;
+        let v5 = c1 * coupler_phi_d;
+        let v6 = coupler_phi_d * v5;
+        let v7 = coupler_phi_d * v4;
+        let v8 = s2 * crank_phi_d;
+        let v9 = c2 * crank_phi_d;
+        let v10 = s3 * rocker_phi_d;
+        let v11 = c3 * rocker_phi_d;
+        let v12 = -3.5 * v6;
+        let v13 = -3.5 * v7;
+        let v14 = crank_phi_d * v9;
+        let v15 = crank_phi_d * v8;
+        let v16 = crank_length * v14;
+        let v17 = crank_length * v15;
+        let v18 = rocker_phi_d * v11;
+        let v19 = rocker_phi_d * v10;
+        let v20 = 1.5 * v18;
+        let v21 = v12 + v20;
+        let v22 = 1.5 * v19;
+        let v23 = v13 + v22;
+        let v24 = -v21;
+        let v25 = -v23;
+
+        out[2] = v16;
+        out[3] = v17;
+        out[4] = v24;
+        out[5] = v25;
+        out[6] = v20;
+        out[7] = v22;
+        out[8] = turn_dd;
+        out
+    }
+
+    /// The right sides of the equations for the derivatives of the coordinates by each signal.
+    #[rustfmt::skip]
+    fn rights_by_signal(q: &Q, t: f64, p: &Way) -> [Q; SIGNALS] {
+        let mut all = all_rights_by_signal(q, t, p).into_iter();
+        core::array::from_fn(|_| core::array::from_fn(|_| all.next().unwrap_or(f64::NAN)))
+    }
+
+    /// The partial derivatives of the equations by each signal, negated, one behind the other.
+    ///
+    /// 0 operations.
+    fn all_rights_by_signal(_q: &[f64; N], _t: f64, _p: &Way) -> [f64; N * SIGNALS] {
+        let mut out = [0.0; N * SIGNALS];
+        out[8] = 1.0;
+        out
+    }
+
+    /// The measures with their time derivatives, from the coordinates, their velocities and
+    /// accelerations.
+    fn measures(q: &Q, qd: &Qd, qdd: &Qdd, t: f64, p: &Way) -> Measures {
+        let mut all = all_measures(q, qd, qdd, t, p).into_iter();
+        let mut next = || all.next().unwrap_or(f64::NAN) + 0.0;
+        Measures {
+            values: core::array::from_fn(|_| next()),
+            rates: core::array::from_fn(|_| next()),
+            accelerations: core::array::from_fn(|_| next()),
+        }
+    }
+
+    /// The measures, their rates and their accelerations, one behind the other.
+    ///
+    /// 13 operations.
+    fn all_measures(q: &[f64; N], qd: &[f64; N], qdd: &[f64; N], t: f64, p: &Way) -> [f64; 8] {
+        let mut out = [0.0; 8];
+        let coupler_phi = q[5];
+        let coupler_x = q[3];
+        let coupler_phi_d = qd[5];
+        let coupler_phi_dd = qdd[5];
+        let coupler_x_dd = qdd[3];
+        let coupler_x_d = qd[3];
+        let turn = p.value(0, t);
+        let turn_d = p.rates[0];
+        let turn_dd = p.accelerations[0];
+
+        let v1 = 1.0 / 0.0;
+        let (s2, c2) = sin_cos(coupler_phi);
+        let v3 = 3.5 * c2;
+        let v4 = v3 + coupler_x;
+        let v5 = s2 * coupler_phi_d;
+        let v6 = c2 * coupler_phi_d;
+        let v7 = coupler_phi_d * v6;
+        let v8 = s2 * coupler_phi_dd;
+        let v9 = v7 + v8;
+        let v10 = -3.5 * v9;
+        let v11 = v10 + coupler_x_dd;
+        let v12 = -3.5 * v5;
+        let v13 = v12 + coupler_x_d;
+
+        out[0] = v4;
+        out[1] = v11;
+        out[2] = turn;
+        out[3] = v13;
+        out[4] = v1;
+        out[5] = turn_d;
+        out[6] = v11;
+        out[7] = turn_dd;
+        out
+    }
+}
+
+use sine_and_cosine::sin_cos;
+
+#[rustfmt::skip]
+mod sine_and_cosine {
+
+// Sine and cosine of one angle (rad), together: the same bits on every platform, within 1 ulp, for arguments of any size.
+//
+// The angle is reduced to |r + tail| <= pi/4 with `angle = n pi/2 + r + tail`: up to a million by subtracting n times
+// pi/2 in pieces of 33 bits, whose products are exact (W. Cody and W. Waite, Software Manual for the Elementary
+// Functions, 1980); above by as many bits of 2/pi as the angle asks for (M. Payne and R. Hanek, Radian Reduction for
+// Trigonometric Functions, 1983). The coefficients of the two polynomials are those of Sun's fdlibm.
+
+/// Sine and cosine of an angle in radians; not a number for an angle that is not finite.
+#[must_use]
+pub fn sin_cos(angle: f64) -> (f64, f64) {
+    if !angle.is_finite() {
+        return (f64::NAN, f64::NAN);
+    }
+    let (quarter, r, tail) = if angle.abs() < 1e6 { reduce_small(angle) } else { reduce_large(angle) };
+    let (sin, cos) = (sin_near_zero(r, tail), cos_near_zero(r, tail));
+    match quarter & 3 {
+        0 => (sin, cos),
+        1 => (cos, -sin),
+        2 => (-sin, -cos),
+        _ => (-cos, sin),
+    }
+}
+
+/// `sin(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
+pub(super) fn sin_near_zero(r: f64, tail: f64) -> f64 {
+    let z = r * r;
+    let (cube, square) = (z * r, z * z);
+    // in halves that do not wait for each other (G. Estrin, 1960)
+    let lower = 8.333_333_333_322_49e-3 - z * 1.984_126_982_985_795e-4;
+    let upper = (2.755_731_370_707_006_8e-6 - z * 2.505_076_025_340_686_3e-8) + square * 1.589_690_995_211_55e-10;
+    let higher = lower + square * upper;
+    r - ((z * (0.5 * tail - cube * higher) - tail) + cube * 1.666_666_666_666_663_2e-1)
+}
+
+/// `cos(r + tail)` for `|r| <= pi/4`, the tail below an ulp of r.
+#[inline]
+pub(super) fn cos_near_zero(r: f64, tail: f64) -> f64 {
+    let z = r * r;
+    let square = z * z;
+    let lower = 4.166_666_666_666_66e-2 - z * 1.388_888_888_887_411e-3;
+    let middle = 2.480_158_728_947_673e-5 - z * 2.755_731_435_139_066_3e-7;
+    let upper = 2.087_572_321_298_175e-9 - z * 1.135_964_755_778_819_5e-11;
+    let higher = z * (lower + square * (middle + square * upper));
+    let half = 0.5 * z;
+    let most = 1.0 - half;
+    most + (((1.0 - most) - half) + (z * higher - r * tail))
+}
+
+/// `a + b` as its rounded value and what the rounding lost.
+#[inline]
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    (sum, (a - (sum - b_part)) + (b - b_part))
+}
+
+/// The nearest whole number of quarter turns, by its last bits, and what is left of an angle below a million.
+#[inline]
+pub(super) fn reduce_small(angle: f64) -> (u64, f64, f64) {
+    // pi/2 in three pieces of 33 bits and a rest
+    const PIECES: [f64; 3] = [1.570_796_326_734_125_6, 6.077_100_506_303_966e-11, 2.022_266_248_711_166_5e-21];
+    const REST: f64 = 8.478_427_660_368_9e-32;
+    // adding and taking away 1.5 * 2^52 rounds to a whole number, which the last bits of the sum are
+    const ROUNDING: f64 = 6_755_399_441_055_744.0;
+    let sum = angle * core::f64::consts::FRAC_2_PI + ROUNDING;
+    let quarters = sum - ROUNDING;
+    let first = angle - quarters * PIECES[0];
+    let (second, lost_second) = two_sum(first, -(quarters * PIECES[1]));
+    let (third, lost_third) = two_sum(second, -(quarters * PIECES[2]));
+    let lost = (lost_second + lost_third) - quarters * REST;
+    let r = third + lost;
+    (sum.to_bits(), r, (third - r) + lost)
+}
+
+/// The bits of 2/pi after the binary point.
+const TWO_OVER_PI: [u64; 20] = [
+    0xa2f9_836e_4e44_1529,
+    0xfc27_57d1_f534_ddc0,
+    0xdb62_9599_3c43_9041,
+    0xfe51_63ab_debb_c561,
+    0xb724_6e3a_424d_d2e0,
+    0x0649_2eea_09d1_921c,
+    0xfe1d_eb1c_b129_a73e,
+    0xe882_35f5_2ebb_4484,
+    0xe99c_7026_b45f_7e41,
+    0x3991_d639_8353_39f4,
+    0x9c84_5f8b_bdf9_283b,
+    0x1ff8_97ff_de05_980f,
+    0xef2f_118b_5a0a_6d1f,
+    0x6d36_7ecf_27cb_09b7,
+    0x4f46_3f66_9e5f_ea2d,
+    0x7527_bac7_ebe5_f17b,
+    0x3d07_39f7_8a52_92ea,
+    0x6bfb_5fb1_1f8d_5d08,
+    0x5603_3046_fc7b_6bab,
+    0xf0cf_bc20_9af4_361d,
+];
+
+/// 64 bits of 2/pi from a bit on, the first bit after the point being bit 1.
+fn bits_from(bit: i64) -> u64 {
+    let word = |k: i64| usize::try_from(k).ok().and_then(|k| TWO_OVER_PI.get(k)).copied().unwrap_or(0);
+    let (at, shift) = ((bit - 1).div_euclid(64), (bit - 1).rem_euclid(64));
+    if shift == 0 { word(at) } else { (word(at) << shift) | (word(at + 1) >> (64 - shift)) }
+}
+
+/// The whole number of quarter turns modulo 4, and what is left of an angle of a million or more.
+#[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, clippy::cast_sign_loss)] // bits are cut on purpose
+#[allow(clippy::cast_precision_loss)] // what is lost is taken up by the next part
+fn reduce_large(angle: f64) -> (u64, f64, f64) {
+    let bits = angle.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i64 - 1075;
+    let mantissa = u128::from((bits & ((1 << 52) - 1)) | (1 << 52));
+    // bits of 2/pi before these make whole turns; of the product only what is below four quarters counts
+    let start = exponent - 1;
+    let [high, middle, low] = [bits_from(start), bits_from(start + 64), bits_from(start + 128)];
+    let low = mantissa * u128::from(low);
+    let middle = mantissa * u128::from(middle) + (low >> 64);
+    let high = (mantissa * u128::from(high) + (middle >> 64)) as u64;
+    // two bits of quarters, then the fraction of a quarter
+    let mut quarter = (high >> 62) as i64;
+    let fraction = (u128::from(high) << 66) | (u128::from(middle as u64) << 2) | u128::from((low as u64) >> 62);
+    // to the nearest quarter: a fraction above a half counts back from the next one
+    let back = fraction >> 127 == 1;
+    let size = if back { fraction.wrapping_neg() } else { fraction };
+    quarter += i64::from(back);
+    // 53 bits from the first that is set, and the 53 after those
+    let leading = size.leading_zeros();
+    let digits = size.checked_shl(leading).unwrap_or(0);
+    let power_of_two = |power: i64| f64::from_bits(((1023 + power) as u64) << 52);
+    let upper = (digits >> 75) as f64 * power_of_two(-53 - i64::from(leading));
+    let lower = ((digits >> 22) as u64 & ((1 << 53) - 1)) as f64 * power_of_two(-106 - i64::from(leading));
+    let (r, tail) = times_half_pi(upper, lower);
+    let sign = if back == (angle < 0.0) { 1.0 } else { -1.0 };
+    ((if angle < 0.0 { -quarter } else { quarter }) as u64, sign * r, sign * tail)
+}
+
+/// `(a + b) pi/2` as a value and its tail.
+fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
+    // 2^27 + 1 splits a number into two halves whose products are exact (T. Dekker, 1971)
+    let split = |x: f64| {
+        let shifted = x * 134_217_729.0;
+        let high = shifted - (shifted - x);
+        (high, x - high)
+    };
+    let (half_pi, rest) = (core::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17);
+    let product = a * half_pi;
+    let ((a_high, a_low), (p_high, p_low)) = (split(a), split(half_pi));
+    let lost = ((a_high * p_high - product) + a_high * p_low + a_low * p_high) + a_low * p_low;
+    let tail = lost + (a * rest + b * half_pi);
+    let r = product + tail;
+    (r, (product - r) + tail)
+}
+
+}

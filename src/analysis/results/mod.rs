@@ -1,0 +1,229 @@
+//! Results: numbers for the whole analysis, which do not depend on the rows that are asked for.
+//!
+//! ```text
+//! Started ──▶ its own Motion ──▶ stretches ──▶ extremes, integrals, values ──▶ reductions ──▶ results
+//! ```
+//!
+//! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
+//! formula needs. No bit of a row depends on it.
+
+mod formulas;
+mod places;
+mod quadrature;
+mod reduced;
+mod search;
+mod survey;
+
+use super::Started;
+use super::errors;
+use super::kinematics::{Kinematics, State};
+use super::march::Motion;
+use super::times::Times;
+use crate::diag::Diagnostic;
+use crate::expr::{ExprId, Graph, Symbol};
+use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
+use crate::solver::Solver;
+use crate::structure::Determined;
+use formulas::Formula;
+use places::Places;
+use reduced::Reduced;
+use rustc_hash::FxHashMap;
+use std::sync::Arc;
+pub(in crate::analysis) use survey::Trouble;
+
+/// So many stretches are looked at together.
+const CHUNK: usize = 4096;
+/// What results are computed from: an assembled mechanism and the times of its analysis.
+pub struct Asked {
+    kinematics: Kinematics,
+    state: State,
+    solver: Option<Arc<Solver>>,
+    interval: [f64; 2],
+    pass: bool,
+}
+
+/// Results in their order, in SI; those that have no value are none.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Answers {
+    /// By result.
+    pub values: Vec<Option<f64>>,
+    /// Why some have none.
+    pub notes: Vec<Diagnostic>,
+}
+
+impl Started {
+    /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
+    /// at; `pass` goes on beyond bifurcations.
+    #[must_use]
+    pub fn asked(&self, interval: [f64; 2], pass: bool) -> Asked {
+        let Started { kinematics, state, solver, .. } = self;
+        Asked { kinematics: kinematics.clone(), state: state.clone(), solver: solver.clone(), interval, pass }
+    }
+}
+
+/// The motion in some chunks of its stretches, and what follows from it.
+struct Analysis {
+    asked: Asked,
+    determined: Arc<Determined>,
+    /// By reduction: its number, or why there is none.
+    found: Vec<Option<Result<f64, Trouble>>>,
+}
+
+impl Asked {
+    /// The results, by following the motion once more.
+    #[must_use]
+    pub fn answer(self) -> Answers {
+        let determined = self.kinematics.determined();
+        let count = determined.system().results.reductions.len();
+        let mut analysis = Analysis { asked: self, determined, found: vec![None; count] };
+        while let Some(level) = analysis.next_level() {
+            if let Err(why) = analysis.follow(&level) {
+                return analysis.without_motion(&why);
+            }
+        }
+        analysis.answers()
+    }
+
+    /// A motion of its own.
+    fn motion(&self) -> Motion {
+        let [from, to] = self.interval;
+        let times = Times::listed(from, vec![to]);
+        let mut motion = Motion::new(self.kinematics.clone(), self.state.clone(), self.solver.clone(), times);
+        if self.pass {
+            motion.pass_bifurcations();
+        }
+        motion
+    }
+}
+
+impl Analysis {
+    fn system(&self) -> &ConstraintSystem {
+        self.determined.system()
+    }
+
+    /// The reductions that can be found now: those in their formulas are known. None where all are.
+    fn next_level(&mut self) -> Option<Vec<usize>> {
+        let determined = Arc::clone(&self.determined);
+        let system = determined.system();
+        let mut level = Vec::new();
+        let open: Vec<usize> = (0..self.found.len()).filter(|&k| self.found[k].is_none()).collect();
+        for k in open {
+            let needed = needed(&system.graph, system.results.reductions[k].of);
+            if let Some(trouble) = needed.iter().find_map(|&other| self.found[other].and_then(Result::err)) {
+                self.found[k] = Some(Err(trouble));
+            } else if needed.iter().all(|&other| self.found[other].is_some()) {
+                level.push(k);
+            }
+        }
+        (!level.is_empty()).then_some(level)
+    }
+
+    /// Follows the motion for some reductions.
+    fn follow(&mut self, level: &[usize]) -> Result<(), Box<Diagnostic>> {
+        let determined = Arc::clone(&self.determined);
+        let system = determined.system();
+        let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results.reductions[k])).collect();
+        let (mut all, formula_of) = self.formulas(&asked);
+        let at = |reduction: &Reduction| match reduction.kind {
+            ReductionKind::At(at) => system.value_at(at, &[]),
+            _ => f64::NAN,
+        };
+        let interval @ [from, to] = self.asked.interval;
+        for ((_, reduction), &of) in asked.iter().zip(&formula_of) {
+            all[of].ask(reduction.kind, at(reduction), interval);
+        }
+        self.run(&mut all, to - from)?;
+        for ((k, reduction), &of) in asked.iter().zip(&formula_of) {
+            self.found[*k] = Some(all[of].outcome(reduction.kind, at(reduction), interval));
+        }
+        Ok(())
+    }
+
+    /// The formulas of some reductions, each once, and which is whose.
+    fn formulas(&self, asked: &[(usize, Reduction)]) -> (Vec<Reduced>, Vec<usize>) {
+        let system = self.system();
+        let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
+        graph.import_tables(&system.graph, &mut known, Graph::symbol);
+        let mut formula_of: Vec<usize> = Vec::new();
+        let mut ids: Vec<ExprId> = Vec::new();
+        for (_, reduction) in asked {
+            graph.import(&system.graph, &[reduction.of], &mut known, |graph, symbol| match symbol {
+                Symbol::Named(k) => graph.constant(self.found[k as usize].and_then(Result::ok).unwrap_or(0.0)),
+                other => graph.symbol(other),
+            });
+            let id = known[&reduction.of];
+            let at = ids.iter().position(|&other| other == id).unwrap_or_else(|| {
+                ids.push(id);
+                ids.len() - 1
+            });
+            formula_of.push(at);
+        }
+        let all = ids.into_iter().map(|id| Reduced::new(Formula::new(&mut graph, id, system))).collect();
+        (all, formula_of)
+    }
+
+    /// Looks at formulas along the whole motion.
+    fn run(&self, all: &mut [Reduced], span: f64) -> Result<(), Box<Diagnostic>> {
+        let mut motion = self.asked.motion();
+        let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
+        let mut stretches = Vec::new();
+        loop {
+            let next = motion.next_stretch()?;
+            let is_end = next.is_none();
+            stretches.extend(next);
+            if is_end && span <= 0.0 {
+                for reduced in all.iter_mut() {
+                    reduced.look_at_start(motion.here(), span);
+                }
+                return Ok(());
+            }
+            if is_end || stretches.len() >= CHUNK {
+                for reduced in all.iter_mut() {
+                    reduced.look(&stretches, &mut places, span);
+                }
+                stretches.clear();
+            }
+            if is_end {
+                return Ok(());
+            }
+        }
+    }
+
+    /// No results: the motion ends before the analysis does.
+    fn without_motion(&self, why: &Diagnostic) -> Answers {
+        let outcomes = &self.system().results.outcomes;
+        let notes = outcomes.first().map(|first| errors::results_without_motion(first, outcomes.len(), why));
+        Answers { values: vec![None; outcomes.len()], notes: notes.into_iter().collect() }
+    }
+
+    fn answers(&self) -> Answers {
+        let system = self.system();
+        let mut answers = Answers::default();
+        for outcome in &system.results.outcomes {
+            let value = system.graph.value(outcome.value, |symbol| match symbol {
+                Symbol::Param(k) => system.params[k as usize].value,
+                Symbol::Named(k) => self.found[k as usize].and_then(Result::ok).unwrap_or(f64::NAN),
+                _ => f64::NAN,
+            });
+            if value.is_finite() {
+                // −0 would surprise a reader
+                answers.values.push(Some(value + 0.0));
+                continue;
+            }
+            let needed = needed(&system.graph, outcome.value);
+            let trouble = needed.into_iter().find_map(|k| self.found[k].and_then(Result::err));
+            answers.values.push(None);
+            answers.notes.push(errors::result_without_value(outcome, trouble));
+        }
+        answers
+    }
+}
+
+/// The reductions that a formula holds.
+fn needed(graph: &Graph, formula: ExprId) -> Vec<usize> {
+    let of = |symbol: Symbol| match symbol {
+        Symbol::Named(k) => Some(k as usize),
+        _ => None,
+    };
+    graph.symbols(formula).into_iter().filter_map(of).collect()
+}

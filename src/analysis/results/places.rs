@@ -1,0 +1,125 @@
+//! States within a stretch of the motion, solved for where they are asked for.
+
+use crate::analysis::kinematics::{Kinematics, State};
+use crate::analysis::march::{along, quintic};
+use crate::analysis::rows::state_of_row;
+use crate::analysis::stretches::Stretch;
+use crate::program::{Ranges, Register, Stage};
+use crate::solver::{Batch, Lanes, Solver};
+use std::sync::Arc;
+
+/// Corrections of a position at most, where the solver does not serve.
+const ITERATIONS: usize = 10;
+/// A position nearer than this to a singular one is taken from the way over it.
+const SOLVABLE: f64 = 4e-3;
+
+/// What solves for states between the ends of stretches.
+pub(super) struct Places {
+    kinematics: Kinematics,
+    solver: Option<(Arc<Solver>, Lanes<1>)>,
+    row: Vec<f64>,
+    curve: Vec<[f64; 6]>,
+    delta: Vec<f64>,
+    /// By row of Φ, one over what may be left of it; of the stretch, once that has been asked for.
+    bounds: Vec<f64>,
+    has_bounds: bool,
+    /// What time alone asks of the equations.
+    signals: Ranges,
+    signal_count: usize,
+}
+
+impl Places {
+    pub fn new(kinematics: Kinematics, solver: Option<Arc<Solver>>) -> Places {
+        let n = kinematics.system().coordinates.len();
+        let registers: Vec<Register> = kinematics.signals().iter().map(|signal| signal.register).collect();
+        let (program, values) = kinematics.program();
+        let signals = Ranges::new(program, values, &registers, Stage::Time, true);
+        let solver = solver.map(|solver| {
+            let lanes = Lanes::new(&solver);
+            (solver, lanes)
+        });
+        let stride = solver.as_ref().map_or(0, |(solver, _)| solver.layout().stride);
+        Places {
+            row: vec![0.0; stride],
+            curve: vec![[0.0; 6]; n],
+            delta: vec![0.0; n],
+            bounds: vec![0.0; kinematics.system().rows.len()],
+            has_bounds: false,
+            signals,
+            signal_count: registers.len(),
+            solver,
+            kinematics,
+        }
+    }
+
+    /// Goes over to a stretch.
+    pub fn enter(&mut self, stretch: &Stretch) {
+        self.kinematics.freeze(true, true);
+        self.kinematics.set_switches(&stretch.switches);
+        self.has_bounds = false;
+    }
+
+    /// Whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.
+    pub fn signals_are_resolved(&mut self, times: [f64; 2]) -> bool {
+        self.signals.set_times(times);
+        let (program, registers) = self.kinematics.program();
+        (0..self.signal_count).all(|k| self.signals.range(program, registers, k).is_resolved)
+    }
+
+    /// The state at a time (s) between two states of a stretch; none where it cannot be solved for.
+    pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
+        let h = b.t - a.t;
+        for (k, curve) in self.curve.iter_mut().enumerate() {
+            *curve = quintic(a, b, k, h);
+        }
+        if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
+            let on_bridge = bridge.best_state_at(t);
+            return self.solve_from(on_bridge.clone(), Some(SOLVABLE)).or(Some(on_bridge));
+        }
+        if !self.has_bounds {
+            self.kinematics.restore(&stretch.from);
+            self.kinematics.write_bounds(&mut self.bounds);
+            self.has_bounds = true;
+        }
+        if let Some((solver, lanes)) = &mut self.solver {
+            let batch =
+                Batch { times: [t], from: a.t, length: h, curve: &self.curve, bends: &[], bounds: &self.bounds };
+            let (program, registers) = self.kinematics.program();
+            let [holds] = lanes.run(solver, program, registers, &batch, &mut self.row);
+            let layout = solver.layout();
+            let is_finite = self.row[..].iter().take(layout.coordinates[0] as usize + a.q.len()).all(|x| x.is_finite());
+            if holds && is_finite {
+                return Some(state_of_row(layout, &self.row, a, t));
+            }
+        }
+        let mut state = a.clone();
+        state.t = t;
+        for (q, curve) in state.q.iter_mut().zip(&self.curve) {
+            *q = along(curve, (t - a.t) / h);
+        }
+        self.solve_from(state, None)
+    }
+
+    /// Newton from a position; none where it does not arrive, or is nearer to a singular position than a limit.
+    fn solve_from(&mut self, mut state: State, limit: Option<f64>) -> Option<State> {
+        self.kinematics.set_time(state.t);
+        self.kinematics.set_position(&state.q).ok()?;
+        for _ in 0..ITERATIONS {
+            self.kinematics.factor().ok()?;
+            if limit.is_some_and(|limit| self.kinematics.nearness(limit) < limit) {
+                return None;
+            }
+            self.kinematics.correction(&mut self.delta);
+            for (q, delta) in state.q.iter_mut().zip(&self.delta) {
+                *q += delta;
+            }
+            self.kinematics.set_position(&state.q).ok()?;
+            if self.kinematics.violated().is_none() {
+                self.kinematics.factor().ok()?;
+                self.kinematics.derivatives(&mut state).ok()?;
+                return Some(state);
+            }
+        }
+        None
+    }
+}

@@ -1,0 +1,217 @@
+//! The largest value of a formula and its first time, by leaving out the cells that cannot hold it.
+//!
+//! What a formula can be within a cell follows from the ranges of its value and derivatives there. A cell is looked at no more
+//! where it cannot hold as large a value as is known, or where the formula rises or falls all the way; it is cut in two until that, or until the
+//! slope passes zero in it just once, at a place that is then solved for.
+
+use super::formulas::{Cell, Point, between};
+use super::survey::{Scale, Survey};
+use crate::program::Range;
+use std::rc::Rc;
+
+/// Values that differ by no more than this part of the range are the same.
+pub(super) const ALIKE: f64 = 1e-9;
+/// A cell that can gain no more than this part of the range is not cut.
+const GAP: f64 = 1e-11;
+/// The same, where the formula has no derivative.
+const GAP_OF_VALUES: f64 = 1e-9;
+/// What rounding makes of a value.
+const ROUNDING: f64 = 32.0 * f64::EPSILON;
+/// A time is certain to this part of the span.
+const CERTAIN: f64 = 1e-13;
+/// Corrections of a time at most.
+const ITERATIONS: usize = 100;
+/// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
+const BESIDE: f64 = 1e-7;
+
+/// The largest value of a formula, or the largest of its opposite.
+#[derive(Clone, Debug)]
+pub(super) struct Extreme {
+    /// 1, or −1 for the least value.
+    sign: f64,
+    /// The largest that is known, times the sign.
+    best: f64,
+    /// Where it may be: extrema, edges and ends, in order of time (s), with their values times the sign.
+    extrema: Vec<Extremum>,
+    /// The largest of these.
+    largest: f64,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Extremum {
+    t: f64,
+    value: f64,
+    is_edge: bool,
+}
+
+impl Extreme {
+    pub fn new(largest: bool) -> Extreme {
+        let sign = if largest { 1.0 } else { -1.0 };
+        Extreme { sign, best: f64::NEG_INFINITY, extrema: Vec::new(), largest: f64::NEG_INFINITY }
+    }
+
+    /// Takes note of the least and the largest value that there is.
+    fn note_all(&mut self, [low, high]: [f64; 2]) {
+        self.best = self.best.max(if self.sign > 0.0 { high } else { -low });
+    }
+
+    /// Takes note of an edge or an end.
+    pub fn note_edge(&mut self, t: f64, value: f64, scale: Scale) {
+        self.add(Extremum { t, value: self.sign * value, is_edge: true }, scale);
+    }
+
+    fn add(&mut self, found: Extremum, scale: Scale) {
+        if !found.value.is_finite() {
+            return;
+        }
+        self.best = self.best.max(found.value);
+        if found.value < self.best - ALIKE * scale.range {
+            return;
+        }
+        if found.value > self.largest {
+            self.largest = found.value;
+            let least = found.value - ALIKE * scale.range;
+            self.extrema.retain(|known| known.value >= least);
+        }
+        self.extrema.push(found);
+    }
+
+    /// The largest value.
+    pub fn value(&self) -> f64 {
+        self.sign * self.best
+    }
+
+    /// Its first time (s).
+    pub fn time(&self, scale: Scale) -> f64 {
+        let least = self.best - ALIKE * scale.range;
+        let mut alike = self.extrema.iter().filter(|extremum| extremum.value >= least);
+        let Some(first) = alike.next() else { return f64::NAN };
+        let is_it = |next: &&Extremum| {
+            next.is_edge && !first.is_edge && next.t - first.t <= BESIDE * scale.span && next.value >= first.value
+        };
+        alike.find(is_it).unwrap_or(first).t
+    }
+}
+
+impl Survey<'_> {
+    /// Looks for the extreme in the halves of a stretch, with what the formula can be in them.
+    pub(super) fn search(&mut self, parts: &[(Cell, Range)], extreme: &mut Extreme, scale: Scale) {
+        extreme.note_all(*self.seen);
+        let mut open = Vec::new();
+        for (cell, range) in parts {
+            open.push((cell.clone(), Some(*range)));
+            while let Some((cell, range)) = open.pop() {
+                if self.is_done(&cell, range, extreme, scale) {
+                    continue;
+                }
+                let Some(middle) = self.middle(&cell) else { continue };
+                extreme.note_all(*self.seen);
+                let [left, right] = cell.halves(self.formula, &middle);
+                open.push((right, None));
+                open.push((left, None));
+            }
+        }
+    }
+
+    /// Whether a cell holds nothing more of interest; what it holds has been noted.
+    fn is_done(&mut self, cell: &Cell, known: Option<Range>, extreme: &mut Extreme, scale: Scale) -> bool {
+        let sign = extreme.sign;
+        let gap = f64::max(GAP * scale.range, ROUNDING * scale.largest);
+        let (least, enough) = (extreme.best - ALIKE * scale.range - gap, extreme.largest + gap);
+        let is_hopeless = |upper: f64| upper < least || upper <= enough;
+        let oriented = |low: f64, high: f64| if sign > 0.0 { [low, high] } else { [-high, -low] };
+        if known.is_some_and(|range| is_hopeless(oriented(range.low, range.high)[1])) {
+            return true;
+        }
+        let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.value);
+        if !self.goes_on(cell, f64::INFINITY) {
+            // an edge of the formula, to neighbouring times
+            extreme.add(Extremum { t: cell.a.state.t, value: a, is_edge: true }, scale);
+            extreme.add(Extremum { t: cell.b.state.t, value: b, is_edge: true }, scale);
+            return true;
+        }
+        let range = self.range(cell);
+        let upper = oriented(range.low, range.high)[1];
+        if is_hopeless(upper) {
+            return true;
+        }
+        if range.may_switch {
+            return false;
+        }
+        let derivatives = self.formula.derivatives();
+        if derivatives == 0 {
+            let small = f64::max(GAP_OF_VALUES * scale.range, ROUNDING * scale.largest);
+            let is_small = upper <= f64::max(a, b) + small;
+            if is_small {
+                let (t, value) = if b > a { (cell.b.state.t, b) } else { (cell.a.state.t, a) };
+                extreme.add(Extremum { t, value, is_edge: false }, scale);
+            }
+            return is_small;
+        }
+        let first = self.formula.range(1);
+        let slopes @ [falls, rises] = oriented(first.low, first.high);
+        let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
+        // at a kink it may come to rest
+        if (falls >= 0.0 || rises <= 0.0) && !(turns && first.may_switch) {
+            return true;
+        }
+        let upper = upper.min(between(a, b, slopes, cell.length())[1]);
+        if is_hopeless(upper) {
+            return true;
+        }
+        let is_small = upper <= f64::max(a, b) + gap;
+        let bends = (derivatives == 2 && !first.may_switch && !is_small).then(|| self.formula.range(2));
+        let [bends_down, bends_up] = bends.map_or([0.0; 2], |range| oriented(range.low, range.high));
+        let turns_once = bends_up < 0.0;
+        if turns && (is_small || turns_once) {
+            self.solve_for_turn(cell, extreme, scale);
+        }
+        is_small || turns_once || bends_down > 0.0
+    }
+
+    /// Where the slope, times the sign, passes from above zero to zero or below: by Newton between bounds.
+    fn solve_for_turn(&mut self, cell: &Cell, extreme: &mut Extreme, scale: Scale) {
+        let sign = extreme.sign;
+        let slope = |point: &Point| sign * point.sample.first;
+        let (mut low, mut high) = (Rc::clone(&cell.a), Rc::clone(&cell.b));
+        let mut guess = chord(&low, &high, slope(&low), slope(&high));
+        let mut top =
+            if sign * low.sample.value > sign * high.sample.value { Rc::clone(&low) } else { Rc::clone(&high) };
+        for iteration in 0..ITERATIONS {
+            let (from, to) = (low.state.t, high.state.t);
+            // where the guesses do not close in the middle does
+            let t = if iteration % 3 == 2 || !(guess > from && guess < to) { 0.5 * from + 0.5 * to } else { guess };
+            if t <= from || t >= to {
+                break;
+            }
+            let Some(point) = self.point(&[&low, &high], t) else { break };
+            if sign * point.sample.value >= sign * top.sample.value {
+                top = Rc::clone(&point);
+            }
+            let next = t - point.sample.first / point.sample.second;
+            guess = if next.is_finite() { next } else { f64::NAN };
+            if slope(&point) > 0.0 {
+                low = point;
+            } else {
+                high = point;
+            }
+            if !guess.is_finite() {
+                guess = chord(&low, &high, slope(&low), slope(&high));
+            }
+            let is_inside = guess > low.state.t && guess < high.state.t;
+            let is_close = is_inside && (guess - t).abs() <= CERTAIN * scale.span;
+            if is_close || high.state.t - low.state.t <= CERTAIN * scale.span {
+                break;
+            }
+        }
+        // its time is where the slope turns, whatever the last digits of the values say
+        let is_inside = guess > low.state.t && guess < high.state.t;
+        let turn = if is_inside { guess } else { high.state.t };
+        extreme.add(Extremum { t: turn, value: sign * top.sample.value, is_edge: false }, scale);
+    }
+}
+
+/// Where the straight line through two slopes is zero (s).
+fn chord(low: &Point, high: &Point, a: f64, b: f64) -> f64 {
+    low.state.t + (high.state.t - low.state.t) * a / (a - b)
+}

@@ -1,0 +1,142 @@
+//! A look at one formula in one stretch of the motion.
+
+use super::formulas::{Cell, Formula, Point};
+use super::places::Places;
+use crate::analysis::kinematics::State;
+use crate::analysis::stretches::Stretch;
+use crate::program::Range;
+use std::rc::Rc;
+
+/// Looking at one formula, so many cells are cut at most: what needs more is not meant.
+const MOST_CELLS: usize = 1_000_000;
+/// No cell is shorter than this part of the span.
+pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
+/// A stretch in which nothing can be solved for may be so long, as a part of the span.
+pub(super) const OPAQUE: f64 = 1e-6;
+
+/// Where nothing is known.
+const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false };
+
+/// How large a formula is over the analysis so far.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(super) struct Scale {
+    /// The largest value less the least.
+    pub range: f64,
+    /// The largest magnitude.
+    pub largest: f64,
+    /// The time of the analysis (s).
+    pub span: f64,
+}
+
+/// Why there is no number.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub(in crate::analysis) enum Trouble {
+    /// The formula has no value at a time (s).
+    Missing(f64),
+    /// It could not be found out around a time (s).
+    Unknown(f64),
+}
+
+impl Trouble {
+    fn t(self) -> f64 {
+        match self {
+            Trouble::Missing(t) | Trouble::Unknown(t) => t,
+        }
+    }
+}
+
+/// A look at one formula in one stretch.
+pub(super) struct Survey<'r> {
+    pub formula: &'r mut Formula,
+    pub places: &'r mut Places,
+    pub stretch: &'r Stretch,
+    pub trouble: &'r mut Option<Trouble>,
+    pub cells: &'r mut usize,
+    pub seen: &'r mut [f64; 2],
+    pub shortest: f64,
+}
+
+/// A stretch as a formula sees it.
+pub(super) struct Root {
+    pub whole: Cell,
+    /// Its halves with what the formula can be in them; none where its middle cannot be had.
+    pub parts: Vec<(Cell, Range)>,
+}
+
+impl Survey<'_> {
+    /// The formula in the middle of a cell; none where it cannot be had.
+    pub fn middle(&mut self, cell: &Cell) -> Option<Rc<Point>> {
+        if cell.is_empty() {
+            return None;
+        }
+        self.point(&[&cell.a, &cell.b], cell.middle())
+    }
+
+    /// The formula at a time (s) between two points.
+    pub fn point(&mut self, ends: &[&Rc<Point>; 2], t: f64) -> Option<Rc<Point>> {
+        *self.cells += 1;
+        let [a, b] = ends.map(|point| &point.state);
+        let state = if self.formula.moves() {
+            let solved = self.places.solve(self.stretch, [a, b], t);
+            if solved.is_none() && b.t - a.t > self.shortest * OPAQUE / SHORTEST {
+                self.meet(Trouble::Unknown(t));
+            }
+            solved?
+        } else {
+            State { t, ..a.clone() }
+        };
+        let point = self.formula.at(state);
+        self.see(&point).then_some(point)
+    }
+
+    /// Takes note of a value; says whether there is one.
+    pub fn see(&mut self, point: &Point) -> bool {
+        let value = point.sample.value;
+        if !value.is_finite() {
+            self.meet(Trouble::Missing(point.state.t));
+            return false;
+        }
+        *self.seen = [self.seen[0].min(value), self.seen[1].max(value)];
+        true
+    }
+
+    /// What the formula can be in a cell; anything where the states at its ends do not tell the motion between.
+    pub fn range(&mut self, cell: &Cell) -> Range {
+        self.formula.look_at(cell);
+        let range = self.formula.range(0);
+        let is_known = !self.formula.moves() || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]);
+        if is_known { range } else { ANYTHING }
+    }
+
+    /// The same, resolved only where the slope does not jump either.
+    pub fn smooth_range(&mut self, cell: &Cell) -> Range {
+        let range = self.range(cell);
+        let is_smooth = !range.is_resolved || self.formula.derivatives() == 0 || !self.formula.range(1).may_switch;
+        Range { is_resolved: range.is_resolved && is_smooth, ..range }
+    }
+
+    /// Whether a cell may be cut in two. One that is too short for that, and in which the formula may be anything, has no value.
+    pub fn goes_on(&mut self, cell: &Cell, widest: f64) -> bool {
+        if *self.cells > MOST_CELLS {
+            self.meet(Trouble::Unknown(cell.a.state.t));
+        }
+        if self.trouble.is_some() {
+            return false;
+        }
+        let goes_on = cell.length() > self.shortest && !cell.is_empty();
+        if !goes_on && !widest.is_finite() {
+            self.formula.look_at(cell);
+            let range = self.formula.range(0);
+            if !(range.low.is_finite() && range.high.is_finite()) {
+                self.meet(Trouble::Missing(cell.a.state.t));
+            }
+        }
+        goes_on
+    }
+
+    pub fn meet(&mut self, trouble: Trouble) {
+        if self.trouble.is_none_or(|known| trouble.t() < known.t()) {
+            *self.trouble = Some(trouble);
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! What is said of results and reductions.
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::Name;
+use crate::vocabulary::ReductionWord;
+
+/// Of `max` and `min`, beside what is wrong with the number of their arguments.
+pub const REDUCES: &str = "with one argument it takes the whole analysis, in a `result`";
+
+/// A reduction where there is no whole analysis to take together.
+pub fn reduction_in(place: &str, word: &ReductionWord, span: Span) -> Diagnostic {
+    let name = word.word.name;
+    Diagnostic::new(Code::E0322, format!("the reduction `{name}` may not stand in {place}"))
+        .at(span, "known only when the motion is over")
+        .help(format!("reductions stand in results: `result NAME = {}`", word.word.forms.first().unwrap_or(&name)))
+}
+
+/// A result where it is not known yet.
+pub fn result_in(place: &str, name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0322, format!("the result `{}` may not stand in {place}", name.text))
+        .at(name.span, "known only when the motion is over")
+        .help("results stand in other results")
+}
+
+/// What changes with time, in a result but in no reduction.
+pub fn outside_reduction(what: &str, span: Span, text: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0322, format!("{what} stands outside a reduction"))
+        .at(span, "changes with time, and a result is one number")
+        .help(format!("say which number of it is meant: `max({text})`, `mean({text})`, `last({text})`"))
+}
+
+/// `der` of something that is one number.
+pub fn derivative_of_result(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a result has no time derivative")
+        .at(span, "one number for the whole analysis")
+        .help("take the derivative inside: `max(der(e))`")
+}
+
+/// `max(der(e, NAME))`
+pub fn variation_in_reduction(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a derivative by an input or parameter may not stand in a reduction")
+        .at(span, "between the rows it is not known")
+        .help("a measure shows it at every time: `measure NAME = der(…)`")
+}

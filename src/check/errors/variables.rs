@@ -1,0 +1,63 @@
+//! What is said of derivatives by inputs and parameters.
+
+use crate::diag::{Code, Diagnostic};
+use crate::source::Span;
+use crate::syntax::ast::Name;
+
+pub fn derivative_by_too_many(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "`der` by inputs and parameters is nested deeper than two")
+        .at(span, "a third one")
+        .help("two of them may be nested, with up to two time derivatives")
+}
+
+pub fn derivative_of_jerk(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "`der` by an input or parameter stands with more than two time derivatives")
+        .at(span, "a third time derivative")
+        .help("the derivative of an acceleration is the last that is computed")
+}
+
+pub fn not_a_variable(span: Span, found: &str) -> Diagnostic {
+    super::wrong_kind(span, "the name of an input or parameter", found)
+        .help("`der(e, NAME)` is the derivative of e by what is called NAME; `der(e)` is the one by time")
+}
+
+pub fn by_time(name: &Name) -> Diagnostic {
+    super::wrong_kind(name.span, "the name of an input or parameter", "the time")
+        .help("`der(e)` is the derivative by time")
+}
+
+pub fn by_point(name: &Name, span: Span) -> Diagnostic {
+    super::wrong_kind(span, "the name of a number", "a point")
+        .help(format!("a derivative is taken by one of its coordinates: `{0}.x`, `{0}.y`", name.text))
+}
+
+pub fn by_deciding(name: &Name) -> Diagnostic {
+    Diagnostic::new(Code::E0310, format!("there is no derivative by `{}`, which decides what is repeated", name.text))
+        .at(name.span, "a whole number of declarations hangs on it")
+        .help("run it with another value: `--set`")
+}
+
+/// `--by` names a parameter that decides what is repeated.
+pub fn column_by_deciding(name: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0706, format!("there is no derivative by `{name}`, which decides what is repeated"))
+        .help("run it with another value: `--set`")
+}
+
+/// `--by` names nothing that derivatives are taken by: `found` is what it is, `meant` what it may mean.
+pub fn no_column_by(mechanism: &str, name: &str, found: Option<&str>, meant: Option<&str>) -> Diagnostic {
+    let message = match found {
+        None => format!("mechanism `{mechanism}` has no input or parameter `{name}`"),
+        Some(found) => format!("`{name}` is {found} of mechanism `{mechanism}`, and no input or parameter"),
+    };
+    let help = meant.map(|name| format!("was `{name}` meant?"));
+    Diagnostic::new(Code::E0703, message)
+        .help(help.unwrap_or_else(|| "derivatives are taken by these alone".to_owned()))
+}
+
+/// `der(e, front.reach)`, where `front: lever(reach = …)`.
+pub fn by_bound(span: Span, path: &str, binding: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, format!("`{path}` is bound where its mechanism is used"))
+        .at(span, "not free")
+        .also(binding, "bound here")
+        .help("take the derivative by what the binding is made of")
+}

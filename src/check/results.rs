@@ -1,0 +1,204 @@
+//! Results: formulas over reductions, each of which takes a formula as a measure has it to one number for the whole analysis.
+
+use super::elements::measure_context;
+use super::formula::{Context, Dim, Value};
+use super::names::Entity;
+use super::{Checker, errors};
+use crate::expr::{ExprId, Symbol};
+use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};
+use crate::syntax::ast::{Expr, ItemKind, Name, WrittenUnit};
+use crate::vocabulary::ReductionWord;
+
+/// What is known of a result before its turn.
+pub(super) struct ResultState<'a> {
+    formula: &'a Expr,
+    /// In what it is told, if that is said.
+    unit: Option<&'a WrittenUnit>,
+    /// Holds a unit, or something that does.
+    pub dimensional: bool,
+    /// `None` before its turn, and where it is broken.
+    pub value: Option<Value>,
+    /// How often an angle is a factor of it.
+    pub angle: i32,
+    /// Whether it holds a number that may stand for anything.
+    pub holds_plain_number: bool,
+}
+
+/// A call that is none of a reduction.
+pub(super) struct NoReduction;
+
+impl<'a> ResultState<'a> {
+    pub fn of(formula: &'a Expr, unit: Option<&'a WrittenUnit>) -> ResultState<'a> {
+        let (dimensional, value, angle, holds_plain_number) = (false, None, 0, false);
+        ResultState { formula, unit, dimensional, value, angle, holds_plain_number }
+    }
+}
+
+impl Checker<'_> {
+    /// Results, which no row needs.
+    pub(super) fn results(&mut self) {
+        self.model.named_before_results = self.model.named.len();
+        if self.lead.is_none() {
+            self.result_values();
+            self.list_results();
+        }
+    }
+
+    /// The values of results, those of parts first, then in the order in which they need each other.
+    fn result_values(&mut self) {
+        self.in_parts(Checker::result_values);
+        for k in std::mem::take(&mut self.result_order) {
+            let formula = self.results[k].formula;
+            let context = result_context(self.results[k].dimensional);
+            let value = self.formula(formula, &context);
+            self.results[k].value = value;
+            self.results[k].angle = self.angle_power(formula);
+            self.results[k].holds_plain_number = self.holds_plain_number(formula);
+        }
+    }
+
+    /// Lists the results in the order of the text, those of parts where these are declared.
+    fn list_results(&mut self) {
+        let (mut own, mut parts) = (0..self.results.len(), 0..self.parts.len());
+        for item in self.items() {
+            match &item.kind {
+                ItemKind::Result { name, .. } => {
+                    let Some(k) = own.next() else { continue };
+                    let Some(value) = self.results[k].value else { continue };
+                    if let Some(units) = self.units_of_result(k, value) {
+                        let declared = self.declared(name);
+                        self.model.outcomes.push(Outcome { declared, value: value.id, units });
+                    }
+                }
+                ItemKind::Part(_) => {
+                    if let Some(part) = parts.next() {
+                        self.in_part(part, Checker::list_results);
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn units_of_result(&mut self, k: usize, value: Value) -> Option<Units> {
+        let (formula, unit, judged) = (self.results[k].formula, self.results[k].unit, self.results[k].dimensional);
+        let dimension = match unit {
+            Some(_) => self.known_dimension(formula, value, &result_context(judged)),
+            None => Some(value.dim.settled()),
+        };
+        self.units(formula, dimension, self.results[k].angle, unit)
+    }
+
+    /// The reduction that a call of a name with so many arguments is; a function or table of the mechanism is meant before it.
+    pub(super) fn reduction_word(&self, name: &Name, arguments: usize) -> Option<&'static ReductionWord> {
+        let is_hidden = || matches!(self.entity(name), Some(Entity::Function(_) | Entity::Table(_)));
+        let compares = ["max", "min"].contains(&name.text.as_str());
+        let word = ReductionWord::named(&name.text).filter(|_| !compares || arguments == 1)?;
+        (compares || !is_hidden()).then_some(word)
+    }
+
+    /// The value of a call, if that is one of a reduction. (What formulas inside each other pass through has no room for it.)
+    pub(super) fn call_of_reduction(
+        &mut self,
+        e: &Expr,
+        name: &Name,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Result<Option<Value>, NoReduction> {
+        let word = self.reduction_word(name, arguments.len()).ok_or(NoReduction)?;
+        if context.results {
+            return Ok(self.reduction(e, word, arguments, context));
+        }
+        // with one argument too few it compares
+        let compares = self.is_of_language(&name.text);
+        let means_itself = matches!(self.space.get(&name.text), None | Some(Entity::Param(_) | Entity::Measure(_)));
+        if compares || !means_itself {
+            return Err(NoReduction);
+        }
+        self.report(errors::reduction_in(context.place, word, e.span));
+        Ok(None)
+    }
+
+    /// `max(e)`, `at(e, T)`: a number for the whole analysis.
+    fn reduction(
+        &mut self,
+        e: &Expr,
+        word: &'static ReductionWord,
+        arguments: &[Expr],
+        context: &Context<'_>,
+    ) -> Option<Value> {
+        if arguments.len() != word.arguments {
+            let name = word.word.name;
+            self.report(errors::argument_count(name, Some(&word.word), e.span, word.takes, arguments.len()));
+            return None;
+        }
+        let conditions = self.model.conditions.len();
+        let inner = Context { place: "a reduction", results: true, ..measure_context(context.judged) };
+        let of = self.number(&arguments[0], &inner);
+        let conditions = self.asked_at_times(conditions, "");
+        let at = match arguments.get(1) {
+            Some(time) => Some(self.time_of_at(time)?),
+            None => None,
+        };
+        let of = of?;
+        if self.is_varied(of.id) {
+            self.report(errors::variation_in_reduction(e.span));
+            return None;
+        }
+        let kind = kind(word.word.name, at)?;
+        let dim = of.dim.settled();
+        let dim = match kind {
+            ReductionKind::ArgMax | ReductionKind::ArgMin => Dimension::TIME,
+            ReductionKind::Integral => dim.times(Dimension::TIME),
+            _ => dim,
+        };
+        let known = self.model.reductions.iter().position(|known| known.kind == kind && known.of == of.id);
+        let k = known.unwrap_or_else(|| {
+            let order = self.derivative_order(of.id);
+            self.model.reductions.push(Reduction { kind, span: e.span, of: of.id, order, conditions });
+            self.model.reductions.len() - 1
+        });
+        Some(Value { id: self.name_symbol(Named::Reduction(k as u32), 0), dim: Dim::Of(dim) })
+    }
+
+    /// Whether a formula is one number for the whole analysis: it holds reductions, and nothing else that changes.
+    pub(super) fn is_of_whole_analysis(&self, id: ExprId) -> bool {
+        let symbols = self.model.graph.symbols(id);
+        let is_reduction = |k: u32| matches!(self.model.named.get(k as usize), Some(Named::Reduction(_)));
+        let changes = |symbol: &Symbol| match symbol {
+            Symbol::Param(_) | Symbol::Shift(_) => false,
+            Symbol::Named(k) => !is_reduction(*k),
+            Symbol::Time | Symbol::Signal { .. } | Symbol::Coordinate { .. } | Symbol::Varied { .. } => true,
+        };
+        !symbols.iter().any(changes)
+    }
+
+    /// The time of `at`, a constant.
+    fn time_of_at(&mut self, time: &Expr) -> Option<ExprId> {
+        let judged = self.is_dimensional(time);
+        let context = Context { judged, ..Context::constant("the second argument of `at`") };
+        let value = self.number(time, &context)?;
+        self.demand("the second argument of `at`", Dimension::TIME, time.span, value.dim, &context)?;
+        Some(value.id)
+    }
+}
+
+fn kind(word: &str, at: Option<ExprId>) -> Option<ReductionKind> {
+    Some(match word {
+        "max" => ReductionKind::Max,
+        "min" => ReductionKind::Min,
+        "argmax" => ReductionKind::ArgMax,
+        "argmin" => ReductionKind::ArgMin,
+        "mean" => ReductionKind::Mean,
+        "rms" => ReductionKind::Rms,
+        "integral" => ReductionKind::Integral,
+        "first" => ReductionKind::First,
+        "last" => ReductionKind::Last,
+        _ => ReductionKind::At(at?),
+    })
+}
+
+/// How the formula of a result is read.
+fn result_context(judged: bool) -> Context<'static> {
+    Context { judged, results: true, ..Context::constant("a result") }
+}

@@ -1,0 +1,275 @@
+//! What derivatives are taken by: the second argument of `der(e, NAME)`, and the names of `--by`.
+//!
+//! What is a number of its own varies itself. To what has a formula of its own a shift of 0 is added, but only where a derivative by it is
+//! asked for; so that all else is as if it were not.
+
+use super::formula::{Context, Dim, Value};
+use super::mentions::formulas;
+use super::names::Entity;
+use super::told::is_told_by;
+use super::{Checker, errors};
+use crate::diag::nearest;
+use crate::expr::{ExprId, Symbol};
+use crate::model::{Declared, Named, Variable};
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+/// How many variables a formula may be differentiated by, one after the other, and how often by time then.
+const MOST_VARIABLES: u8 = 2;
+const MOST_RATES: u8 = 2;
+
+/// What a mechanism is differentiated by.
+#[derive(Default)]
+pub(super) struct Variables {
+    /// Names by which derivatives are asked for: those of points and of repeated inputs stand for all that they hold.
+    asked: FxHashSet<String>,
+    /// The numbers of those that have had their turn.
+    known: FxHashMap<String, u32>,
+    /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
+    orders: FxHashMap<ExprId, (u8, u8)>,
+}
+
+impl Variables {
+    /// Those that the command line asks for.
+    pub fn told(by: &[String]) -> Variables {
+        Variables { asked: by.iter().cloned().collect(), ..Variables::default() }
+    }
+
+    /// Those that a text asks for too, which stands under a path.
+    pub fn add(&mut self, tree: &Mechanism, path: &str) {
+        let mut open: Vec<&Expr> = tree.items.iter().flat_map(formulas).collect();
+        while let Some(e) = open.pop() {
+            if let Some((_, by)) = as_derivative(e) {
+                self.asked.extend(named(by).map(|name| format!("{path}{name}")));
+            }
+            open.extend(e.children());
+        }
+    }
+
+    fn is_asked(&self, name: &str) -> bool {
+        if self.asked.is_empty() {
+            return false;
+        }
+        let whole = name.rsplit_once('.').map(|(point, _)| point);
+        self.asked.contains(name)
+            || self
+                .asked
+                .iter()
+                .any(|asked| is_told_by(name, asked) || whole.is_some_and(|whole| is_told_by(whole, asked)))
+    }
+}
+
+/// `der(e, NAME)`
+pub(super) fn as_derivative(e: &Expr) -> Option<(&Expr, &Expr)> {
+    match &e.kind {
+        ExprKind::Call { name, arguments } if name.text == "der" => match arguments.as_slice() {
+            [of, by] => Some((of, by)),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// A name, or `A.x`, as a text.
+fn named(e: &Expr) -> Option<String> {
+    match &e.bare().kind {
+        ExprKind::Name(name) => Some(name.text.clone()),
+        ExprKind::Member { owner, feature } => Some(format!("{}.{}", owner.text, feature.text)),
+        _ => None,
+    }
+}
+
+impl Checker<'_> {
+    /// A number of its own, if derivatives are taken by it.
+    pub(super) fn note_param(&mut self, declared: &Declared, symbol: Symbol, dim: Dim) {
+        if self.variables.is_asked(&declared.name) {
+            let is_angle = self.is_angle(&declared.name);
+            self.add_variable(declared.clone(), symbol, dim, is_angle);
+        }
+    }
+
+    /// What has a formula of its own, with a shift if derivatives are taken by it.
+    pub(super) fn with_shift(&mut self, declared: &Declared, value: Value) -> Value {
+        if !self.variables.is_asked(&declared.name) {
+            return value;
+        }
+        let symbol = Symbol::Shift(self.model.variables.len() as u32);
+        let is_angle = self.is_angle(&declared.name);
+        self.add_variable(declared.clone(), symbol, value.dim, is_angle);
+        let shift = self.model.graph.symbol(symbol);
+        Value { id: self.model.graph.add(value.id, shift), ..value }
+    }
+
+    fn is_angle(&self, name: &str) -> bool {
+        let own = name.strip_prefix(self.path.as_str()).unwrap_or(name);
+        match self.space.get(own) {
+            Some(Entity::Param(k)) => self.param_angles.get(k) == Some(&1),
+            Some(Entity::Input(k)) => self.inputs.get(k).is_some_and(|input| self.angle_power(input.formula) == 1),
+            _ => false,
+        }
+    }
+
+    fn add_variable(&mut self, declared: Declared, symbol: Symbol, dim: Dim, is_angle: bool) {
+        let number = self.model.variables.len() as u32;
+        self.variables.known.insert(declared.name.clone(), number);
+        self.model.variables.push(Variable { declared, symbol, dimension: dim.settled(), is_angle });
+    }
+
+    /// `der(e, NAME)`
+    pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
+        if !context.measures {
+            self.report(errors::derivative_in(context.place, e.span));
+            return None;
+        }
+        let (inner, variable) = (self.number(of, context), self.variable(by));
+        let (inner, variable) = (inner?, variable?);
+        let (times, _) = self.variation_orders(inner.id);
+        let rates = self.derivative_order(inner.id);
+        if times + 1 > MOST_VARIABLES {
+            self.report(errors::derivative_by_too_many(e.span));
+            return None;
+        }
+        if rates > MOST_RATES {
+            self.report(errors::derivative_of_jerk(e.span));
+            return None;
+        }
+        let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
+        let id = self.name_symbol(Named::By(inner.id, variable), rates);
+        self.variables.orders.insert(id, (times + 1, rates));
+        Some(Value { id, dim })
+    }
+
+    /// Notes that a formula is the time derivative of another one; says whether that may be.
+    pub(super) fn note_rate(&mut self, of: ExprId, rate: ExprId) -> bool {
+        let (times, rates) = self.variation_orders(of);
+        if times > 0 {
+            self.variables.orders.insert(rate, (times, rates + 1));
+        }
+        times == 0 || rates < MOST_RATES
+    }
+
+    /// Whether a formula holds a derivative by an input or param.
+    pub(super) fn is_varied(&self, id: ExprId) -> bool {
+        self.variation_orders(id).0 > 0
+    }
+
+    /// By how many variables a formula is differentiated, and how often by time there.
+    fn variation_orders(&self, id: ExprId) -> (u8, u8) {
+        if self.variables.orders.is_empty() {
+            return (0, 0);
+        }
+        let parts = self.model.graph.reachable(&[id]).into_iter().filter_map(|part| self.variables.orders.get(&part));
+        parts.fold((0, 0), |all, part| (all.0.max(part.0), all.1.max(part.1)))
+    }
+
+    /// The number of what a derivative is taken by.
+    fn variable(&mut self, by: &Expr) -> Option<u32> {
+        let own = named(by).map(|name| format!("{}{name}", self.path));
+        if let Some((part, binding)) = self.bound_by_path(by) {
+            self.report(errors::by_bound(by.span, &part, binding));
+            return None;
+        }
+        let known = own.and_then(|name| self.variables.known.get(&name).copied());
+        if known.is_some() {
+            return known;
+        }
+        let diagnostic = match &by.bare().kind {
+            ExprKind::Name(name) => self.no_variable(name)?,
+            ExprKind::Member { owner, feature } if self.point_param(owner).is_some() => {
+                // one that is broken has been told
+                if matches!(feature.text.as_str(), "x" | "y") {
+                    return None;
+                }
+                errors::by_point(owner, by.span)
+            }
+            ExprKind::Member { owner, feature } => {
+                let what = self.describe_member(owner, feature);
+                errors::not_a_variable(by.span, &what)
+            }
+            _ => errors::not_a_variable(by.span, "a formula"),
+        };
+        self.report(diagnostic);
+        None
+    }
+
+    /// What a path names that is bound where the part is used, with its place.
+    fn bound_by_path(&self, by: &Expr) -> Option<(String, Span)> {
+        let path = named(by)?;
+        let (part, name) = path.split_once('.')?;
+        let Some(Entity::Part(k)) = self.space.get(part) else { return None };
+        let bindings = &self.bindings.get(k)?.bindings;
+        let binding = bindings.iter().find(|binding| {
+            binding.name.text == name || name.split_once('.').is_some_and(|(point, _)| binding.name.text == point)
+        })?;
+        Some((path.clone(), binding.span))
+    }
+
+    /// What is said of a name that no derivative is taken by; nothing where it is broken, which has been said.
+    fn no_variable(&self, name: &Name) -> Option<crate::diag::Diagnostic> {
+        match self.resolve(name).ok()? {
+            Some(Entity::Param(_)) if self.point_param(name).is_some() => Some(errors::by_point(name, name.span)),
+            Some(Entity::Param(_)) if self.deciding.contains(&name.text) => Some(errors::by_deciding(name)),
+            Some(Entity::Param(_) | Entity::Input(_)) => None,
+            Some(entity) => Some(errors::not_a_variable(name.span, entity.noun())),
+            None if name.text == "t" => Some(errors::by_time(name)),
+            None => {
+                let known = self.suggestions(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+                Some(errors::unknown("input or parameter", name, &known))
+            }
+        }
+    }
+
+    /// Looks the names of `--by` up, in the order given; what is named twice counts once.
+    pub(super) fn look_over_by(&mut self) {
+        for told in self.by {
+            let found = self.variables_named(told);
+            if found.is_empty() {
+                self.no_column_by(told);
+            }
+            for variable in found {
+                if !self.model.by.contains(&variable) {
+                    self.model.by.push(variable);
+                }
+            }
+        }
+    }
+
+    /// One of that name; the coordinates of a point; or all copies of a repeated input.
+    fn variables_named(&self, told: &str) -> Vec<u32> {
+        let known = |name: String| self.variables.known.get(&name).copied();
+        if let Some(one) = known(told.to_owned()) {
+            return vec![one];
+        }
+        let of_point: Vec<u32> = ["x", "y"].into_iter().filter_map(|axis| known(format!("{told}.{axis}"))).collect();
+        if !of_point.is_empty() {
+            return of_point;
+        }
+        let is_told = |name: &str| {
+            let whole = name.rsplit_once('.').map(|(point, _)| point);
+            is_told_by(name, told) || whole.is_some_and(|whole| is_told_by(whole, told))
+        };
+        let mut copies: Vec<u32> =
+            self.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
+        copies.sort_unstable();
+        copies
+    }
+
+    fn no_column_by(&mut self, told: &str) {
+        let whole = told.rsplit_once('.').map_or(told, |(point, _)| point);
+        let known = || self.space.names(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+        let diagnostic = match self.space.get(told).or_else(|| self.space.get(whole)) {
+            Some(Entity::Param(_)) if self.deciding.contains(whole) => errors::column_by_deciding(told),
+            Some(Entity::Param(_) | Entity::Input(_)) if self.diagnostics.has_errors() => return,
+            Some(Entity::Param(_) | Entity::Input(_)) => {
+                errors::no_column_by(&self.tree.name.text, told, None, Some(whole))
+            }
+            Some(entity) => errors::no_column_by(&self.tree.name.text, told, Some(entity.noun()), None),
+            None => {
+                let meant = nearest(told, known());
+                errors::no_column_by(&self.tree.name.text, told, None, meant)
+            }
+        };
+        self.report(diagnostic);
+    }
+}

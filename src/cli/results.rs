@@ -1,0 +1,52 @@
+//! Results of a run: told on standard error, and written as one JSON object.
+
+use super::endings;
+use super::failure::Failure;
+use super::files::Output;
+use crate::analysis::{Answers, ColumnUnit};
+use crate::diag::{Code, Diagnostic, readable};
+use crate::source::Sources;
+use std::io::Write;
+
+/// The one form that results are written in.
+const FORMS: [(&str, ()); 1] = [("json", ())];
+
+/// Opens the output of `--results`, which is not that of the table.
+pub(super) fn open(name: Option<&str>, table: &str, sources: &Sources) -> Result<Option<Output>, Failure> {
+    let Some(name) = name else { return Ok(None) };
+    endings::form(None, name, &FORMS, ())?;
+    let is_same = || std::path::absolute(name).ok() == std::path::absolute(table).ok();
+    if name == table || table != "-" && name != "-" && is_same() {
+        let place = if name == "-" { "standard output".to_owned() } else { format!("`{name}`") };
+        return Err(Diagnostic::new(Code::E0706, format!("the table and the results would both go to {place}"))
+            .help("name another file: `--results OUT.json`")
+            .into());
+    }
+    Output::open(name, sources).map(Some)
+}
+
+/// Writes one flat object, name to number in SI.
+pub(super) fn write(output: &mut Output, names: &[(String, ColumnUnit)], answers: &Answers) -> Result<(), Failure> {
+    let lines: Vec<String> = names
+        .iter()
+        .zip(&answers.values)
+        .map(|((name, _), value)| {
+            format!("{}: {}", serde_json::Value::from(name.as_str()), serde_json::Value::from(*value))
+        })
+        .collect();
+    let written = output.writer().write_all(format!("{{{}}}\n", lines.join(",\n ")).as_bytes());
+    written.map_err(|error| output.failure(&error))
+}
+
+/// A line for each, in the unit that it is told in.
+pub(super) fn told(names: &[(String, ColumnUnit)], answers: &Answers) -> String {
+    let width = names.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
+    let line = |((name, unit), value): (&(String, ColumnUnit), &Option<f64>)| match value {
+        Some(value) => {
+            let unit_text = if unit.text == "1" { String::new() } else { format!(" {}", unit.text) };
+            format!("{name:<width$} = {}{unit_text}\n", readable(unit.printed(*value)))
+        }
+        None => format!("{name:<width$} = null\n"),
+    };
+    names.iter().zip(&answers.values).map(line).collect()
+}

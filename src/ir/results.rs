@@ -1,0 +1,60 @@
+//! What is asked of a whole analysis, beside its rows.
+
+use super::Units;
+use crate::expr::ExprId;
+use crate::source::Span;
+
+/// Numbers for the whole analysis.
+#[derive(Clone, Debug, Default)]
+pub struct Results {
+    /// What they ask of the motion, by the number of its named symbol.
+    pub reductions: Vec<Reduction>,
+    /// The numbers.
+    pub outcomes: Vec<Outcome>,
+}
+
+/// One number for the whole analysis.
+#[derive(Clone, Debug)]
+pub struct Outcome {
+    /// Its name.
+    pub name: String,
+    /// The name's place.
+    pub span: Span,
+    /// Its formula, over parameters and reductions, which are named symbols.
+    pub value: ExprId,
+    /// In what it is told.
+    pub units: Units,
+}
+
+/// What becomes of a formula over the whole analysis.
+#[derive(Clone, Copy, Debug)]
+pub struct Reduction {
+    /// The formula, over parameters, time, coordinates with their derivatives, and other reductions.
+    pub of: ExprId,
+    /// Which number of it.
+    pub kind: ReductionKind,
+    /// Where it is written first.
+    pub span: Span,
+}
+
+/// The numbers that can be asked of a formula.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ReductionKind {
+    /// The largest value, or the least one.
+    Extreme {
+        /// Which of the two.
+        largest: bool,
+        /// Its first time (s), rather than the value itself.
+        when: bool,
+    },
+    /// The mean over time.
+    Mean,
+    /// The integral over time.
+    Integral,
+    /// The value at the first time.
+    First,
+    /// The value at the last time.
+    Last,
+    /// The value at a time (s), a formula of parameters.
+    At(ExprId),
+}

@@ -1,0 +1,69 @@
+//! Inputs as signals: what their place in the equations asks for beside what a system of time alone has.
+
+use super::{ConstraintSystem, Measure};
+use crate::expr::{Dependence, ExprId, Graph, Node, Symbol};
+
+/// Nobody gives more of a signal than its value, rate and acceleration.
+const HIGHEST: u8 = 2;
+
+impl ConstraintSystem {
+    /// The right sides of the equations for the derivatives of `q` by each signal.
+    pub fn derive_by_signals(&mut self) {
+        let signals: Vec<u32> = self.inputs.iter().map(|input| input.index).collect();
+        self.by_signal = signals.into_iter().map(|index| self.rights_by(Symbol::Signal { index, order: 0 })).collect();
+    }
+
+    /// The right sides of the equations for the derivatives of `q` by each parameter.
+    ///
+    /// # Errors
+    /// The name of a table that is made of parameters: its derivatives by these are not known.
+    pub fn derive_by_params(&mut self) -> Result<(), String> {
+        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        for id in self.graph.reachable(&phi) {
+            if let Node::Table(table, ..) = self.graph.node(id) {
+                let table = &self.graph.tables()[table.index()];
+                if table.cells().any(|cell| self.graph.dependence(cell).on(Dependence::PARAMS)) {
+                    return Err(table.name.clone());
+                }
+            }
+        }
+        self.by_param = (0..self.params.len() as u32).map(|k| self.rights_by(Symbol::Param(k))).collect();
+        Ok(())
+    }
+
+    /// The partial derivatives of `Φ` by a symbol, negated.
+    fn rights_by(&mut self, own: Symbol) -> Vec<ExprId> {
+        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        let graph = &mut self.graph;
+        let slopes = graph.derivatives(&phi, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)));
+        slopes.into_iter().map(|id| graph.neg(id)).collect()
+    }
+
+    /// Gives measures the derivatives that those of another system of the same text have; what would need more of a signal than its
+    /// acceleration has no value.
+    pub fn align_measures(&mut self, others: &[Measure]) {
+        let none = nothing(&mut self.graph);
+        for (measure, other) in self.measures.iter_mut().zip(others) {
+            let mut needs_more = false;
+            let mut known = |id: Option<ExprId>| {
+                needs_more |= id.is_none_or(|id| self.graph.symbols(id).into_iter().any(is_beyond));
+                id.filter(|_| !needs_more).unwrap_or(none)
+            };
+            measure.value = known(Some(measure.value));
+            let [first, second] = [known(measure.first), known(measure.second)];
+            measure.first = other.first.map(|_| first);
+            measure.second = other.second.map(|_| second);
+        }
+    }
+}
+
+/// Whether a symbol is of more than the accelerations of signals.
+fn is_beyond(symbol: Symbol) -> bool {
+    matches!(symbol, Symbol::Signal { order, .. } | Symbol::Coordinate { order, .. } if order > HIGHEST)
+}
+
+/// What is never finite.
+fn nothing(graph: &mut Graph) -> ExprId {
+    let (one, zero) = (graph.constant(1.0), graph.constant(0.0));
+    graph.div(one, zero)
+}

@@ -1,0 +1,148 @@
+//! Ranges of formulas over a stretch of the motion: a program's operations, run on intervals.
+//!
+//! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range is one of all branches that may count: it
+//! holds every value, and tells whether there may be jumps among them.
+
+use super::enclose::{Interval, behind, enclosed, of_one};
+use super::{Op, Program, Register, Registers, Stage};
+use crate::expr::{Binary, Unary};
+
+/// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
+/// none).
+const WIDEST: f64 = 1.0;
+/// A bounded function that is resolved changes by no more than this.
+const WIDEST_VALUE: f64 = 0.5;
+/// What is divided by, or has a root taken of it, changes by no more than this factor.
+const WIDEST_RATIO: f64 = 2.0;
+
+/// What a formula is enclosed in.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Range {
+    /// No value is below.
+    pub low: f64,
+    /// No value is above.
+    pub high: f64,
+    /// Whether the formula may change its branch, so that it or what is derived from it may jump.
+    pub may_switch: bool,
+    /// Whether every function in it changes so little that a few terms of its series tell all.
+    pub is_resolved: bool,
+}
+
+/// Room for the ranges of some formulas, each of which may use what those before it have.
+#[derive(Clone, Debug)]
+pub struct Ranges {
+    /// By formula: the operations that those before it have not run.
+    operations: Vec<Vec<Op>>,
+    /// What each formula has found out beside its values: as in [`Range`].
+    found: Vec<(bool, bool)>,
+    roots: Vec<Register>,
+    /// Whether switches stay as the registers have them.
+    is_frozen: bool,
+    values: Vec<Interval>,
+    time: Register,
+    coordinates: [Register; 4],
+}
+
+impl Ranges {
+    /// For formulas that a stage leaves in some registers; the prologue must have been run.
+    #[must_use]
+    pub fn new(program: &Program, registers: &Registers, roots: &[Register], stage: Stage, is_frozen: bool) -> Ranges {
+        let mut is_known = vec![false; program.registers()];
+        let mut operations = Vec::new();
+        for k in 0..roots.len() {
+            let mut own = behind(program, &roots[..=k], &[stage]);
+            own.retain(|&op| {
+                let (writes, count) = op.writes();
+                let is_new = writes[..count].iter().any(|&register| !is_known[register as usize]);
+                writes[..count].iter().for_each(|&register| is_known[register as usize] = true);
+                is_new
+            });
+            operations.push(own);
+        }
+        let point = |value: f64| Interval { low: value, high: value };
+        Ranges {
+            operations,
+            found: vec![(false, true); roots.len()],
+            roots: roots.to_vec(),
+            is_frozen,
+            values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
+            time: program.inputs.time,
+            coordinates: program.inputs.coordinates,
+        }
+    }
+
+    /// Lets time be anywhere between two times (s).
+    pub fn set_times(&mut self, [from, to]: [f64; 2]) {
+        self.values[self.time as usize] = Interval { low: from, high: to };
+    }
+
+    /// Lets a coordinate's derivative of some order be anywhere between two values.
+    pub fn set(&mut self, order: usize, index: usize, [low, high]: [f64; 2]) {
+        self.values[self.coordinates[order] as usize + index] = Interval { low, high };
+    }
+
+    /// The range of a formula; those before it must have been asked for since time and coordinates were set.
+    pub fn range(&mut self, program: &Program, registers: &Registers, k: usize) -> Range {
+        let before = if k == 0 { (false, true) } else { self.found[k - 1] };
+        let (mut may_switch, mut is_resolved) = before;
+        for at in 0..self.operations[k].len() {
+            let op = self.operations[k][at];
+            is_resolved &= is_resolved_in(op, &self.values);
+            if let Op::SinCos { sin, cos, a } = op {
+                let a = self.values[a as usize];
+                self.values[sin as usize] = of_one(Unary::Sin, a);
+                self.values[cos as usize] = of_one(Unary::Cos, a);
+                continue;
+            }
+            let (to, value) = enclosed(program, op, &self.values);
+            let is_switch = op.switched().is_some();
+            if is_switch && self.is_frozen {
+                let value = registers.get(to);
+                self.values[to as usize] = Interval { low: value, high: value };
+                continue;
+            }
+            // a spline goes on over its knots
+            may_switch |= is_switch && !matches!(op, Op::Piece { .. }) && value.low.total_cmp(&value.high).is_ne();
+            is_resolved &= value.high - value.low <= WIDEST_VALUE || !is_bounded(op);
+            self.values[to as usize] = value;
+        }
+        self.found[k] = (may_switch, is_resolved);
+        let Interval { low, high } = self.values[self.roots[k] as usize];
+        Range { low, high, may_switch, is_resolved: is_resolved && !may_switch }
+    }
+}
+
+/// Whether the values of a function stay within bounds, so that it is resolved where it changes little, however its argument does.
+fn is_bounded(op: Op) -> bool {
+    matches!(
+        op,
+        Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, .. }
+            | Op::Binary { function: Binary::Atan2, .. }
+    )
+}
+
+/// Whether the argument of an operation changes so little that a few terms of its series tell all.
+fn is_resolved_in(op: Op, v: &[Interval]) -> bool {
+    let width = |register: Register| v[register as usize].high - v[register as usize].low;
+    let ratio = |register: Register| {
+        let Interval { low, high } = v[register as usize];
+        let (least, largest) = if low > 0.0 { (low, high) } else { (-high, -low) };
+        least > 0.0 && largest <= WIDEST_RATIO * least
+    };
+    match op {
+        Op::SinCos { a, .. }
+        | Op::Unary {
+            function: Unary::Sin | Unary::Cos | Unary::Tan | Unary::Exp | Unary::Sinh | Unary::Cosh,
+            a,
+            ..
+        } => width(a) <= WIDEST,
+        Op::Unary { function: Unary::Sqrt | Unary::Ln | Unary::Log10, a, .. }
+        | Op::Recip { a, .. }
+        | Op::Div { b: a, .. }
+        | Op::Binary { function: Binary::Pow, a, .. } => width(a) == 0.0 || ratio(a),
+        Op::Binary { function: Binary::Hypot, a, b, .. } => {
+            (width(a) == 0.0 && width(b) == 0.0) || ratio(a) || ratio(b)
+        }
+        _ => true,
+    }
+}

@@ -1,0 +1,113 @@
+//! The reductions: what a result asks of a formula over a whole analysis.
+
+use super::{Category, Example, Word};
+
+/// A reduction.
+#[derive(Debug)]
+pub struct ReductionWord {
+    /// What is told of it.
+    pub word: Word,
+    /// What it is called with, in words.
+    pub takes: &'static str,
+    /// How many arguments it takes.
+    pub arguments: usize,
+}
+
+impl ReductionWord {
+    /// The reduction of a name.
+    #[must_use]
+    pub fn named(name: &str) -> Option<&'static ReductionWord> {
+        REDUCTIONS.iter().find(|reduction| reduction.word.name == name)
+    }
+}
+
+const fn reduction(
+    name: &'static str,
+    forms: &'static [&'static str],
+    meaning: &'static str,
+    more: &'static str,
+    example: &'static str,
+) -> ReductionWord {
+    let word =
+        Word { name, category: Category::Reduction, forms, letters: "", meaning, more, example: Example::Arm(example) };
+    ReductionWord { word, takes: "one argument", arguments: 1 }
+}
+
+/// All of them. But for `max` and `min`, a function or table of the mechanism that is called so is meant where it is called.
+pub static REDUCTIONS: &[ReductionWord] = &[
+    reduction(
+        "max",
+        &["max(e)"],
+        "the largest value of a formula in the whole analysis",
+        "With one argument, in a `result`; with two it compares them: `max(max(a, b))` is the largest of both. It is found between the \
+         rows too, to 1e-9 of the range.",
+        "result top = max(y(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "min",
+        &["min(e)"],
+        "the least value of a formula in the whole analysis",
+        "With one argument, in a `result`; with two it compares them. It is found between the rows too, to 1e-9 of the range.",
+        "result bottom = min(y(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "argmax",
+        &["argmax(e)"],
+        "the time at which a formula is largest",
+        "The first, of several that agree to 1e-9 of the range; where the formula rests there, the beginning of that.",
+        "result when = argmax(y(arm.tip))\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "argmin",
+        &["argmin(e)"],
+        "the time at which a formula is least",
+        "The first, of several that agree to 1e-9 of the range; where the formula rests there, the beginning of that.",
+        "result when = argmin(x(arm.tip))\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "mean",
+        &["mean(e)"],
+        "the mean of a formula over the time of the analysis",
+        "Its integral over the length of the analysis; of an analysis of a single time, its value.",
+        "result level = mean(y(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "rms",
+        &["rms(e)"],
+        "the root of the mean square of a formula over the time of the analysis",
+        "Of an analysis of a single time, the magnitude of its value.",
+        "result effort = rms(der(x(arm.tip))) in mm/s\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "integral",
+        &["integral(e)"],
+        "the integral of a formula over the time of the analysis",
+        "In the unit of the formula times seconds.",
+        "result way = integral(speed(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "first",
+        &["first(e)"],
+        "the value of a formula at the first time of the analysis",
+        "",
+        "result start = first(x(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    reduction(
+        "last",
+        &["last(e)"],
+        "the value of a formula at the end of the analysis",
+        "At its `to`, also where the last row is earlier.",
+        "result end = last(x(arm.tip)) in mm\nanalysis from 0 s to 1 s every 10 ms",
+    ),
+    ReductionWord {
+        takes: "a formula and a time",
+        arguments: 2,
+        ..reduction(
+            "at",
+            &["at(e, T)"],
+            "the value of a formula at a time",
+            "The time is a constant within the analysis.",
+            "result halfway = at(x(arm.tip), 0.5 s) in mm\nanalysis from 0 s to 1 s every 10 ms",
+        )
+    },
+];

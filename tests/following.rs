@@ -1,0 +1,546 @@
+//! Emitted code that follows inputs: what it makes of an encoder's samples is what `mechc run` makes of them, and what it refuses leaves
+//! the state as it was.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+#[path = "emitted/compiling.rs"]
+mod compiling;
+
+use compiling::{Emitted, compile};
+use mechc::{Choice, Memory, Parsed, RustOptions};
+use std::fmt::Write;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+use support::all_rows;
+
+fn text_of(name: &str) -> String {
+    fs::read_to_string(format!("tests/following/{name}.mech")).expect("a text")
+}
+
+fn emitted(text: &str) -> Emitted {
+    Emitted::of("machine".to_owned(), text, Path::new("machine.mech"), 0).expect("determined")
+}
+
+/// What a program prints that has a module, which firmware could have, and that module's names.
+fn printed(module: &str, program: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [firmware, source, binary] = ["firmware.rs", "main.rs", "main"].map(|name| folder.path().join(name));
+    fs::write(&firmware, format!("#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n{module}"))
+        .expect("written");
+    let out = folder.path().join("firmware.rmeta");
+    let arguments = ["--crate-type", "lib", "--emit", "metadata", "-o", &out.to_string_lossy()];
+    compile("rustc", &arguments, &firmware).unwrap_or_else(|why| panic!("{why}"));
+    fs::write(folder.path().join("machine.rs"), module).expect("written");
+    fs::write(&source, format!("#![allow(dead_code)]\nmod machine;\nuse machine::*;\n{program}")).expect("written");
+    compile("rustc", &["-o", &binary.to_string_lossy()], &source).unwrap_or_else(|why| panic!("{why}"));
+    let output = Command::new(&binary).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text").lines().map(str::to_owned).collect()
+}
+
+/// Numbers of a line.
+fn numbers(line: &str) -> Vec<f64> {
+    line.split_whitespace().map(|word| word.parse().unwrap_or_else(|_| panic!("{word} in {line}"))).collect()
+}
+
+/// What an encoder of 4096 counts a turn makes of a signal that goes forth and back, with a jitter of a count.
+fn encoder(k: usize, signal: usize) -> f64 {
+    let count = std::f64::consts::TAU / 4096.0;
+    let t = 1e-3 * k as f64;
+    let sin = |x: f64| mechc::rooms::math::sin_cos(x).0;
+    let way = [0.52, 1.571, 3.665, 5.76][signal] + 0.12 * sin(1.3 * t + 2.0 * signal as f64) * sin(7.0 * t);
+    let jitter = [0.0, 1.0, 0.0, -1.0, 1.0, 0.0, 0.0][(k * (3 + signal)) % 7];
+    ((way / count).round() + jitter) * count
+}
+
+/// Holds a mechanism that follows an encoder's samples against `mechc run --samples`.
+fn follows_samples(name: &str, inputs: &[(&str, usize)], fields: &[&str], has_time: bool) {
+    const SAMPLES: usize = 400;
+    let mut csv = format!("t,{}\n", inputs.iter().map(|(name, _)| *name).collect::<Vec<_>>().join(","));
+    for k in 0..SAMPLES {
+        let values: Vec<String> = inputs.iter().map(|(_, signal)| format!("{:?}", encoder(k, *signal))).collect();
+        writeln!(csv, "{:?},{}", 1e-3 * k as f64, values.join(",")).expect("a string takes everything");
+    }
+    let (choice, world) = (
+        Choice { samples: Some("samples.csv".into()), ..Choice::default() },
+        Memory::default().with("samples.csv", csv),
+    );
+    let text = text_of(name).replace("to 3 s", "to 0.399 s");
+    let checked = Parsed::of("machine.mech", &text).check(&choice, &world);
+    let (compiled, said) = checked.compile(mechc::Redundant::Refused, &mechc::Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()));
+    let (rows, stop) = all_rows(&compiled, &compiled.times().expect("times"));
+    assert!(stop.is_none() && rows.len() == SAMPLES, "{} rows", rows.len());
+    let columns = compiled.columns();
+    let at = |column: String| columns.iter().position(|name| *name == column).expect("a column");
+    // what the splines through the samples say is what firmware would have to know
+    let mut program = format!("const SAMPLES: [[f64; {}]; {SAMPLES}] = [\n", 1 + 3 * inputs.len());
+    for row in &rows {
+        let asked = |(k, _): (usize, _)| if inputs.len() == 1 { "asked".to_owned() } else { format!("asked_{k}") };
+        let signal = |name: String| [name.clone(), format!("{name}.d"), format!("{name}.dd")].map(|name| row[at(name)]);
+        let values: Vec<f64> = inputs.iter().enumerate().map(asked).flat_map(signal).collect();
+        writeln!(program, "{:?},", [&row[..1], &values].concat()).expect("a string takes everything");
+    }
+    let mut given = String::new();
+    for (k, field) in fields.iter().enumerate() {
+        let [value, rate, acceleration] = [1, 2, 3].map(|order| format!("s[{}]", 3 * k + order));
+        write!(given, "{field}: Signal {{ value: {value}, rate: {rate}, acceleration: {acceleration} }}, ")
+            .expect("a string takes everything");
+    }
+    given += if has_time { "t: s[0]" } else { "" };
+    write!(
+        program,
+        "];\nfn main() {{
+    let mut state = assemble(&Params::default()).unwrap();
+    for s in SAMPLES {{
+        follow(&Inputs {{ {given} }}, &mut state).unwrap();
+        let row: Vec<String> = state.row().iter().map(|x| format!(\"{{x:?}}\")).collect();
+        println!(\"{{}}\", row.join(\" \"));
+    }}
+}}\n"
+    )
+    .expect("a string takes everything");
+    // the module is that of the file: it knows nothing of samples
+    let lines = printed(&emitted(&text_of(name)).text(None), &program);
+    assert_eq!(lines.len(), SAMPLES);
+    let mut held = 0;
+    for (line, row) in lines.iter().zip(&rows) {
+        let got = numbers(line);
+        for (k, (got, wanted)) in got.iter().zip(row).enumerate().skip(1) {
+            if got.is_nan() {
+                assert!(columns[k].starts_with("push."), "{} at {}", columns[k], row[0]);
+                continue;
+            }
+            assert!((got - wanted).abs() <= 1e-9 * (1.0 + wanted.abs()), "{}: {got} is not {wanted}", columns[k]);
+            held += 1;
+        }
+    }
+    assert!(held > 20 * SAMPLES, "{held} numbers");
+}
+
+#[test]
+fn a_four_bar_follows_its_encoder() {
+    follows_samples("four_bar", &[("turn", 0)], &["turn"], false);
+}
+
+#[test]
+fn a_platform_follows_three_encoders() {
+    let names = [("crank[0]", 1), ("crank[1]", 2), ("crank[2]", 3)];
+    follows_samples("platform", &names, &["crank_0", "crank_1", "crank_2"], false);
+}
+
+#[test]
+fn a_slider_crank_follows_its_encoder_and_the_time() {
+    follows_samples("slider_crank", &[("turn", 0)], &["turn"], true);
+}
+
+/// A program that goes along the text's own formulas by `step` and by `follow`, forth and back.
+const BOTH: &str = r#"
+fn main() {
+    let p = Params::default();
+    let (mut a, mut b) = (assemble(&p).unwrap(), assemble(&p).unwrap());
+    let forth_and_back = (1..=150).chain((0..150).rev());
+    for k in forth_and_back {
+        let t = START_TIME + 0.02 * f64::from(k);
+        step(t, &mut a).unwrap();
+        let inputs = Inputs::at(t, &p);
+        follow(&inputs, &mut b).unwrap();
+        assert_eq!(b.inputs(), inputs);
+        let (x, y) = (a.row(), b.row());
+        for i in 1..COLUMNS {
+            println!("{i} {:?} {:?}", x[i], y[i]);
+        }
+        let (x, y) = (influence(&a).unwrap(), influence(&b).unwrap());
+        assert_eq!(x, y);
+        let shifted = |shift: f64| {
+            let mut state = b.clone();
+            let mut inputs = b.inputs();
+            inputs.SIGNAL.value += shift;
+            follow(&inputs, &mut state).unwrap();
+            state
+        };
+        let (plus, minus, k) = (shifted(1e-4), shifted(-1e-4), input::INDEX);
+        for i in 0..N {
+            let slope = (plus.q()[i] - minus.q()[i]) / 2e-4;
+            println!("0 {slope:?} {:?}", y[k][i]);
+        }
+    }
+    // time takes up where it is
+    let (mut c, t) = (b.clone(), b.t());
+    step(t + 0.1, &mut c).unwrap();
+    let mut d = assemble(&p).unwrap();
+    step(t + 0.1, &mut d).unwrap();
+    assert_eq!(c.row().map(f64::to_bits), d.row().map(f64::to_bits));
+}
+"#;
+
+/// `follow` goes where `step` goes, and `influence` is what differences of `follow` say.
+fn goes_where_step_goes(name: &str, signal: &str, index: &str, largest_straight: usize) {
+    let text = emitted(&text_of(name)).text_of(None, largest_straight);
+    let lines = printed(&text, &BOTH.replace("SIGNAL", signal).replace("INDEX", index));
+    let mut count = [0; 2];
+    for line in lines {
+        let [what, a, b] = numbers(&line)[..] else { panic!("{line}") };
+        let is_slope = what == 0.0;
+        // what the third derivative of an input decides is left out
+        let is_same =
+            if is_slope { (a - b).abs() < 1e-6 * (1.0 + a.abs()) } else { (a - b).abs() < 1e-11 * (1.0 + a.abs()) };
+        assert!(is_same || (b.is_nan() && !a.is_nan()), "{name}: {line}");
+        count[usize::from(is_slope)] += 1;
+    }
+    assert!(count[0] > 5000 && count[1] > 2000, "{count:?}");
+}
+
+#[test]
+fn to_follow_the_texts_inputs_is_to_step() {
+    goes_where_step_goes("four_bar", "turn", "TURN", mechc::LARGEST_STRAIGHT);
+    goes_where_step_goes("platform", "crank_1", "CRANK_1", mechc::LARGEST_STRAIGHT);
+    goes_where_step_goes("slider_crank", "turn", "TURN", mechc::LARGEST_STRAIGHT);
+}
+
+#[test]
+fn what_is_written_as_numbers_follows_as_well() {
+    goes_where_step_goes("platform", "crank_1", "CRANK_1", 0);
+    goes_where_step_goes("slider_crank", "turn", "TURN", 0);
+}
+
+/// A crank whose driver is a formula of an input, and a rocker that it moves.
+fn driven(rod: &str, formula: &str) -> String {
+    text_of("four_bar").replace("rotation(main) = turn", &format!("rotation(main) = {formula}")).replace("3.5 m", rod)
+}
+
+/// What becomes of a way to some inputs, and whether the state is then as it was.
+const WAYS: &str = r#"
+fn main() {
+    let mut state = assemble(&Params::default()).unwrap();
+    let to = |turn: f64| Inputs { turn: Signal { value: turn, rate: 0.5, acceleration: 0.1 } };
+    follow(&to(FIRST), &mut state).unwrap();
+    for turn in WAYS {
+        let (row, inputs) = (state.row(), state.inputs());
+        let mut twin = state.clone();
+        let result = follow(&to(turn), &mut state);
+        let is_as_before = state.row().map(f64::to_bits) == row.map(f64::to_bits) && state.inputs() == inputs;
+        // and it goes on as if nothing had been
+        let on = |state: &mut State| follow(&to(FIRST + 0.01), state).map(|()| state.row().map(f64::to_bits));
+        let goes_on = if result.is_err() { on(&mut state) == on(&mut twin) } else { true };
+        follow(&to(FIRST), &mut state).ok();
+        println!("{result:?} {is_as_before} {goes_on}");
+    }
+}
+"#;
+
+fn ways(text: &str, first: &str, ways: &str) -> Vec<String> {
+    let text = text.replace("input turn = 30 deg", &format!("input turn = {first}"));
+    printed(&emitted(&text).text(None), &WAYS.replace("FIRST", first).replace("WAYS", ways))
+}
+
+#[test]
+fn beyond_a_dead_point_it_locks_up_and_stays_where_it_was() {
+    // a crank that cannot turn round: the rod and the rocker come into line
+    let text = driven("1.5 m", "turn");
+    let found = ways(&text, "0.6", "[2.5, -2.5, 0.7, 100.0, 0.6 + 1e-7]");
+    let [lock, ok] = ["Err(LockUp) true true", "Ok(()) false true"];
+    assert_eq!(found, [lock, lock, ok, lock, ok]);
+}
+
+#[test]
+fn a_jump_is_told_and_a_kink_is_passed() {
+    let [jump, ok] = ["Err(NotSmooth) true true", "Ok(()) false true"];
+    let text = driven("3.5 m", "if turn < 1 then turn else turn + 0.3");
+    assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 0.999, 1.0, 3.0]"), [ok, jump, ok, jump, jump]);
+    assert_eq!(ways(&text, "1.6", "[1.2, 0.9, 1.0, 0.0, 3.0]"), [ok, jump, ok, jump, ok]);
+    let text = driven("3.5 m", "if turn < 1 then turn else 3 * turn - 2");
+    assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 1.0, 0.2, 2.0]"), [ok; 5]);
+    // by the cut of an arc tangent, which no comparison tells of
+    let text = driven("3.5 m", "0.2 * atan2(sin(turn), cos(turn))");
+    assert_eq!(ways(&text, "3.0", "[3.1, 3.2, 2.0, 9.0]"), [ok, jump, ok, jump]);
+    let text = driven("3.5 m", "sqrt(turn^2)");
+    assert_eq!(ways(&text, "0.6", "[0.2, -0.5, 2.0]"), [ok; 3]);
+}
+
+#[test]
+fn where_there_is_no_number_there_is_no_way() {
+    let text = driven("3.5 m", "1.2 * sqrt(turn)");
+    let [none, ok] = ["Err(NotANumber) true true", "Ok(()) false true"];
+    assert_eq!(ways(&text, "0.6", "[0.2, -0.5, f64::NAN, f64::INFINITY, 1.0]"), [ok, none, none, none, ok]);
+}
+
+#[test]
+fn so_many_steps_are_kept_and_the_same_call_goes_on() {
+    let lines = printed(
+        &emitted(&text_of("four_bar")).text(None),
+        r#"
+fn main() {
+    let mut whole = assemble(&Params::default()).unwrap();
+    let mut parts = whole.clone();
+    let far = Inputs { turn: Signal { value: 20.0, rate: 1.0, acceleration: 2.0 } };
+    follow(&far, &mut whole).unwrap();
+    let mut before = parts.inputs().turn.value;
+    for calls in 0.. {
+        assert!(calls < 1000);
+        match follow_within(&far, &mut parts, 4) {
+            Ok(()) => break,
+            Err(error) => assert_eq!(error, Error::TooFar),
+        }
+        let now = parts.inputs().turn.value;
+        assert!(now >= before && now < 20.0);
+        before = now;
+        println!("{now}");
+    }
+    for (a, b) in whole.row().iter().zip(parts.row()).skip(1) {
+        assert!(a.is_nan() || a.to_bits() == b.to_bits(), "{a} {b}");
+    }
+    // to stay is a way too: it takes the new rates
+    let rest = Inputs { turn: Signal { rate: 0.0, acceleration: 0.0, ..far.turn } };
+    follow(&rest, &mut whole).unwrap();
+    assert!(whole.qd().iter().chain(whole.qdd()).all(|x| *x == 0.0) && whole.q() == parts.q());
+}
+"#,
+    );
+    assert!(lines.len() >= 5, "{lines:?}");
+}
+
+#[test]
+fn lanes_follow_as_each_alone() {
+    let lines = printed(
+        &emitted(&text_of("slider_crank")).text(Some(3)),
+        r#"
+fn main() {
+    let params: [Params; 3] =
+        std::array::from_fn(|k| Params { crank_length: 0.05 - 0.002 * k as f64, ..Params::default() });
+    let mut all = lanes::assemble(&params).unwrap().0;
+    let mut each = params.map(|params| assemble(&params).unwrap());
+    for row in 0..200 {
+        let times: [f64; 3] = std::array::from_fn(|k| 0.01 * f64::from(row) * (1.0 + 0.1 * k as f64));
+        // inputs, time, and what cannot be
+        let lost = Inputs { t: f64::NAN, ..Inputs::default() };
+        let done = match row % 5 {
+            0 => lanes::step_each(&times, &mut all),
+            1 => lanes::follow_each(&[lost; 3], &mut all),
+            _ => lanes::follow_each(&std::array::from_fn(|k| Inputs::at(times[k], &params[k])), &mut all),
+        };
+        for (k, state) in each.iter_mut().enumerate() {
+            let alone = match row % 5 {
+                0 => step(times[k], state),
+                1 => follow(&lost, state),
+                _ => follow(&Inputs::at(times[k], &params[k]), state),
+            };
+            assert_eq!(alone, done[k], "{row}");
+            let lane = all.get(k).unwrap();
+            assert_eq!(lane.row().map(f64::to_bits), state.row().map(f64::to_bits), "lane {k} at {}", times[k]);
+            assert_eq!(lane.inputs(), state.inputs());
+        }
+        println!("{}", all.t()[0]);
+    }
+}
+"#,
+    );
+    assert_eq!(lines.len(), 200);
+}
+
+/// The largest difference of `sensitivity` and differences of assembled variants, led by time and then by inputs.
+fn sensitivities(text: &str, fields: [&str; 2], is_led: bool) -> Vec<[f64; 2]> {
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let (module, said) = emitted(text).compiled.rust(&options);
+    let module = module.unwrap_or_else(|| panic!("{said:?}"));
+    let program = r#"
+fn main() {
+    let p = Params::default();
+    for is_led in LED {
+        let at = |p: Params| {
+            let mut state = assemble(&p).unwrap();
+            if is_led { LEAD } else { step(0.3, &mut state).unwrap() }
+            state
+        };
+        let state = at(p);
+        let by = sensitivity(&p, &state).unwrap();
+        let h = 1e-5;
+        let variants = [Params { FIRST: p.FIRST + h, ..p }, Params { FIRST: p.FIRST - h, ..p },
+            Params { SECOND: p.SECOND + h, ..p }, Params { SECOND: p.SECOND - h, ..p }].map(at);
+        for i in 0..N {
+            for (k, [plus, minus]) in [(param::FIRST_INDEX, [0, 1]), (param::SECOND_INDEX, [2, 3])] {
+                let slope = (variants[plus].q()[i] - variants[minus].q()[i]) / (2.0 * h);
+                println!("{slope:?} {:?}", by[k][i]);
+            }
+        }
+        // others than the state's own are those of a position beside it
+        let beside = sensitivity(variants[0].params(), &state).unwrap();
+        assert_ne!(beside, by);
+        println!("{:?} {:?}", beside[0][3], sensitivity(variants[0].params(), &variants[0]).unwrap()[0][3]);
+        assert_eq!(sensitivity(&Params { FIRST: f64::NAN, ..p }, &state), Err(Error::NotANumber));
+    }
+}
+"#;
+    let lead = if is_led { "follow(&Inputs::at(0.3, &Params::default()), &mut state).unwrap()" } else { "()" };
+    let program = program
+        .replace("LED", if is_led { "[false, true]" } else { "[false]" })
+        .replace("LEAD", lead)
+        .replace("FIRST_INDEX", &fields[0].to_uppercase())
+        .replace("SECOND_INDEX", &fields[1].to_uppercase())
+        .replace("FIRST", fields[0])
+        .replace("SECOND", fields[1]);
+    let lines = printed(&module, &program);
+    let pair = |line: &String| <[f64; 2]>::try_from(numbers(line)).expect("two numbers");
+    lines.iter().map(pair).collect()
+}
+
+#[test]
+fn sensitivities_are_what_differences_say() {
+    let by_speed = text_of("four_bar")
+        .replace("param crank_length", "param sway = 1.5\n    param crank_length")
+        .replace("1.5 rad", "sway * 1 rad");
+    let formula = "30 deg + sway * 1 rad * sin(2 rad/s * t)";
+    let by_time =
+        by_speed.replace(&format!("    input turn = {formula}\n"), "").replace("= turn", &format!("= {formula}"));
+    let found = [
+        // the input's formula counts as long as nobody leads
+        sensitivities(&by_speed, ["crank_length", "sway"], true),
+        sensitivities(&text_of("slider_crank"), ["crank_length", "rod_length"], true),
+        sensitivities(&by_time, ["crank_length", "sway"], false),
+    ];
+    for (found, count) in found.iter().zip([2 * 19, 2 * 25, 19]) {
+        assert_eq!(found.len(), count);
+        assert!(found.iter().any(|[slope, _]| slope.abs() > 0.1));
+        for [slope, got] in found {
+            assert!((slope - got).abs() < 1e-6 * (1.0 + slope.abs()), "{slope} {got}");
+        }
+    }
+    // the same equations: the same numbers, however they are led
+    assert_eq!(
+        found[0][..19].iter().map(|[_, got]| *got).collect::<Vec<_>>(),
+        found[2].iter().map(|[_, got]| *got).collect::<Vec<_>>()
+    );
+}
+
+#[test]
+fn sensitivities_that_are_not_there_are_told() {
+    let why = |text: &str, straight: usize| {
+        let options =
+            RustOptions { with_sensitivities: true, largest_straight: straight, ..RustOptions::of("machine.mech") };
+        let (module, said) = emitted(text).compiled.rust(&options);
+        assert!(module.is_none());
+        said.iter().map(|said| said.message.clone()).collect::<Vec<String>>().join("\n")
+    };
+    let text = text_of("slider_crank");
+    assert!(why(&text.replace("(2, 4 mm)", "(2, 0.1 * crank_length)"), 100_000).contains("table `lift`"));
+    assert!(why(&text, 0).contains("up to 0 operations"));
+    let without = text.replace("    param crank_length = 50 mm\n    param rod_length   = 150 mm\n", "");
+    let without = without.replace("crank_length", "50 mm").replace("rod_length", "150 mm");
+    assert!(why(&without, 100_000).contains("has no parameters"));
+}
+
+/// Names of a kind in an emitted module, with what they are of: fields, constants, variants.
+fn emitted_names(text: &str) -> Vec<[String; 2]> {
+    let options = RustOptions { with_sensitivities: true, ..RustOptions::of("machine.mech") };
+    let module = emitted(text).compiled.rust(&options).0.expect("a module");
+    let lines: Vec<&str> = module.lines().map(str::trim).collect();
+    let mut found = Vec::new();
+    let mut group = "";
+    for pair in lines.windows(2) {
+        let is_group = ["pub struct ", "pub enum ", "pub mod "].iter().any(|word| pair[0].starts_with(word));
+        group = if is_group { pair[0] } else { group };
+        let Some((source, _)) = pair[0].strip_prefix("/// ").and_then(|docs| docs.split_once('`')?.1.split_once('`'))
+        else {
+            continue;
+        };
+        let declared = pair[1].trim_start_matches("pub ").trim_start_matches("const ");
+        let name: String = declared.chars().take_while(|c| c.is_ascii_alphanumeric() || *c == '_').collect();
+        if ["pub const ", "pub "].iter().any(|word| pair[1].starts_with(word)) || pair[1].ends_with(',') {
+            found.push([format!("{group} {source}"), name]);
+        }
+    }
+    found
+}
+
+#[test]
+fn a_new_declaration_changes_no_name_of_another() {
+    let text = "mechanism machine {
+            param leg_0_reach = 1 m
+            param Reach = 1 m
+            param A = (0, 0)
+            input leg_0_turn = t / 1 s
+            input swing[k in 0..2] = k + t / 1 s
+            ground { point O = (0, 0) }
+            body leg[k in 0..2] at (0, 0, 0) { point O = (0, 0)  point foot = (Reach + leg_0_reach + A.x, 0) }
+            joint pivot[k in 0..2]: revolute(ground.O, leg[k].O)
+            driver motor_0: rotation(pivot[0]) = leg_0_turn + swing[0]
+            driver motor_1: rotation(pivot[1]) = swing[1]
+            measure leg_0_x = x(leg[0].foot)
+            //+
+        }";
+    let before = emitted_names(text);
+    assert!(before.len() > 30, "{before:?}");
+    let added = [
+        "param reach = 2 m",
+        "param a_x = 2 m",
+        "param fn_ = 2",
+        "input turn = 2",
+        "input motor[k in 0..2] = k",
+        "input swing_0_turn = 1",
+        "measure leg_1_x = t / 1 s",
+        "measure leg_0_X = t / 1 s",
+        "measure leg_x[k in 0..2] = k * t",
+        "body arm at (0, 0, 0) { point O = (0, 0) }  joint hinge: revolute(ground.O, arm.O)  driver d: rotation(hinge) = t",
+        "body Leg_0 at (0, 0, 0) { point O = (0, 0) }  joint Pivot_0: revolute(ground.O, Leg_0.O)  driver Motor_0: rotation(Pivot_0) = t",
+        "body wing[k in 0..2] at (0, 0, 0) { point O = (0, 0) }  joint motor_0_1[k in 0..2]: revolute(ground.O, wing[k].O)
+         driver motor_2[k in 0..2]: rotation(motor_0_1[k]) = t",
+    ];
+    // a path gives way to what spells it, and of two that are alike the second
+    let gives_way = |declaration: &str, is_first: bool, source: &str| {
+        (declaration.contains("a_x") && source.ends_with(" A.x"))
+            || (declaration.contains("Leg_0") && (source.contains("leg[0]") || source.contains("pivot[0]")))
+            || (is_first && declaration.contains("Leg_0") && source.contains("motor_0"))
+            || (is_first && declaration.contains("reach = ") && source.ends_with(" Reach"))
+            || (is_first && declaration.contains("leg_0_X") && source.ends_with(" leg_0_x"))
+    };
+    for declaration in added {
+        // in front of all others, and behind them
+        for place in ["mechanism machine {", "//+"] {
+            let after = emitted_names(&text.replacen(place, &format!("{place}\n{declaration}\n"), 1));
+            assert!(after.len() > before.len(), "{declaration}");
+            for [source, name] in &before {
+                let now = after.iter().find(|[known, _]| known == source).unwrap_or_else(|| panic!("no {source}"));
+                assert!(
+                    now[1] == *name || gives_way(declaration, place != "//+", source),
+                    "{declaration}: {source} was {name}, is {}",
+                    now[1]
+                );
+            }
+            // and what meets is told apart
+            let mut all: Vec<(&str, &String)> =
+                after.iter().map(|[source, name]| (source.rsplit_once(' ').expect("a group").0, name)).collect();
+            let count = all.len();
+            all.sort_unstable();
+            all.dedup();
+            assert_eq!(all.len(), count, "{declaration}: {after:?}");
+        }
+    }
+    // a plain name keeps it, whichever comes first
+    for declarations in ["param a_x = 2 m\n", ""] {
+        let text = text.replace("            param Reach", &format!("            {declarations}param Reach"));
+        let names = emitted_names(&text);
+        let of = |source: &str| {
+            names
+                .iter()
+                .find(|[known, _]| known.starts_with("pub struct Params") && known.ends_with(source))
+                .map(|found| found[1].clone())
+        };
+        let has = !declarations.is_empty();
+        assert_eq!(of(" A.x").as_deref(), Some(if has { "a_x_2" } else { "a_x" }));
+        assert_eq!(of(" a_x").as_deref(), has.then_some("a_x"));
+    }
+}
+
+#[test]
+fn without_inputs_there_is_nothing_to_follow() {
+    let text = text_of("four_bar");
+    let formula = "30 deg + 1.5 rad * sin(2 rad/s * t)";
+    let plain = text.replace(&format!("    input turn = {formula}\n"), "").replace("= turn", &format!("= {formula}"));
+    let (with, without) = (emitted(&text).text(Some(2)), emitted(&plain).text(Some(2)));
+    for word in ["follow(", "Inputs", "influence(", "is_led", "Signal"] {
+        assert!(with.contains(word) && !without.contains(word), "{word}");
+    }
+}

@@ -1,0 +1,555 @@
+//! Results: numbers for the whole analysis, against closed forms and reference answers.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+
+mod support;
+
+use mechc::rooms::math::sin_cos;
+use mechc::{Answers, RunOptions, Times};
+use std::f64::consts::{PI, TAU};
+use support::compiled;
+
+/// An arm of 1 m that turns by a formula of time, with declarations beside it.
+fn arm(turn: &str, declarations: &str) -> String {
+    format!(
+        "mechanism m {{
+    ground {{ point O = (0, 0) }}
+    body arm {{ point O = (0, 0) point tip = (1 m, 0) }}
+    joint main: revolute(ground.O, arm.O)
+    driver motor: rotation(main) = {turn}
+    {declarations}
+}}"
+    )
+}
+
+/// A crank-rocker that turns once a second.
+fn four_bar(declarations: &str) -> String {
+    format!(
+        "mechanism m {{
+    ground {{ point A = (0, 0) point D = (80 mm, 0) }}
+    body crank at (0, 0, 40 deg) {{ point A = (0, 0) point B = (30 mm, 0) }}
+    body coupler at (23 mm, 19 mm, 33 deg) {{ point B = (0, 0) point C = (70 mm, 0) point P = (40 mm, 25 mm) }}
+    body rocker at (80 mm, 0, 88 deg) {{ point D = (0, 0) point C = (60 mm, 0) }}
+    joint main: revolute(ground.A, crank.A)
+    joint pin: revolute(crank.B, coupler.B)
+    joint knee: revolute(coupler.C, rocker.C)
+    joint pivot: revolute(ground.D, rocker.D)
+    driver motor: rotation(main) = 40 deg + 1 rev/s * t
+    {declarations}
+}}"
+    )
+}
+
+/// The results of a text over an analysis from 0 s on, with steps of a length, and its rows.
+fn answers(text: &str, [to, every]: [f64; 2]) -> (Answers, Vec<Vec<f64>>) {
+    let compiled = compiled("m", text);
+    let times = Times::grid(0.0, to, every).expect("a grid");
+    let mut run = compiled.run(&times, &RunOptions::default()).0.expect("it assembles");
+    let mut rows = Vec::new();
+    while let Some(row) = run.next_row() {
+        match row {
+            Ok(row) => rows.push(row.to_vec()),
+            Err(_) => break,
+        }
+    }
+    (run.results().expect("results of a grid"), rows)
+}
+
+fn values(text: &str, to: f64) -> Vec<f64> {
+    let (answers, _) = answers(text, [to, 0.1 * to]);
+    answers.values.iter().map(|value| value.unwrap_or_else(|| panic!("{:?}", answers.notes))).collect()
+}
+
+#[track_caller]
+fn check(text: &str, to: f64, wanted: &[(f64, f64)]) {
+    let found = values(text, to);
+    assert_eq!(found.len(), wanted.len());
+    for (k, (found, (wanted, tolerance))) in found.iter().zip(wanted).enumerate() {
+        assert!(
+            (found - wanted).abs() <= *tolerance,
+            "result {k}: {found:?} instead of {wanted:?}, off by {:e}",
+            found - wanted
+        );
+    }
+}
+
+fn sin(x: f64) -> f64 {
+    sin_cos(x).0
+}
+
+fn cos(x: f64) -> f64 {
+    sin_cos(x).1
+}
+
+#[test]
+fn each_reduction_of_a_turning_arm_is_its_closed_form() {
+    let text = arm(
+        "1 rad/s * t + 1",
+        "result a = max(x(arm.tip)) result b = min(x(arm.tip)) result c = argmax(x(arm.tip)) result d = argmin(x(arm.tip))
+         result e = mean(x(arm.tip)) result f = rms(x(arm.tip)) result g = integral(x(arm.tip))
+         result h = first(x(arm.tip)) result i = last(x(arm.tip)) result j = at(x(arm.tip), 2.5)
+         result k = max(y(arm.tip)) - min(y(arm.tip)) result l = sqrt(mean(x(arm.tip)^2)) - rms(x(arm.tip))",
+    );
+    let to = 7.25;
+    let integral = sin(to + 1.0) - sin(1.0);
+    let square = 0.5 * to + 0.25 * (sin(2.0 * (to + 1.0)) - sin(2.0));
+    check(
+        &text,
+        to,
+        &[
+            (1.0, 1e-15),
+            (-1.0, 1e-15),
+            (TAU - 1.0, 1e-11),
+            (PI - 1.0, 1e-11),
+            (integral / to, 1e-12),
+            ((square / to).sqrt(), 1e-12),
+            (integral, 1e-11),
+            (cos(1.0), 1e-15),
+            (cos(to + 1.0), 1e-14),
+            (cos(3.5), 1e-15),
+            (2.0, 1e-15),
+            (0.0, 1e-15),
+        ],
+    );
+}
+
+#[test]
+fn velocities_accelerations_and_jerks_are_reduced_too() {
+    let text = arm(
+        "2 rad/s * t",
+        "measure v = der(x(arm.tip)) measure a = der(v) measure j = der(a)
+         result v_max = max(v) result v_when = argmax(v) result v_mean = rms(v)
+         result a_max = max(a) result a_when = argmax(a) result a_mean = rms(a)
+         result j_min = min(j) result j_when = argmin(j) result j_mean = rms(j)",
+    );
+    // v = −2 sin 2t, a = −4 cos 2t, j = 8 sin 2t
+    let half: f64 = 0.5_f64.sqrt();
+    check(
+        &text,
+        PI,
+        &[
+            (2.0, 1e-11),
+            (0.75 * PI, 1e-10),
+            (2.0 * half, 1e-10),
+            (4.0, 1e-11),
+            (0.5 * PI, 1e-10),
+            (4.0 * half, 1e-10),
+            (-8.0, 1e-8),
+            (0.75 * PI, 1e-4),
+            (8.0 * half, 1e-8),
+        ],
+    );
+}
+
+#[test]
+fn results_do_not_depend_on_the_output_step() {
+    let text = four_bar(
+        "measure lean = rotation(pivot)
+         result swing = max(lean) - min(lean) result when = argmax(lean) result level = mean(y(coupler.P))
+         result fast = max(hypot(der(x(coupler.P)), der(y(coupler.P)))) result ripple = max(x(coupler.P) + 0.01 * sin(1000 * t))
+         result size = rms(sin(1000 * t) * x(coupler.P)) result last = last(lean)",
+    );
+    let (first, _) = answers(&text, [1.0, 0.1]);
+    assert!(first.values.iter().all(Option::is_some), "{:?}", first.notes);
+    for (every, count) in [(0.033, 31), (0.01, 101), (1e-3, 1001), (1e-4, 10_001)] {
+        let (other, rows) = answers(&text, [1.0, every]);
+        assert_eq!(rows.len(), count);
+        assert_eq!(first.values, other.values, "every {every} s");
+    }
+}
+
+#[test]
+fn asking_for_results_changes_no_bit_of_a_row() {
+    let plain = four_bar("measure lean = rotation(pivot) measure far = x(coupler.P) * sin(lean)");
+    let asking = four_bar(
+        "measure lean = rotation(pivot) measure far = x(coupler.P) * sin(lean)
+         result a = max(der(der(y(coupler.P)))) result b = mean(cos(lean) * x(coupler.P)) result c = argmin(der(lean))",
+    );
+    let bits = |text: &str| {
+        let (_, rows) = answers(text, [1.0, 1e-3]);
+        rows.iter().flatten().map(|value| value.to_bits()).collect::<Vec<u64>>()
+    };
+    let compiled = compiled("m", &plain);
+    let times = Times::grid(0.0, 1.0, 1e-3).expect("a grid");
+    let run = compiled.run(&times, &RunOptions::default()).0.expect("it assembles");
+    let wanted: Vec<u64> = run.flat_map(|row| row.expect("it moves")).map(f64::to_bits).collect();
+    assert!(bits(&asking) == wanted);
+}
+
+#[test]
+fn peaks_that_no_step_shows_are_found() {
+    let text = arm(
+        "1 rad/s * t",
+        "result a = max(sin(1000 * t)) result b = argmax(sin(1000 * t)) result c = min(sin(1e5 * t + 1))
+         result d = argmax(x(arm.tip) + 0.001 * sin(1000 * t)) result e = max(sin(1000 * angle(arm)))
+         result f = mean(sin(1000 * t)^2) result g = integral(exp(-(1e4 * (t - 0.3))^2))
+         result h = argmax(exp(-(1e4 * (t - 0.3))^2)) result i = max(exp(-(1e4 * (t - 0.3))^2))",
+    );
+    // cos t + 0.001 sin 1000 t: the second term wins where its slope, 1, is far above sin t
+    let d = newton(PI / 2000.0, |t| (-sin(t) + cos(1000.0 * t), -cos(t) - 1000.0 * sin(1000.0 * t)));
+    check(
+        &text,
+        1.0,
+        &[
+            (1.0, 1e-15),
+            (PI / 2000.0, 1e-11),
+            (-1.0, 1e-15),
+            (d, 1e-10),
+            (1.0, 1e-12),
+            (0.5 - sin(2000.0) / 4000.0, 1e-11),
+            (PI.sqrt() / 1e4, 1e-13),
+            (0.3, 1e-10),
+            (1.0, 1e-13),
+        ],
+    );
+}
+
+fn newton(mut t: f64, slope: impl Fn(f64) -> (f64, f64)) -> f64 {
+    for _ in 0..20 {
+        let (value, rise) = slope(t);
+        t -= value / rise;
+    }
+    t
+}
+
+#[test]
+fn of_ties_the_first_counts_and_of_a_rest_its_beginning() {
+    // rises in the first second, rests for one, and comes back
+    let turn = "if t < 1 s then step5(t, 0 s, 0, 1 s, 1) else if t < 2 s then 1 else step5(t, 2 s, 1, 3 s, 0)";
+    let text = arm(
+        turn,
+        "result a = argmax(angle(arm)) result b = max(angle(arm)) result c = argmin(angle(arm)) result d = argmax(sin(6 * t))
+         result e = argmax(min(angle(arm), 0.5)) result f = argmin(abs(angle(arm) - 0.5)) result g = mean(angle(arm))",
+    );
+    check(
+        &text,
+        3.0,
+        &[(1.0, 1e-9), (1.0, 1e-12), (0.0, 0.0), (PI / 12.0, 1e-10), (0.5, 1e-6), (0.5, 1e-6), (2.0 / 3.0, 1e-10)],
+    );
+}
+
+#[test]
+fn formulas_with_kinks_and_jumps_are_reduced() {
+    let text = arm(
+        "1 rad/s * t",
+        "result a = max(abs(sin(3 * t))) result b = min(abs(sin(3 * t) - 0.5)) result c = argmin(abs(t - 0.3))
+         result d = integral(abs(sin(10 * t))) result e = integral(if t < 0.37 then 1 else 3) result f = max(if t < 0.37 then t else -t)
+         result g = argmax(if t < 0.37 then t else -t) result h = mean(10 * t - mod(10 * t, 1)) result i = max(mod(7 * t, 1))
+         result j = integral(sqrt(abs(t - 0.5)))",
+    );
+    let d = 2.0 * 3.0 / 10.0 + (1.0 + cos(10.0)) / 10.0;
+    check(
+        &text,
+        1.0,
+        &[
+            (1.0, 1e-15),
+            (0.0, 1e-9),
+            (0.3, 1e-6),
+            (d, 1e-10),
+            (0.37 + 3.0 * 0.63, 1e-10),
+            (0.37, 1e-9),
+            (0.37, 1e-9),
+            (4.5, 1e-9),
+            (1.0, 1e-9),
+            (2.0 * 2.0 / 3.0 * 0.5 * 0.5_f64.sqrt(), 1e-9),
+        ],
+    );
+}
+
+#[test]
+fn results_speak_of_each_other_and_are_repeated() {
+    let text = arm(
+        "1 rad/s * t",
+        "param n = 3
+         result spread = rms(x(arm.tip) - level) result level = mean(x(arm.tip)) result twice = 2 * spread + level
+         result nested = max(x(arm.tip) - mean(x(arm.tip))) result part[k in 0..n] = at(x(arm.tip), k * 0.5 s)",
+    );
+    let compiled = compiled("m", &text);
+    let names: Vec<String> = compiled.results().into_iter().map(|(name, _)| name).collect();
+    assert_eq!(names, ["spread", "level", "twice", "nested", "part[0]", "part[1]", "part[2]"]);
+    let to = 2.0;
+    let level = sin(to) / to;
+    let spread = (0.5 + sin(2.0 * to) / (4.0 * to) - level * level).sqrt();
+    check(
+        &text,
+        to,
+        &[
+            (spread, 1e-11),
+            (level, 1e-12),
+            (2.0 * spread + level, 1e-10),
+            (1.0 - level, 1e-11),
+            (1.0, 1e-15),
+            (cos(0.5), 1e-15),
+            (cos(1.0), 1e-15),
+        ],
+    );
+}
+
+#[test]
+fn a_quantity_that_does_not_exist_at_some_time_makes_a_result_null_and_says_when() {
+    // between all rows
+    let text = arm(
+        "1 rad/s * t",
+        "result a = max(1 / (t - 0.123)) result b = mean(1 / (t - 0.123)^2) result c = last(1 / (t - 0.123)) result d = max(x(arm.tip))
+         result e = a + d result f = min(sqrt(t - 0.5))",
+    );
+    let (answers, rows) = answers(&text, [1.0, 0.1]);
+    assert_eq!(rows.len(), 11);
+    let is_there: Vec<bool> = answers.values.iter().map(Option::is_some).collect();
+    assert_eq!(is_there, [false, false, true, true, false, false]);
+    let at: Vec<f64> = answers.notes.iter().map(|note| note.data["t"].as_f64().expect("a time")).collect();
+    for (at, wanted) in at.iter().zip([0.123, 0.123, 0.123, 0.0]) {
+        assert!((at - wanted).abs() < 1e-6, "{at}");
+    }
+    assert!(answers.notes.iter().all(|note| note.code.as_str() == "N0604"));
+}
+
+#[test]
+fn after_a_stop_all_are_null() {
+    // the slider is pulled beyond the reach of its rod
+    let text = "mechanism m {
+    ground { point O = (0, 0) axis way = O along (1, 0) }
+    body rod at (0, 0, 80 deg) { point O = (0, 0) point eye = (1 m, 0) }
+    body slider at (0.2 m, 1 m, 0) { axis slot = (0, 0) along (0, 1) axis way = (0, -1 m) along (1, 0) }
+    joint main: revolute(ground.O, rod.O)
+    joint touch: revolute_translational(rod.eye, slider.slot)
+    joint guide: translational(ground.way, slider.way)
+    driver pull: displacement(guide) = 0.2 m + 1 m/s * t
+    result a = max(angle(rod)) result b = first(angle(rod))
+}";
+    let (stopped, rows) = answers(text, [1.0, 0.1]);
+    assert!(rows.len() < 11);
+    assert_eq!(stopped.values, [None, None]);
+    // the last row is before the stop, the end of the analysis behind it
+    let (behind, rows) = answers(text, [0.95, 0.5]);
+    assert_eq!((rows.len(), behind.values.as_slice(), behind.notes.len()), (2, [None, None].as_slice(), 1));
+}
+
+#[test]
+fn times_alone_have_no_results_and_a_single_time_has_its_values() {
+    let text = arm(
+        "1 rad/s * t + 1",
+        "result a = max(x(arm.tip)) result b = argmin(x(arm.tip)) result c = mean(x(arm.tip)) result d = integral(x(arm.tip))
+         result e = rms(y(arm.tip)) result f = last(x(arm.tip))",
+    );
+    let compiled = compiled("m", &text);
+    let mut run = compiled.run(&Times::listed(0.0, vec![0.5]), &RunOptions::default()).0.expect("it assembles");
+    while run.next_row().is_some() {}
+    assert_eq!(run.results(), None);
+    let (answers, _) = answers(&text, [0.0, 0.1]);
+    assert_eq!(answers.values, [cos(1.0), 0.0, cos(1.0), 0.0, sin(1.0), cos(1.0)].map(Some));
+}
+
+#[test]
+fn a_time_outside_the_analysis_is_refused() {
+    let text = arm("1 rad/s * t", "result a = at(x(arm.tip), 2 s)");
+    let compiled = compiled("m", &text);
+    let codes = |to: f64| {
+        let (run, said) = compiled.run(&Times::grid(0.0, to, 0.1).expect("a grid"), &RunOptions::default());
+        assert_eq!(run.is_none(), said.has_errors());
+        said.iter().map(|fault| fault.code.as_str()).collect::<Vec<_>>()
+    };
+    assert_eq!(codes(1.0), ["E0422"]);
+    assert_eq!(codes(2.0), Vec::<&str>::new());
+}
+
+#[test]
+fn words_of_reductions_are_names_elsewhere_and_give_way_to_functions() {
+    let text = arm(
+        "1 rad/s * t",
+        "param result = 2 param at = 3 param first = 4 fn mean(u) = u + 100
+         measure last = result * at * x(arm.tip) measure argmax = first
+         result mean_of = mean(max(last)) result rms = rms(argmax) result trace = result",
+    );
+    check(&text, 1.0, &[(106.0, 1e-12), (4.0, 1e-12), (2.0, 0.0)]);
+}
+
+#[test]
+fn angles_at_a_point_are_reduced_in_all_quadrants() {
+    let text = arm(
+        "2 * t",
+        "measure corner = angle(ground.R, ground.O, arm.tip) measure turned = atan2(y(arm.tip), x(arm.tip))
+         result a = max(corner) result b = argmax(corner) result c = mean(corner) result d = mean(turned) result e = min(turned)",
+    )
+    .replace("point O = (0, 0) }\n    body", "point O = (0, 0) point R = (1 m, 0) }\n    body");
+    // 0 to 3 rad, and no farther
+    check(&text, 1.5, &[(3.0, 1e-12), (1.5, 1e-11), (1.5, 1e-11), (1.5, 1e-11), (0.0, 1e-12)]);
+}
+
+#[test]
+fn a_driver_in_quick_ripples_hides_nothing() {
+    // what follows without iteration is stepped over in large steps
+    let text = arm(
+        "0.3 * sin(800 * t) + t",
+        "result a = max(angle(arm)) result b = argmax(angle(arm)) result c = mean(angle(arm)) result d = max(der(angle(arm)))",
+    );
+    // the last ripple but the end: 240 cos 800 t = −1
+    let first = (mechc::rooms::math::acos(-1.0 / 240.0)) / 800.0;
+    let period = TAU / 800.0;
+    let last = (0..200).map(|k| first + f64::from(k) * period).rfind(|t| *t <= 1.0).expect("a ripple");
+    check(
+        &text,
+        1.0,
+        &[
+            (0.3 * sin(800.0 * last) + last, 1e-10),
+            (last, 1e-9),
+            (0.5 + 0.3 * (1.0 - cos(800.0)) / 800.0, 1e-10),
+            (241.0, 1e-8),
+        ],
+    );
+}
+
+#[test]
+fn a_speed_that_comes_to_rest_has_its_mean_and_its_least_value() {
+    // a point of a wheel that rolls on the ground: its speed is 2 |sin(t/2)|
+    let text = "mechanism m {
+    ground { point O = (0, 0) axis way = (0, 1 m) along (1, 0) }
+    body frame { axis way = (0, 0) along (1, 0) point hub = (0, 0) }
+    body wheel at (0, 1 m, 0) { point hub = (0, 0) point foot = (0, -1 m) }
+    joint guide: translational(ground.way, frame.way)
+    joint hub: revolute(frame.hub, wheel.hub)
+    driver roll: rotation(hub) = -1 rad/s * t
+    driver go: displacement(guide) = 1 m/s * t
+    result a = min(speed(wheel.foot)) result b = mean(speed(wheel.foot)) result c = integral(speed(wheel.foot))
+    result d = max(speed(wheel.foot)) result e = argmax(speed(wheel.foot)) result f = max(curvature(wheel.foot))
+}";
+    let (found, _) = answers(text, [10.0, 0.7]);
+    let way = 8.0 + 4.0 * (1.0 + cos(5.0)) - 0.0;
+    let wanted = [0.0, way / 10.0, way, 2.0, PI];
+    for (found, wanted) in found.values.iter().zip(wanted) {
+        let found = found.expect("a number");
+        assert!((found - wanted).abs() < 1e-8, "{found} instead of {wanted}");
+    }
+    // at rest there is no curvature
+    assert_eq!(found.values[5], None);
+}
+
+#[test]
+fn a_long_analysis_is_as_good_as_a_short_one() {
+    let text = four_bar(
+        "result a = max(rotation(pivot)) - min(rotation(pivot)) result b = argmax(y(coupler.P)) result c = mean(y(coupler.P))",
+    );
+    let (one, _) = answers(&text, [1.0, 0.5]);
+    let (many, _) = answers(&text, [150.0, 50.0]);
+    for (k, (one, many)) in one.values.iter().zip(&many.values).enumerate() {
+        let (one, many) = (one.expect("a number"), many.expect("a number"));
+        assert!((one - many).abs() < 1e-9, "result {k}: {one} once, {many} in many turns");
+    }
+}
+
+#[test]
+fn a_bifurcation_that_is_passed_is_looked_over() {
+    let text = "mechanism m {
+    ground { point A = (0, 0) point D = (1 m, 0) }
+    body crank at (0, 0, 60 deg) { point A = (0, 0) point B = (0.4 m, 0) }
+    body rod at (0.2 m, 0.346 m, 0) { point B = (0, 0) point C = (1 m, 0) point P = (0.5 m, 0) }
+    body rocker at (1 m, 0, 60 deg) { point D = (0, 0) point C = (0.4 m, 0) }
+    joint main: revolute(ground.A, crank.A)
+    joint pin: revolute(crank.B, rod.B)
+    joint knee: revolute(rod.C, rocker.C)
+    joint pivot: revolute(ground.D, rocker.D)
+    driver motor: rotation(main) = 60 deg + 1 rad/s * t
+    result a = max(x(rod.P)) result b = min(x(rod.P)) result c = mean(y(rod.P)) result d = argmin(x(rod.P))
+}";
+    let compiled = compiled("m", text);
+    let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
+    let mut run = compiled.run(&Times::grid(0.0, TAU, 0.1).expect("a grid"), &options).0.expect("it assembles");
+    while run.next_row().is_some_and(|row| row.is_ok()) {}
+    let answers = run.results().expect("results");
+    for (found, wanted) in answers.values.iter().zip([0.9, 0.1, 0.0, PI - PI / 3.0]) {
+        let found = found.unwrap_or_else(|| panic!("{:?}", answers.notes));
+        assert!((found - wanted).abs() < 1e-8, "{found} instead of {wanted}");
+    }
+}
+
+/// What the command line says on standard error and writes, in a folder with a file `m.mech`.
+fn said(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let output = command.current_dir(folder).args(arguments).output().expect("it runs");
+    (output.status.code(), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn the_command_line_tells_results_and_writes_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = arm(
+        "1 rad/s * t",
+        "result high = max(y(arm.tip)) in mm result turned[k in 0..2] = last(angle(arm)) * k in deg
+         analysis from 0 s to 2 s every 0.1 s",
+    );
+    std::fs::write(folder.path().join("m.mech"), text).expect("it is written");
+    let run = |more: &[&str]| said(folder.path(), &[&["run", "m.mech", "-o", "m.csv"], more].concat());
+    let (code, told) = run(&["--results", "r.json"]);
+    let degrees = 2.0_f64.to_degrees();
+    assert_eq!((code, told), (Some(0), format!("high      = 1000 mm\nturned[0] = 0 deg\nturned[1] = {degrees} deg\n")));
+    let written = std::fs::read_to_string(folder.path().join("r.json")).expect("results");
+    assert_eq!(written, "{\"high\": 1.0,\n \"turned[0]\": 0.0,\n \"turned[1]\": 2.0}\n");
+    // diagnostics for programs are not mixed with anything else
+    assert_eq!(run(&["--message-format", "json"]), (Some(0), String::new()));
+    // times alone have no results
+    assert_eq!(run(&["--at", "1", "--results", "r.json"]), (Some(0), String::new()));
+    assert_eq!(std::fs::read_to_string(folder.path().join("r.json")).expect("results"), "{}\n");
+    // the interval is the one of the command line
+    let (_, told) = run(&["--from", "0", "--to", "0.5"]);
+    assert!(told.starts_with(&format!("high      = {} mm\n", sin(0.5) * 1e3)), "{told}");
+    for refused in [["--results", "m.csv"], ["--results", "./m.csv"], ["--results", "r.txt"], ["--results", "m.mech"]] {
+        assert_eq!(run(&refused).0, Some(2), "{refused:?}");
+    }
+    assert_eq!(run(&["--results", "nowhere/r.json"]).0, Some(4));
+    let (_, told) = said(folder.path(), &["run", "m.mech", "--results", "-"]);
+    assert!(told.contains("both go to standard output"), "{told}");
+}
+
+#[test]
+fn names_in_results_have_their_meanings() {
+    use mechc::{Category, Choice, Meaning, Memory, Parsed};
+    let text = arm("1 rad/s * t", "param mean = 2 measure high = y(arm.tip) result r = mean(high) + max(high) * mean");
+    let checked = Parsed::of("m.mech", &text).check(&Choice::default(), &Memory::default());
+    assert!(checked.is_sound(), "{:?}", checked.diagnostics());
+    let line = text.find("result r").expect("a result");
+    let symbols = checked.symbols();
+    let of = |word: &str, after: &str| {
+        let at = line + text[line..].find(after).expect("it is there") + after.find(word).unwrap_or(0);
+        let found = symbols.uses().find(|found| found.span.start as usize == at).expect("a use");
+        match found.meaning {
+            Meaning::Word(word) => Some(word.category),
+            Meaning::Declared(_) => None,
+        }
+    };
+    assert_eq!(of("mean", "mean(high)"), Some(Category::Reduction));
+    assert_eq!(of("max", "max(high)"), Some(Category::Reduction));
+    assert_eq!(of("mean", "* mean"), None);
+}
+
+/// The reference results of a case, to 1e-9 of the numbers.
+fn reference(name: &str) {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/cases2");
+    let read = |ending: &str| std::fs::read_to_string(folder.join(format!("{name}.{ending}"))).expect("a file");
+    let compiled = compiled(name, &read("mech"));
+    let wanted: serde_json::Value = serde_json::from_str(&read("results.json")).expect("JSON");
+    let mut run =
+        compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default()).0.expect("it assembles");
+    while run.next_row().is_some() {}
+    let answers = run.results().expect("results");
+    let names = compiled.results();
+    assert_eq!(wanted.as_object().map(serde_json::Map::len), Some(names.len()));
+    for ((name, _), value) in names.iter().zip(&answers.values) {
+        let (value, wanted) = (value.expect("a number"), wanted[name].as_f64().expect("a number"));
+        assert!((value - wanted).abs() <= 1e-12 * wanted.abs().max(1.0), "{name}: {value} instead of {wanted}");
+    }
+}
+
+#[test]
+fn crank_rocker() {
+    reference("crank_rocker");
+}
+
+#[test]
+fn drawn_four_bar() {
+    reference("drawn_four_bar");
+}
+
+#[test]
+fn leg() {
+    reference("leg");
+}
