@@ -268,11 +268,13 @@ fn parts_on_one_line_begin_where_each_would_alone() {
 
 #[test]
 fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
-    let parts = "part near: lever(turn = 70 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
+    let parts = "part near: lever(turn = 66 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
     let (told, _) = said(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
     let not_led: Vec<&String> = told.iter().filter(|message| message.starts_with("on the way of the part")).collect();
     let place = |message: &str| message.split(" = ").nth(1).map(str::to_owned);
     assert_eq!(not_led.len(), 2, "{told:?}");
     assert!(not_led[0].contains("`far`") && not_led[1].contains("`farther`"), "{told:?}");
     assert_eq!(place(not_led[0]), place(not_led[1]), "the dead point is where it is");
+    // where the rod and the rocker are in line, at acos(9/24)
+    assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552"));
 }
