@@ -187,7 +187,7 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
             match run(&whole, &file, "outer_one", Some(&times)) {
                 Err(why) => faults.push(format!("{name} carried {carried} mirrored {is_mirrored}: {why}")),
                 Ok((part, _)) => {
-                    let distance = place[0].hypot(place[1]) + if carried { size } else { 0.0 };
+                    let distance = mechc::rooms::math::hypot(place[0], place[1]) + if carried { size } else { 0.0 };
                     let (difference, column) = largest_difference(&alone, &part, distance);
                     if difference > SAME || difference.is_nan() || part.rows.len() != alone.rows.len() {
                         faults
@@ -255,9 +255,9 @@ const LEVER: &str = "mechanism lever {
 fn parts_on_one_line_begin_where_each_would_alone() {
     let around = |part: &str| format!("mechanism whole {{ {part} analysis from 0 to 0 every 1 }}\n{LEVER}");
     let turns = [62.0, 40.0, 55.0, 61.0, 60.0, 40.0, 35.0];
-    let all: String =
+    let all: Vec<String> =
         turns.iter().enumerate().map(|(k, turn)| format!("part p{k}: lever(turn = {turn} deg)\n")).collect();
-    let (told, rows) = said(&around(&all));
+    let (told, rows) = said(&around(&all.concat()));
     assert!(told.is_empty(), "{told:?}");
     for (k, turn) in turns.iter().enumerate() {
         let (told, alone) = said(&around(&format!("part p: lever(turn = {turn} deg)\n")));

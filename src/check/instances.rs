@@ -110,7 +110,9 @@ impl<'t> Builder<'t, '_> {
         }
         if self.is_too_large {
             // what cannot be is not looked at any further
-            by_name.values_mut().for_each(|instance| *instance = None);
+            for instance in by_name.values_mut() {
+                *instance = None;
+            }
         }
         let ((found, said), copies, paths) = writer.written(tree, &copies, by_name.clone());
         self.diagnostics.extend(said);

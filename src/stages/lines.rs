@@ -72,6 +72,7 @@ impl<K> Target<'_, K> {
 mod tests {
     use super::*;
 
+    #[allow(clippy::type_complexity)] // spelled out once
     fn check(own: &[f64], inputs: &[&[f64]], wanted: &[(usize, &[(f64, &[usize])])]) {
         let target = |&inputs| Target { key: &"leg", own: Some(own), inputs, is_later: false };
         let targets: Vec<_> = inputs.iter().map(target).collect();
