@@ -131,7 +131,7 @@ fn is_told_by_the_command_line(path: &Path) {
     mechc.assert().success();
     let Table { columns, rows } = read(&outputs[0]);
     let (diagnostics, sources) = Default::default();
-    let got = Outcome { columns, rows, diagnostics, sources };
+    let got = Outcome { sources, diagnostics, columns, rows };
     let want = read(&path.with_extension("csv"));
     assert_eq!(got.rows.len(), want.rows.len(), "the rows");
     compare(&stem(path), &got, &want, 1e-9);
