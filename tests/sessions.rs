@@ -44,7 +44,7 @@ fn has_blocks_that_hold(path: &Path) {
         match language.as_str() {
             // sessions are run; commands of the shell and code for a crate of one's own have no output here
             "console" | "sh" | "rust,ignore" => {}
-            "mech" => is_a_mechanism(&block, stem(path) == LANGUAGE),
+            "mech" => is_a_mechanism(&block, stem(path) == LANGUAGE || block.starts_with(USES_AN_EXAMPLE)),
             "text" => assert!(stem(path) == TIMINGS && !block.contains('$'), "nobody runs this `text`:\n{block}"),
             _ => panic!("a block of `{language}`:\n{block}"),
         }
@@ -53,6 +53,9 @@ fn has_blocks_that_hold(path: &Path) {
 
 /// The page of the language has mechanisms of its own, one for each construct.
 const LANGUAGE: &str = "language";
+
+/// So has who shows what can be made of an example.
+const USES_AN_EXAMPLE: &str = "use \"examples/";
 
 /// An example, to the letter, or at least without a fault.
 fn is_a_mechanism(block: &str, may_be_its_own: bool) {

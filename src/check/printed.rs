@@ -152,7 +152,10 @@ impl Checker<'_> {
     fn angle_power_of_variable(&self, by: &Expr) -> i32 {
         match &by.bare().kind {
             ExprKind::Name(name) => match self.entity(name) {
-                Some(Entity::Input(k)) => self.angle_power(self.inputs[k].formula),
+                Some(entity @ Entity::Input(_)) => match self.home_of(entity) {
+                    (home, Entity::Input(k)) => home.angle_power(home.inputs[k].formula),
+                    _ => 0,
+                },
                 _ => self.angle_power_of_name(name),
             },
             _ => 0,
