@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use mechc::rooms::analysis::{self, LeadOptions};
+use mechc::rooms::analysis::{self, LeadOptions, Way};
 use mechc::rooms::math::{acos, cos, sin};
 use mechc::rooms::program::Program;
 use mechc::rooms::{check, lower, syntax};
@@ -241,8 +241,10 @@ fn an_input_is_led_to_a_number_too() {
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
-    let Ok(arrived) = analysis::lead(&Arc::new(determined), &program, None, &options) else { panic!("it is led") };
-    let q = [&[0.0][..], &arrived.q].concat();
+    let way = analysis::lead(&Arc::new(determined), &program, None, &[0.25, 1.0], &options);
+    let Ok(Way { reached, stopped: None, .. }) = way else { panic!("it is led") };
+    assert_eq!(reached.len(), 2);
+    let q = [&[0.0][..], &reached[1]].concat();
     assert!(same_place(&q, &followed(|d, driver| four_bar(&DRAG_LINK[1], d, driver), 313.0)));
 }
 

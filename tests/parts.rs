@@ -1,6 +1,7 @@
 //! Parts: a mechanism that is used in another one does what it does alone, seen from its own ground.
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
+#![allow(clippy::case_sensitive_file_extension_comparisons)] // `.d` ends a column
 
 mod support;
 
@@ -186,7 +187,7 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
             match run(&whole, &file, "outer_one", Some(&times)) {
                 Err(why) => faults.push(format!("{name} carried {carried} mirrored {is_mirrored}: {why}")),
                 Ok((part, _)) => {
-                    let distance = place[0].hypot(place[1]) + if carried { size } else { 0.0 };
+                    let distance = mechc::rooms::math::hypot(place[0], place[1]) + if carried { size } else { 0.0 };
                     let (difference, column) = largest_difference(&alone, &part, distance);
                     if difference > SAME || difference.is_nan() || part.rows.len() != alone.rows.len() {
                         faults
@@ -198,4 +199,82 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
     }
     assert!(compared > 150, "only {compared}");
     assert!(faults.is_empty(), "{} of {compared}:\n{}", faults.len(), faults.join("\n"));
+}
+
+/// What is said of the first mechanism of a text, and its rows.
+fn said(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
+    let checked = Parsed::of("text", text).check(&Choice::default(), &Disk::default());
+    let (compiled, of_proof) = checked.compile(Redundant::Refused, &Cancel::default());
+    let mut all: Vec<String> = checked.diagnostics().iter().chain(of_proof.iter()).map(|d| d.message.clone()).collect();
+    let Some(compiled) = compiled else { return (all, Vec::new()) };
+    let (run, of_start) = compiled.run(&compiled.times().expect("an analysis"), &RunOptions::default());
+    all.extend(of_start.iter().map(|d| d.message.clone()));
+    let mut rows = Vec::new();
+    if let Some(mut run) = run {
+        while let Some(row) = run.next_row() {
+            match row {
+                Ok(row) => rows.push(row.to_vec()),
+                Err(why) => all.push(why.message.clone()),
+            }
+        }
+    }
+    (all, rows)
+}
+
+#[test]
+fn an_input_that_is_bound_has_no_limits_of_its_own_formula() {
+    let leaf = "mechanism leaf {
+        table some = spline [(0, 0), (1, 1)]
+        input turn = some(t)
+        body b { point O = (0, 0) }
+        joint j: revolute((0, 0), b.O)
+        driver d: rotation(j) = turn
+    }";
+    let around = |part: &str| format!("mechanism whole {{ part p: {part} analysis from 0 to 3 every 1 }}\n{leaf}");
+    let (bound, rows) = said(&around("leaf(turn = 0.5 * t)"));
+    assert!(bound.is_empty() && rows.len() == 4, "{bound:?}");
+    let (own, _) = said(&around("leaf()"));
+    assert_eq!(own, ["table `some` does not reach as far as `p.turn` goes at t = 1 s"]);
+}
+
+/// A rocker whose crank cannot go round: there is a dead point in its way to either side.
+const LEVER: &str = "mechanism lever {
+    input turn = 60 deg
+    ground { point O = (0, 0)  point D = (4, 0) }
+    body crank at (0, 0, 60 deg) { point O = (0, 0)  point P = (3, 0) }
+    body rod at (1.5, 2.6, -10 deg) { point P = (0, 0)  point Q = (1.5, 0) }
+    body rocker at (4, 0, 110 deg) { point D = (0, 0)  point Q = (2.5, 0) }
+    joint a: revolute(ground.O, crank.O)
+    joint b: revolute(crank.P, rod.P)
+    joint c: revolute(rod.Q, rocker.Q)
+    joint d: revolute(ground.D, rocker.D)
+    driver motor: rotation(a) = turn
+}";
+
+#[test]
+fn parts_on_one_line_begin_where_each_would_alone() {
+    let around = |part: &str| format!("mechanism whole {{ {part} analysis from 0 to 0 every 1 }}\n{LEVER}");
+    let turns = [62.0, 40.0, 55.0, 61.0, 60.0, 40.0, 35.0];
+    let all: Vec<String> =
+        turns.iter().enumerate().map(|(k, turn)| format!("part p{k}: lever(turn = {turn} deg)\n")).collect();
+    let (told, rows) = said(&around(&all.concat()));
+    assert!(told.is_empty(), "{told:?}");
+    for (k, turn) in turns.iter().enumerate() {
+        let (told, alone) = said(&around(&format!("part p: lever(turn = {turn} deg)\n")));
+        assert!(told.is_empty(), "{told:?}");
+        assert_eq!(rows[0][1 + 9 * k..][..9], alone[0][1..10], "turn = {turn} deg");
+    }
+}
+
+#[test]
+fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
+    let parts = "part near: lever(turn = 66 deg)  part far: lever(turn = 200 deg)  part farther: lever(turn = 250 deg)";
+    let (told, _) = said(&format!("mechanism whole {{ {parts} analysis from 0 to 0 every 1 }}\n{LEVER}"));
+    let not_led: Vec<&String> = told.iter().filter(|message| message.starts_with("on the way of the part")).collect();
+    let place = |message: &str| message.split(" = ").nth(1).map(str::to_owned);
+    assert_eq!(not_led.len(), 2, "{told:?}");
+    assert!(not_led[0].contains("`far`") && not_led[1].contains("`farther`"), "{told:?}");
+    assert_eq!(place(not_led[0]), place(not_led[1]), "the dead point is where it is");
+    // where the rod and the rocker are in line, at acos(9/24)
+    assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552"));
 }

@@ -2868,12 +2868,12 @@ mod following {
         let v61 = 3.5 * v60;
         let v62 = v61 + coupler_x;
         let v63 = v62 - v55;
-        at.holds &= v63.abs() <= 5.4226575191377436e-12;
+        at.holds &= v63.abs() <= 5.422657519137743e-12;
         let v64 = 1.5 * v48;
         let v65 = v64 - v53;
         let v66 = 3.5 * v58 + coupler_y;
         let v67 = v66 - v65;
-        at.holds &= v67.abs() <= 5.263268038005443e-12;
+        at.holds &= v67.abs() <= 5.2632680380054434e-12;
         let v68 = -3.5 * v58;
         let v69 = v51 - v54;
         let v70 = v64 - v53;

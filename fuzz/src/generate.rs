@@ -1,7 +1,6 @@
 //! Mechanisms made of bytes: element after element is hung onto what is there already, drawn where its equations hold at
 //! the start, so that most of them assemble and move; and now and then something is taken away or said twice.
 
-use libfuzzer_sys::arbitrary::Unstructured;
 use mechc::rooms::math;
 use std::f64::consts::TAU;
 
@@ -13,7 +12,8 @@ type Point = [f64; 2];
 /// The text of the mechanism that bytes stand for. Every text is one.
 #[must_use]
 pub fn text(bytes: &[u8]) -> String {
-    let mut draft = Draft::new(Unstructured::new(bytes));
+    let mut bytes = Bytes::new(bytes);
+    let mut draft = Draft::new(&mut bytes, "made");
     for _ in 0..=draft.pick(MOST_ELEMENTS) {
         draft.element();
     }
@@ -24,37 +24,66 @@ pub fn text(bytes: &[u8]) -> String {
     draft.written()
 }
 
+/// Bytes that choose; zeros when they are used up.
+pub struct Bytes<'b>(std::slice::Iter<'b, u8>);
+
+impl<'b> Bytes<'b> {
+    #[must_use]
+    pub fn new(bytes: &'b [u8]) -> Bytes<'b> {
+        Bytes(bytes.iter())
+    }
+
+    pub fn byte(&mut self) -> u8 {
+        self.0.next().copied().unwrap_or(0)
+    }
+}
+
 /// The ground, or a body.
-struct Body {
-    name: String,
+pub struct Body {
+    pub name: String,
     /// Where its frame lies [m, m, rad].
     pose: [f64; 3],
     features: Vec<String>,
+    /// The names of its points.
+    pub points: Vec<String>,
 }
 
-struct Draft<'b> {
-    bytes: Unstructured<'b>,
+/// A mechanism that grows.
+pub struct Draft<'d, 'b> {
+    bytes: &'d mut Bytes<'b>,
+    /// What it is called.
+    pub mechanism: String,
     /// Whether numbers have their units.
-    units: bool,
+    pub units: bool,
+    /// Whether it has many params and inputs.
+    pub is_open: bool,
     /// The ground first.
-    bodies: Vec<Body>,
-    declarations: Vec<String>,
+    pub bodies: Vec<Body>,
+    pub declarations: Vec<String>,
     /// What joints are called, those that turn and those that slide.
-    turning: Vec<String>,
+    pub turning: Vec<String>,
     sliding: Vec<String>,
+    /// Params that are lengths, each with its value (m).
+    pub params: Vec<(String, f64)>,
+    /// Inputs that are pure numbers.
+    pub inputs: Vec<String>,
     named: usize,
 }
 
-impl<'b> Draft<'b> {
-    fn new(bytes: Unstructured<'b>) -> Draft<'b> {
-        let ground = Body { name: "ground".to_owned(), pose: [0.0; 3], features: Vec::new() };
+impl<'d, 'b> Draft<'d, 'b> {
+    pub fn new(bytes: &'d mut Bytes<'b>, mechanism: &str) -> Draft<'d, 'b> {
+        let ground = Body { name: "ground".to_owned(), pose: [0.0; 3], features: Vec::new(), points: Vec::new() };
         let mut draft = Draft {
             bytes,
+            mechanism: mechanism.to_owned(),
             units: false,
+            is_open: false,
             bodies: vec![ground],
             declarations: Vec::new(),
             turning: Vec::new(),
             sliding: Vec::new(),
+            params: Vec::new(),
+            inputs: Vec::new(),
             named: 0,
         };
         draft.units = draft.pick(2) == 1;
@@ -63,20 +92,20 @@ impl<'b> Draft<'b> {
 
     // ---- choices
 
-    fn byte(&mut self) -> u8 {
-        self.bytes.arbitrary().unwrap_or(0)
+    pub fn byte(&mut self) -> u8 {
+        self.bytes.byte()
     }
 
-    fn pick(&mut self, count: usize) -> usize {
+    pub fn pick(&mut self, count: usize) -> usize {
         usize::from(self.byte()) % count
     }
 
-    fn chance(&mut self, of_256: u8) -> bool {
+    pub fn chance(&mut self, of_256: u8) -> bool {
         self.byte() > 255 - of_256
     }
 
     /// Mostly about 1, rarely something else.
-    fn number(&mut self) -> f64 {
+    pub fn number(&mut self) -> f64 {
         match self.byte() {
             255 => [0.0, 1e-9, 1e9, 1e-3, 1e3, -1e6, 1e-300, 1e300][self.pick(8)],
             b => (f64::from(b) - 127.0) / 48.0,
@@ -84,22 +113,22 @@ impl<'b> Draft<'b> {
     }
 
     /// Mostly above zero.
-    fn size(&mut self) -> f64 {
+    pub fn size(&mut self) -> f64 {
         match self.byte() {
             255 => self.number(),
             b => 0.125 + f64::from(b) / 64.0,
         }
     }
 
-    fn place(&mut self) -> Point {
+    pub fn place(&mut self) -> Point {
         [self.number(), self.number()]
     }
 
-    fn any_body(&mut self) -> usize {
+    pub fn any_body(&mut self) -> usize {
         self.pick(self.bodies.len())
     }
 
-    fn name(&mut self, word: &str) -> String {
+    pub fn name(&mut self, word: &str) -> String {
         self.named += 1;
         let word = match self.byte() {
             0..=200 => word,
@@ -113,31 +142,32 @@ impl<'b> Draft<'b> {
 
     // ---- numbers as text
 
-    fn length(&mut self, metres: f64) -> String {
+    pub fn length(&mut self, metres: f64) -> String {
         if !self.units {
             return format!("{metres}");
         }
         let text = if self.chance(64) { format!("{metres} m") } else { format!("{} mm", metres * 1000.0) };
-        if !self.chance(24) {
+        if !self.chance(if self.is_open { 80 } else { 24 }) {
             return text;
         }
         let name = self.name("p");
+        self.params.push((name.clone(), metres));
         self.declarations.push(format!("param {name} = {text}"));
         name
     }
 
-    fn angle(&mut self, radians: f64) -> String {
+    pub fn angle(&mut self, radians: f64) -> String {
         if self.units { format!("{} deg", radians.to_degrees()) } else { format!("{radians}") }
     }
 
-    fn seconds(&self, seconds: f64) -> String {
+    pub fn seconds(&self, seconds: f64) -> String {
         if self.units { format!("{seconds} s") } else { format!("{seconds}") }
     }
 
     // ---- formulas of time
 
     /// A formula that has a value at t = 0, or nearly so, and goes on from there by a scale.
-    fn motion(&mut self, start: &str, scale: &str) -> String {
+    pub fn motion(&mut self, start: &str, scale: &str) -> String {
         let time = if self.units { "(t / 1 s)" } else { "t" };
         let fast = match self.byte() {
             0..=200 => 1.0,
@@ -174,8 +204,9 @@ impl<'b> Draft<'b> {
             20 => format!("sign({time} - {a}) * ({time} - {a})^2"),
             _ => format!("(1 / (1 + {b} + cos({time})) + asin(sin({time})))"),
         };
-        if self.chance(16) {
+        if self.chance(if self.is_open { 160 } else { 16 }) {
             let name = self.name("signal");
+            self.inputs.push(name.clone());
             self.declarations.push(format!("input {name} = {part}"));
             return format!("{start} + {scale} * {name}");
         }
@@ -195,7 +226,7 @@ impl<'b> Draft<'b> {
         if from_zero.is_empty() { format!("{name}({argument})") } else { from_zero }
     }
 
-    fn turn(&mut self, start: f64) -> String {
+    pub fn turn(&mut self, start: f64) -> String {
         let (start, scale) = (self.angle(start), self.size().clamp(-20.0, 20.0));
         let scale = self.angle(scale);
         self.motion(&start, &scale)
@@ -209,11 +240,11 @@ impl<'b> Draft<'b> {
 
     // ---- bodies and features
 
-    fn body(&mut self) -> usize {
+    pub fn body(&mut self) -> usize {
         let [x, y] = self.place();
         let phi = self.number();
         let name = self.name("b");
-        self.bodies.push(Body { name, pose: [x, y, phi], features: Vec::new() });
+        self.bodies.push(Body { name, pose: [x, y, phi], features: Vec::new(), points: Vec::new() });
         self.bodies.len() - 1
     }
 
@@ -227,19 +258,22 @@ impl<'b> Draft<'b> {
         self.turned(body, [x - ox, y - oy])
     }
 
-    fn pair(&mut self, [x, y]: Point) -> String {
+    pub fn pair(&mut self, [x, y]: Point) -> String {
         let (x, y) = (self.length(x), self.length(y));
         format!("({x}, {y})")
     }
 
-    fn feature(&mut self, body: usize, word: &str, rest: &str) -> String {
+    pub fn feature(&mut self, body: usize, word: &str, rest: &str) -> String {
         let name = self.name(word);
         let (argument, body) = (if word == "curve" { "(u)" } else { "" }, &mut self.bodies[body]);
         body.features.push(format!("{word} {name}{argument} = {rest}"));
+        if word == "point" {
+            body.points.push(name.clone());
+        }
         format!("{}.{name}", body.name)
     }
 
-    fn point(&mut self, body: usize, at: Point) -> String {
+    pub fn point(&mut self, body: usize, at: Point) -> String {
         let local = self.local(body, at);
         let pair = self.pair(local);
         // a literal point of the ground needs no name
@@ -290,13 +324,13 @@ impl<'b> Draft<'b> {
         self.feature(body, "curve", &rest)
     }
 
-    fn joint(&mut self, call: &str) -> String {
+    pub fn joint(&mut self, call: &str) -> String {
         let name = self.name("j");
         self.declarations.push(format!("joint {name}: {call}"));
         name
     }
 
-    fn driver(&mut self, equation: &str) {
+    pub fn driver(&mut self, equation: &str) {
         let name = self.name("d");
         self.declarations.push(format!("driver {name}: {equation}"));
     }
@@ -323,7 +357,7 @@ impl<'b> Draft<'b> {
 
     // ---- elements, each with as many equations as coordinates
 
-    fn element(&mut self) {
+    pub fn element(&mut self) {
         let (base, at, along) = (self.any_body(), self.place(), self.direction());
         match self.pick(17) {
             0 | 1 => self.crank(base, at),
@@ -531,7 +565,7 @@ impl<'b> Draft<'b> {
 
     // ---- what is measured, and what is spoilt
 
-    fn measure(&mut self, k: usize) {
+    pub fn measure(&mut self, k: usize) {
         let (a, b, at, to) = (self.any_body(), self.any_body(), self.place(), self.place());
         let (p, q) = (self.point(a, at), self.point(b, to));
         let name = self.bodies[a].name.clone();
@@ -554,7 +588,7 @@ impl<'b> Draft<'b> {
     }
 
     /// Now and then one declaration less, or one twice.
-    fn spoil(&mut self) {
+    pub fn spoil(&mut self) {
         let count = self.declarations.len();
         match self.byte() {
             230..=239 if count > 0 => {
@@ -572,14 +606,15 @@ impl<'b> Draft<'b> {
             }
             250.. => {
                 let name = self.name("free");
-                self.bodies.push(Body { name, pose: [0.0; 3], features: Vec::new() });
+                self.bodies.push(Body { name, pose: [0.0; 3], features: Vec::new(), points: Vec::new() });
             }
             _ => {}
         }
     }
 
-    fn written(mut self) -> String {
-        let mut text = "mechanism made {\n".to_owned();
+    /// The text of the mechanism.
+    pub fn written(mut self) -> String {
+        let mut text = format!("mechanism {} {{\n", self.mechanism);
         let (late, roughly) = (self.chance(64), self.chance(64));
         for k in 0..self.bodies.len() {
             let [mut x, y, mut phi] = self.bodies[k].pose;

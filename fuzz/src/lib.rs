@@ -1,6 +1,8 @@
 //! What both targets share: the pipeline over one text, with all that must hold of whatever comes out of it.
 
+pub mod composed;
 pub mod generate;
+pub mod oracles;
 #[path = "../../tests/support/shape.rs"]
 mod shape;
 

@@ -30,85 +30,94 @@ pub struct LeadOptions {
     pub cancel: Cancel,
 }
 
-/// Where a mechanism was led to.
-pub struct Arrived {
-    /// The coordinates [m, rad].
-    pub q: Vec<f64>,
+/// How far a mechanism was led.
+pub struct Way {
+    /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
+    pub reached: Vec<Vec<f64>>,
     /// What is to be said of where it began.
     pub remarks: Diagnostics,
+    /// Where it did not go on, from 0 to 1, and what happens there.
+    pub stopped: Option<(f64, Box<Diagnostic>)>,
 }
 
-/// Why a mechanism cannot be led.
-pub enum NotLed {
-    /// There is no start from which it could be.
-    NotStarted(Box<Diagnostic>),
-    /// It did not come farther than to a part of the way.
-    Stopped {
-        /// From 0 to 1.
-        part: f64,
-        /// What happens there.
-        why: Box<Diagnostic>,
-    },
-}
-
-/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from others, to the end of the way.
+/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from others, to some parts of
+/// the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
 ///
 /// # Errors
-/// It cannot be assembled at 0, or its motion ends before 1. A velocity that jumps on the way is no reason: there is no time.
+/// It cannot be assembled at 0.
 pub fn lead(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
     from: Option<&[f64]>,
+    parts: &[f64],
     options: &LeadOptions,
-) -> Result<Arrived, NotLed> {
+) -> Result<Way, Box<Diagnostic>> {
     let LeadOptions { tolerance, cancel, .. } = options;
     let again = |part: f64, from: &[f64]| {
         start_from(Arc::clone(determined), Arc::clone(program), part, Some(from), *tolerance, cancel)
     };
-    let started = start_from(Arc::clone(determined), Arc::clone(program), 0.0, from, *tolerance, cancel);
-    let mut started = started.map_err(NotLed::NotStarted)?;
-    let remarks = started.far_estimates_at(options.t);
+    let mut started = start_from(Arc::clone(determined), Arc::clone(program), 0.0, from, *tolerance, cancel)?;
+    let mut way = Way { reached: Vec::new(), remarks: started.far_estimates_at(options.t), stopped: None };
     let mut from = (0.0, started.q().to_vec());
     for _ in 0..MOST_KINKS {
-        let (part, why) = match follow(started, from.0, 1.0, options) {
-            Ok(q) => return Ok(Arrived { q, remarks }),
-            Err(stopped) => stopped,
-        };
-        let stopped = |why| Err(NotLed::Stopped { part, why });
-        if why.code != Code::E0609 || cancel.is_cancelled() {
-            return stopped(why);
+        let known = way.reached.len();
+        let stopped = follow(started, from.0, &parts[known..], options, &mut way.reached);
+        let Some((part, why)) = stopped else { return Ok(way) };
+        if let Some(last) = way.reached[known..].last() {
+            from = (parts[way.reached.len() - 1], last.clone());
+        }
+        way.stopped = Some((part, why));
+        let is_a_kink = way.stopped.as_ref().is_some_and(|(_, why)| why.code == Code::E0609);
+        if !is_a_kink || cancel.is_cancelled() {
+            return Ok(way);
         }
         let (before, behind) = ((part - BESIDE_A_KINK).max(from.0), (part + BESIDE_A_KINK).min(1.0));
-        let Ok(q) = again(from.0, &from.1).map_err(drop).and_then(|s| follow(s, from.0, before, options).map_err(drop))
-        else {
-            return stopped(why);
-        };
-        let Ok(beyond) = again(behind, &q) else { return stopped(why) };
-        if !is_the_same(determined.system(), &q, beyond.q()) {
-            return stopped(why);
+        let mut there = Vec::new();
+        let near = again(from.0, &from.1).ok().and_then(|s| {
+            let stopped = follow(s, from.0, &[before], options, &mut there);
+            there.pop().filter(|_| stopped.is_none())
+        });
+        let beyond = near.and_then(|q| {
+            let beyond = again(behind, &q).ok()?;
+            is_the_same(determined.system(), &q, beyond.q()).then_some(beyond)
+        });
+        let Some(beyond) = beyond else { return Ok(way) };
+        way.stopped = None;
+        while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
+            way.reached.push(beyond.q().to_vec());
         }
-        if behind >= 1.0 {
-            return Ok(Arrived { q: beyond.q().to_vec(), remarks });
+        if way.reached.len() == parts.len() {
+            return Ok(way);
         }
         from = (behind, beyond.q().to_vec());
         started = beyond;
     }
-    Err(NotLed::Stopped { part: from.0, why: Box::new(errors::cannot_follow(determined.system(), from.0, None)) })
+    way.stopped = Some((from.0, Box::new(errors::cannot_follow(determined.system(), from.0, None))));
+    Ok(way)
 }
 
-/// The position at a part of the way; or where the motion ends before, and why.
-fn follow(started: Started, from: f64, to: f64, options: &LeadOptions) -> Result<Vec<f64>, (f64, Box<Diagnostic>)> {
+/// Adds the positions at some parts of the way; says where the motion ends before the last, and why.
+fn follow(
+    started: Started,
+    from: f64,
+    parts: &[f64],
+    options: &LeadOptions,
+    reached: &mut Vec<Vec<f64>>,
+) -> Option<(f64, Box<Diagnostic>)> {
     let n = started.q().len();
-    let mut motion = started.into_motion(&Times::listed(from, vec![to]));
+    let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
     if options.pass_bifurcations {
         motion.pass_bifurcations();
     }
     let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
-    match motion.next_row() {
-        Some(Ok(row)) => Ok(row[1..=n].to_vec()),
-        Some(Err(why)) => Err((part_of(&why), why)),
-        None => Err((from, Box::new(Diagnostic::new(Code::E0604, "the way was not followed to its end")))),
+    for _ in parts {
+        match motion.next_row() {
+            Some(Ok(row)) => reached.push(row[1..=n].to_vec()),
+            Some(Err(why)) => return Some((part_of(&why), why)),
+            None => return Some((from, Box::new(Diagnostic::new(Code::E0604, "the way was not followed to its end")))),
+        }
     }
+    None
 }
 
 fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {

@@ -46,9 +46,9 @@ mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::determine;
-pub use lead::{Arrived, LeadOptions, NotLed, lead};
+pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;
-pub use parts::with_parts;
+pub use parts::{Request, with_parts};
 pub use results::{Answers, Asked};
 pub use times::Times;
 

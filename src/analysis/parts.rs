@@ -17,8 +17,16 @@ use std::sync::Arc;
 /// Blocks up to this size are solved for the sake of parts.
 const LARGEST: usize = 300;
 
-/// Gives the coordinates of a part, by its number, as it is alone with its inputs led to these (SI), or without having been led.
-pub type Leader<'l> = dyn FnMut(usize, Option<&[f64]>) -> Option<Vec<f64>> + 'l;
+/// A part whose coordinates are asked for, as it is alone.
+pub struct Request {
+    /// Its number.
+    pub part: usize,
+    /// What its inputs are to be led to (SI), if they are to be led.
+    pub inputs: Option<Vec<f64>>,
+}
+
+/// Gives the coordinates of parts, all those at once that can be known at once.
+pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 
 /// The estimates of a mechanism at a time (s) [m, rad], with its parts where they begin.
 #[must_use]
@@ -33,14 +41,14 @@ pub fn with_parts(
     let kinematics = Kinematics::new(Arc::clone(determined), Arc::clone(program), f64::INFINITY, cancel.clone());
     let mut placing = Placing::new(kinematics, determined, t, estimates);
     while !placing.open.is_empty() && !cancel.is_cancelled() {
-        let next = placing.open.iter().position(|&part| placing.is_known(part));
-        if let Some(at) = next {
-            let part = placing.open.remove(at);
-            placing.place(part, true, leader);
+        let (known, open): (Vec<usize>, Vec<usize>) = placing.open.iter().partition(|&&part| placing.is_known(part));
+        if !known.is_empty() {
+            placing.open = open;
+            placing.place(&known, true, leader);
         } else if !placing.solve_what_is_needed() {
             // it depends on itself
             let part = placing.open.remove(0);
-            placing.place(part, false, leader);
+            placing.place(&[part], false, leader);
         }
     }
     placing.q
@@ -54,6 +62,8 @@ struct Placing<'d> {
     q: Vec<f64>,
     /// By coordinate.
     is_settled: Vec<bool>,
+    /// By coordinate.
+    is_of_an_open_part: Vec<bool>,
     block_of: Vec<u32>,
     /// By part: the coordinates that it follows.
     needs: Vec<Vec<u32>>,
@@ -75,12 +85,18 @@ impl<'d> Placing<'d> {
             symbols.filter_map(coordinate).collect::<Vec<u32>>()
         };
         let parts = &system.parts;
+        let mut is_of_an_open_part = vec![false; q.len()];
+        for part in parts {
+            is_of_an_open_part[3 * part.bodies.start..3 * part.bodies.end].fill(true);
+            is_of_an_open_part[part.own.clone()].fill(true);
+        }
         Placing {
             kinematics,
             determined,
             parts,
             t,
             is_settled: vec![false; q.len()],
+            is_of_an_open_part,
             q,
             block_of,
             needs: parts.iter().map(needs).collect(),
@@ -102,19 +118,31 @@ impl<'d> Placing<'d> {
         })
     }
 
-    /// Puts a part to where it comes to alone, on its mount.
-    fn place(&mut self, part: usize, is_led: bool, leader: &mut Leader<'_>) {
+    /// Puts parts to where they come to alone, on their mounts.
+    fn place(&mut self, parts: &[usize], are_led: bool, leader: &mut Leader<'_>) {
+        let mounts: Vec<[f64; 3]> = parts.iter().map(|&part| self.parts[part].mount.map(|id| self.value(id))).collect();
+        let asked = |(&part, mount): (&usize, &[f64; 3])| {
+            let inputs: Vec<f64> = self.parts[part].inputs.iter().map(|(_, id)| self.value(*id)).collect();
+            let is_whole = inputs.iter().chain(mount).all(|value| value.is_finite());
+            Request { part, inputs: Some(inputs).filter(|_| are_led && is_whole) }
+        };
+        let asked: Vec<Request> = parts.iter().zip(&mounts).map(asked).collect();
+        for ((&part, mount), alone) in parts.iter().zip(&mounts).zip(leader(&asked)) {
+            self.set_on_its_mount(part, *mount, alone);
+        }
+    }
+
+    fn set_on_its_mount(&mut self, part: usize, [x, y, phi]: [f64; 3], alone: Option<Vec<f64>>) {
         let start = &self.parts[part];
-        let inputs: Vec<f64> = start.inputs.iter().map(|(_, id)| self.value(*id)).collect();
-        let [x, y, phi] = start.mount.map(|id| self.value(id));
-        let is_whole = inputs.iter().chain(&[x, y, phi]).all(|value| value.is_finite());
-        let alone = leader(part, Some(inputs.as_slice()).filter(|_| is_led && is_whole));
+        let first = 3 * start.bodies.start;
+        let columns = (first..3 * start.bodies.end).chain(start.own.clone());
+        columns.for_each(|column| self.is_of_an_open_part[column] = false);
+        let is_whole = [x, y, phi].iter().all(|value| value.is_finite());
         let Some(alone) = alone.filter(|q| q.len() == 3 * start.bodies.len() + start.own.len() && is_whole) else {
             return;
         };
         let (sin, cos) = math::sin_cos(phi);
         let side = if start.is_mirrored { -1.0 } else { 1.0 };
-        let first = 3 * start.bodies.start;
         for (k, pose) in alone[..3 * start.bodies.len()].chunks_exact(3).enumerate() {
             let (along, across) = (pose[0], side * pose[1]);
             let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * pose[2]];
@@ -142,7 +170,7 @@ impl<'d> Placing<'d> {
         let mut was_solved = false;
         for number in numbers {
             let block = &self.determined.blocks()[number as usize];
-            let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part(column as usize));
+            let holds_open_part = block.columns.iter().any(|&column| self.is_of_an_open_part[column as usize]);
             let is_ready = self.behind(block).all(|column| self.is_settled[column as usize]);
             if is_ready && !holds_open_part && block.columns.len() <= LARGEST {
                 levenberg_marquardt(&mut self.kinematics, &mut self.q, &block.rows, &block.columns);
@@ -151,13 +179,6 @@ impl<'d> Placing<'d> {
             }
         }
         was_solved
-    }
-
-    fn is_of_an_open_part(&self, column: usize) -> bool {
-        self.open.iter().any(|&part| {
-            let start = &self.parts[part];
-            (3 * start.bodies.start..3 * start.bodies.end).contains(&column) || start.own.contains(&column)
-        })
     }
 
     /// The coordinates of other blocks that the equations of a block hold.

@@ -123,10 +123,12 @@ impl Checker<'_> {
     pub(super) fn input(&mut self, k: usize) {
         let (name, formula) = (self.inputs[k].name, self.inputs[k].formula);
         let before = self.model.conditions.len();
-        let Some(in_file) = self.input_value(formula) else { return };
+        let Some(in_file) = self.input_value(name, formula) else { return };
         let needs = Needs { before, behind_own: self.model.conditions.len() };
         if self.bound_inputs.contains(&name.text.as_str()) {
             self.inputs[k].value = Some(in_file);
+            // its own formula says nothing of the motion
+            self.model.conditions.truncate(before);
             return;
         }
         let full = format!("{}{}", self.path, name.text);
@@ -156,10 +158,15 @@ impl Checker<'_> {
         }
     }
 
-    fn input_value(&mut self, formula: &Expr) -> Option<Value> {
+    fn input_value(&mut self, name: &Name, formula: &Expr) -> Option<Value> {
         let judged = self.is_dimensional(formula);
         let context = Context { judged, time: true, ..Context::constant("an input") };
+        let conditions = self.model.conditions.len();
         let value = self.formula(formula, &context)?;
+        let owner = self.declared(name).name;
+        for condition in &mut self.model.conditions[conditions..] {
+            condition.owner.clone_from(&owner);
+        }
         let dim = match value.dim {
             Dim::Of(dimension) if judged => Dim::Of(dimension),
             _ => Dim::PURE,
@@ -169,7 +176,7 @@ impl Checker<'_> {
 
     /// What a formula from outside says: a plain one is taken in the unit of what is expected.
     fn told(&mut self, name: &Name, formula: &Expr, wanted: Dim) -> Option<Value> {
-        let given = self.input_value(formula)?;
+        let given = self.input_value(name, formula)?;
         if let (Dim::Of(wanted), Dim::Of(found)) = (wanted, given.dim)
             && self.is_dimensional(formula)
             && !wanted.is(found)

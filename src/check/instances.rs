@@ -94,6 +94,7 @@ impl<'t> Builder<'t, '_> {
         checker.diagnostics = Diagnostics::default();
         let mut writer = Writer::new(tree, checker);
         let copies = writer.all_copies(tree);
+        self.is_too_large |= writer.is_too_large();
         let (mut by_name, mut count) = (FxHashMap::default(), writer.count());
         for (item, copies) in tree.items.iter().zip(&copies) {
             let (ItemKind::Part(part), Some(copies)) = (&item.kind, copies) else { continue };
@@ -105,6 +106,12 @@ impl<'t> Builder<'t, '_> {
                 count += instance.as_ref().map_or(0, |instance| instance.count);
                 let instance = instance.filter(|_| self.is_small_enough(count, part));
                 by_name.insert(named(&part.name, numbers).text, instance);
+            }
+        }
+        if self.is_too_large {
+            // what cannot be is not looked at any further
+            for instance in by_name.values_mut() {
+                *instance = None;
             }
         }
         let ((found, said), copies, paths) = writer.written(tree, &copies, by_name.clone());

@@ -145,6 +145,13 @@ pub fn check(
     (sound.then_some(model), diagnostics)
 }
 
+impl Checker<'_> {
+    /// Whether something of the mechanism, or of its parts, could not be read.
+    fn holds_broken(&self) -> bool {
+        has_broken(self.tree) || self.parts.iter().any(Checker::holds_broken)
+    }
+}
+
 /// Whether a declaration of a mechanism, or of its bodies, does not follow the grammar.
 fn has_broken(tree: &ast::Mechanism) -> bool {
     tree.items.iter().any(|item| match &item.kind {
@@ -433,7 +440,7 @@ impl<'a> Checker<'a> {
         self.results();
         self.leave_what_leads();
         self.warn_of_plain_lengths();
-        if self.model.bodies.is_empty() && !has_broken(self.tree) {
+        if self.model.bodies.is_empty() && !self.holds_broken() {
             self.report(errors::empty(&self.tree.name));
         }
     }

@@ -42,6 +42,8 @@ pub(super) struct Writer<'t, 'c> {
     paths: FxHashSet<String>,
     /// Declarations so far.
     count: usize,
+    /// Which has been said.
+    is_too_large: bool,
     /// Where something was told already: what is wrong in every copy is told once.
     told: FxHashSet<Span>,
 }
@@ -64,6 +66,7 @@ impl<'t, 'c> Writer<'t, 'c> {
             parts: FxHashMap::default(),
             paths: FxHashSet::default(),
             count: 0,
+            is_too_large: false,
             told: FxHashSet::default(),
         }
     }
@@ -71,6 +74,11 @@ impl<'t, 'c> Writer<'t, 'c> {
     /// Declarations, written out.
     pub fn count(&self) -> usize {
         self.count
+    }
+
+    /// Whether there are too many.
+    pub fn is_too_large(&self) -> bool {
+        self.is_too_large
     }
 
     /// The numbers of the copies of each declaration; nothing where they cannot be told.
@@ -155,6 +163,7 @@ impl<'t, 'c> Writer<'t, 'c> {
                 let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
                 if self.count.saturating_add(longer.len()).saturating_add(more) > MOST {
                     self.tell(errors::too_many_declarations(range.index.span, MOST));
+                    self.is_too_large = true;
                     return None;
                 }
                 longer.extend((from..to).map(|k| {

@@ -1,17 +1,19 @@
 //! Where a mechanism begins that has parts, or is told other inputs than its own: each part where it comes to alone and is led to what its
 //! inputs are; the whole where the inputs that it is told lead it, from where it is with its own.
 
-use crate::analysis::{self, LeadOptions, NotLed};
+use super::lines::{Line, Target, lines};
+use crate::analysis::{self, LeadOptions, Request};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
+use crate::expr::Symbol;
 use crate::ir::{ConstraintSystem, PartStart};
 use crate::lower;
-use crate::model::Led;
+use crate::model::{Led, Mechanism};
 use crate::program::Program;
 use crate::source::{Sources, Span};
 use crate::structure::Determined;
 use crate::syntax::{self, ast};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -68,12 +70,36 @@ struct Alone {
     surroundings: Surroundings,
     /// The first time of its own analysis (s).
     t: f64,
+    /// What its inputs are then (SI), by their names.
+    inputs: FxHashMap<String, f64>,
     /// Where it is then; where it is drawn if it cannot be assembled.
     q: Vec<f64>,
     is_assembled: bool,
     /// What is to be said of its start.
     remarks: Diagnostics,
 }
+
+/// A part that is to be led.
+struct ToLead<'p> {
+    start: &'p PartStart,
+    alone: Rc<Alone>,
+    /// To these (SI).
+    inputs: &'p [f64],
+    ends: Ends,
+}
+
+impl ToLead<'_> {
+    /// What its inputs are alone (SI).
+    fn own_inputs(&self) -> Option<Vec<f64>> {
+        self.start.inputs.iter().map(|(name, _)| self.alone.inputs.get(name).copied()).collect()
+    }
+}
+
+/// What a part is alone, and with inputs and a time to which it is led.
+type Ends = (Key, Vec<u64>);
+
+/// A part as it is alone, and to what it is led, if it is led.
+type Found = (Option<Ends>, Rc<Alone>);
 
 /// What decides how a part is alone: its text, what its params are, and the path of which something is set from outside.
 type Key = (Span, Vec<u64>, String);
@@ -85,7 +111,7 @@ struct Starts<'s> {
     options: &'s LeadOptions,
     alone: FxHashMap<Key, Option<Rc<Alone>>>,
     /// With the inputs to which they were led, and the time.
-    led: FxHashMap<(Key, Vec<u64>), Vec<f64>>,
+    led: FxHashMap<Ends, Vec<f64>>,
     said: Diagnostics,
 }
 
@@ -102,18 +128,14 @@ impl<'s> Starts<'s> {
             let own = Surroundings { given: Given::default(), by: Vec::new(), ..self.surroundings.clone() };
             Some(self.assembled(tree, own)?.q)
         };
-        match analysis::lead(&whole.0, &whole.1, from.as_deref(), self.options) {
-            Ok(arrived) => {
-                self.said.extend(arrived.remarks);
-                Some(arrived.q)
-            }
-            Err(NotLed::Stopped { part, why }) if !self.options.cancel.is_cancelled() => {
-                self.said.push(not_led(None, &inputs, times, span, part, &why));
-                None
-            }
-            // alone it is nowhere, so that there is nothing to lead
-            Err(_) => None,
+        // if alone it is nowhere, there is nothing to lead
+        let way = analysis::lead(&whole.0, &whole.1, from.as_deref(), &[1.0], self.options).ok()?;
+        match way.stopped {
+            None => self.said.extend(way.remarks),
+            Some(_) if self.options.cancel.is_cancelled() => {}
+            Some((part, why)) => self.said.push(not_led(None, &inputs, times, span, part, &why)),
         }
+        way.reached.into_iter().next()
     }
 
     /// A mechanism on its way, with the inputs that are led.
@@ -136,49 +158,107 @@ impl<'s> Starts<'s> {
         let system = determined.system();
         let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
         let cancel = self.options.cancel.clone();
-        let mut leader = |part: usize, inputs: Option<&[f64]>| self.part(system, part, inputs, t, settings);
+        let mut leader = |asked: &[Request]| self.parts(system, asked, t, settings);
         analysis::with_parts(determined, program, t, estimates, &mut leader, &cancel)
     }
 
-    /// Where a part is alone, with its inputs led to these.
-    fn part(
+    /// Where parts are alone, with their inputs led to what is asked.
+    fn parts(
         &mut self,
         system: &ConstraintSystem,
-        part: usize,
-        inputs: Option<&[f64]>,
+        asked: &[Request],
         t: f64,
         settings: &[Setting],
-    ) -> Option<Vec<f64>> {
-        let start = &system.parts[part];
+    ) -> Vec<Option<Vec<f64>>> {
+        let mut to_lead: Vec<ToLead<'_>> = Vec::new();
+        let mut found: Vec<Option<Found>> = Vec::with_capacity(asked.len());
+        let mut is_asked: FxHashSet<Ends> = FxHashSet::default();
+        for Request { part, inputs } in asked {
+            let start = &system.parts[*part];
+            let Some((key, alone)) = self.part_alone(system, start, settings) else {
+                found.push(None);
+                continue;
+            };
+            let inputs = inputs.as_ref().filter(|_| alone.is_assembled);
+            let ends = inputs.map(|inputs| (key, inputs.iter().chain([&t]).map(|value| value.to_bits()).collect()));
+            if let (Some(inputs), Some(ends)) = (inputs, &ends)
+                && !self.led.contains_key(ends)
+                && is_asked.insert(ends.clone())
+            {
+                to_lead.push(ToLead { start, alone: Rc::clone(&alone), inputs, ends: ends.clone() });
+            }
+            found.push(Some((ends, alone)));
+        }
+        self.lead_all(&to_lead, t);
+        let place = |(ends, alone): Found| {
+            let led = ends.and_then(|ends| self.led.get(&ends).cloned());
+            led.unwrap_or_else(|| alone.q.clone())
+        };
+        found.into_iter().map(|found| found.map(place)).collect()
+    }
+
+    /// A part as it is alone.
+    fn part_alone(
+        &mut self,
+        system: &ConstraintSystem,
+        start: &PartStart,
+        settings: &[Setting],
+    ) -> Option<(Key, Rc<Alone>)> {
         let params: Vec<(String, f64)> =
             start.params.iter().map(|(name, id)| (name.clone(), system.value_at(*id, &[]))).collect();
         let settings = within(settings, &start.name);
         let path = if settings.is_empty() { String::new() } else { start.name.clone() };
         let key = (start.text, params.iter().map(|(_, value)| value.to_bits()).collect(), path);
         let alone = self.alone(start, &key, params, settings)?;
-        let Some(inputs) = inputs.filter(|_| alone.is_assembled) else { return Some(alone.q.clone()) };
-        let ends: Vec<u64> = inputs.iter().chain([&t]).map(|value| value.to_bits()).collect();
-        if let Some(known) = self.led.get(&(key.clone(), ends.clone())) {
-            return Some(known.clone());
-        }
-        let q = self.led_part(start, &alone, inputs, t).unwrap_or_else(|| alone.q.clone());
-        self.led.insert((key, ends), q.clone());
-        Some(q)
+        Some((key, alone))
     }
 
-    fn led_part(&mut self, start: &PartStart, alone: &Alone, inputs: &[f64], t: f64) -> Option<Vec<f64>> {
-        let tree = self.text_of(start)?;
+    /// Leads parts to what is asked, and says which did not get there, in their order.
+    fn lead_all(&mut self, parts: &[ToLead<'_>], t: f64) {
+        let own: Vec<Option<Vec<f64>>> = parts.iter().map(ToLead::own_inputs).collect();
+        let targets: Vec<Target<'_, Key>> = parts
+            .iter()
+            .zip(&own)
+            .map(|(part, own)| {
+                let is_later = part.alone.t.total_cmp(&t).is_ne();
+                Target { key: &part.ends.0, own: own.as_deref(), inputs: part.inputs, is_later }
+            })
+            .collect();
+        let mut said: Vec<(usize, Diagnostic)> = Vec::new();
+        for line in lines(&targets) {
+            self.lead_along(&line, parts, t, &mut said);
+        }
+        said.sort_by_key(|(part, _)| *part);
+        self.said.extend(said.into_iter().map(|(_, diagnostic)| diagnostic));
+    }
+
+    /// Leads parts that lie on one line.
+    fn lead_along(&mut self, line: &Line, parts: &[ToLead<'_>], t: f64, said: &mut Vec<(usize, Diagnostic)>) {
+        let ToLead { start, ref alone, inputs, .. } = parts[line.farthest];
         let times = [alone.t, t];
         let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
         let led = Surroundings { lead: Some(Lead { times, inputs: targets }), ..alone.surroundings.clone() };
-        let (whole, inputs, span) = self.compiled(tree, &led)?;
-        match analysis::lead(&whole.0, &whole.1, Some(&alone.q), self.options) {
-            Ok(arrived) => Some(arrived.q),
-            Err(NotLed::Stopped { part, why }) if !self.options.cancel.is_cancelled() => {
-                self.said.push(not_led(Some(start), &inputs, times, span, part, &why));
-                None
+        let Some((whole, inputs, span)) = self.text_of(start).and_then(|tree| self.compiled(tree, &led)) else {
+            return;
+        };
+        let stops: Vec<f64> = line.stops.iter().map(|(part, _)| *part).collect();
+        let Ok(way) = analysis::lead(&whole.0, &whole.1, Some(&alone.q), &stops, self.options) else { return };
+        let mut reached = way.reached.into_iter();
+        for (part_of_line, numbers) in &line.stops {
+            let q = reached.next();
+            for &number in numbers {
+                let ToLead { start, ends, .. } = &parts[number];
+                match (&q, &way.stopped) {
+                    (Some(q), _) => {
+                        self.led.insert(ends.clone(), q.clone());
+                    }
+                    (None, Some((part, why))) if !self.options.cancel.is_cancelled() => {
+                        let inputs = shortened(&inputs, *part_of_line);
+                        said.push((number, not_led(Some(start), &inputs, times, span, part / part_of_line, why)));
+                    }
+                    (None, _) => {}
+                }
             }
-            Err(_) => None,
         }
     }
 
@@ -210,12 +290,14 @@ impl<'s> Starts<'s> {
         let (model, _) = check::check(tree, &surroundings, self.sources);
         let model = model?;
         let t = model.analysis.map_or(0.0, |analysis| analysis.from);
+        let inputs = own_inputs(&model, t);
         let system = lower::lower(&model);
         let drawn = |system: &ConstraintSystem| -> Vec<f64> {
             system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect()
         };
         let estimates = drawn(&system);
-        let mut alone = Alone { surroundings, t, q: estimates, is_assembled: false, remarks: Diagnostics::default() };
+        let remarks = Diagnostics::default();
+        let mut alone = Alone { surroundings, t, inputs, q: estimates, is_assembled: false, remarks };
         let Ok((determined, _)) = analysis::determine(system, self.leave_out_redundant) else { return Some(alone) };
         let program = Arc::new(Program::new(determined.system()));
         let determined = Arc::new(determined);
@@ -236,6 +318,25 @@ impl<'s> Starts<'s> {
         let surroundings: &'s Surroundings = self.surroundings;
         surroundings.library.mechanism_at(start.text)
     }
+}
+
+/// What the inputs of a mechanism are at a time (SI), by their names.
+fn own_inputs(model: &Mechanism, t: f64) -> FxHashMap<String, f64> {
+    let value = |symbol| match symbol {
+        Symbol::Param(k) => model.params[k as usize].value,
+        Symbol::Time => t,
+        _ => f64::NAN,
+    };
+    model.inputs.iter().map(|input| (input.declared.name.clone(), model.graph.value(input.value, value))).collect()
+}
+
+/// The lines of inputs, up to a part of them.
+fn shortened(inputs: &[Led], part: f64) -> Vec<Led> {
+    let shorter = |input: &Led| {
+        let [from, to] = input.line;
+        Led { line: [from, from + (to - from) * part], ..input.clone() }
+    };
+    inputs.iter().map(shorter).collect()
 }
 
 /// What is set from outside in a part, by its names.

@@ -13,6 +13,7 @@ mod emitted;
 mod formula;
 mod imported;
 mod lead;
+mod lines;
 mod parsed;
 mod run;
 mod signals;

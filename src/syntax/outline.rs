@@ -190,7 +190,7 @@ impl<'a> Outline<'a> {
             _ => second == "=" && next != ")",
         };
         // after a bracket or an operator a formula goes on
-        let is_operand = ["(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
+        let is_operand = ["on", "(", ",", "=", "+", "-", "*", "/", "^", ".", "<", ">"].contains(&before);
         self.is_name_of(k) || is_operand && !goes_on
     }
 

@@ -68,9 +68,26 @@ pub fn deepest() -> Vec<Deep> {
         text: foreign(&nested("sin(", "t", ")", LEVELS)),
         is_foreign: true,
     });
+    deepest.push(own("parts in parts", parts_in_parts(32)));
     let signs = format!("{}t", "-".repeat(LEVELS));
     deepest.push(Deep { name: "foreign signs", text: foreign(&signs), is_foreign: true });
     deepest
+}
+
+/// Mechanisms that are parts of each other, each with what the one in it measures, and led by its input.
+fn parts_in_parts(levels: usize) -> String {
+    let outer = |level: usize| {
+        let inner = level + 1;
+        let first = if level == 0 { "input turn = 2 * t" } else { "input turn = t" };
+        format!(
+            "mechanism m{level} {{ {first} part a: m{inner}(turn = turn) at (1, 0, 0.1) mirrored measure x{level} = a.x{inner} + angle(a.ground) }}\n"
+        )
+    };
+    let last = format!(
+        "mechanism m{levels} {{ input turn = t body b {{ point O = (0, 0) point P = (1, 0) }} joint j: revolute((0, 0), b.O) \
+         driver d: rotation(j) = turn measure x{levels} = x(b.P) }}\n"
+    );
+    (0..levels).map(outer).collect::<String>() + &last
 }
 
 /// A chain of declarations, each with the one before in it; the last is `f`.
