@@ -3,6 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 #![allow(dead_code)] // what is shared with the fuzzer is not all used here
+#![allow(clippy::pedantic, clippy::disallowed_methods)] // it is written for the fuzzer, which knows nothing of these
 
 #[path = "../fuzz/src/composed.rs"]
 mod composed;

@@ -107,7 +107,7 @@ pub fn repetition_is_what_is_written_out(composed: &Composed) -> bool {
         codes
     });
     // by what decides how often something is repeated there is no derivative
-    if some.iter().any(|code| *code == "E0310") && all != some {
+    if some.contains(&"E0310") && all != some {
         return false;
     }
     if ranges.is_whole && by_hand.is_whole {

@@ -3,7 +3,7 @@
 
 use super::{Lowering, carry};
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
-use crate::model::{AxisId, Frame, PartId, Placement, PointId};
+use crate::model::{AxisId, Frame, Mechanism, PartId, Placement, PointId};
 
 /// A vector of two expressions.
 pub(super) type Vector = [ExprId; 2];
@@ -118,7 +118,7 @@ impl Lowering<'_> {
         let is_mirrored = model.is_mirrored(part.within) != model.is_mirrored(view);
         let (known, named) = (&mut self.known, &self.named);
         let mut formula = |graph: &mut _, id| carry(graph, model, known, named, id);
-        model.on_mount(&mut self.graph, &mut formula, Placement { is_mirrored, ..mount }, part)
+        Mechanism::on_mount(&mut self.graph, &mut formula, Placement { is_mirrored, ..mount }, part)
     }
 
     /// Where a frame is drawn, in that of a part or of the ground.

@@ -94,7 +94,7 @@ impl Mechanism {
                 let mount = self.drawn(graph, formula, within, part.mount);
                 // to who declares the part, what carries it is like everything in his text
                 let is_mirrored = self.is_mirrored(part.within) != self.is_mirrored(within);
-                self.on_mount(graph, formula, Placement { is_mirrored, ..mount }, part)
+                Mechanism::on_mount(graph, formula, Placement { is_mirrored, ..mount }, part)
             }
         }
     }
@@ -102,7 +102,6 @@ impl Mechanism {
     /// Where a part's frame is, if its mount is where it is in the handedness of the text that declares the part.
     #[must_use]
     pub fn on_mount(
-        &self,
         graph: &mut Graph,
         formula: &mut dyn FnMut(&mut Graph, ExprId) -> ExprId,
         mount: Placement,
