@@ -25,7 +25,7 @@ for (const file of files) {
   const library = start();
   const text = readFileSync(file, "utf8");
   give(library, text);
-  for (const [, name] of text.matchAll(/spline\s+"([^"]*)"/g)) {
+  for (const [, name] of text.matchAll(/\b(?:spline|use)\s+"([^"]*)"/g)) {
     give(library, name);
     give(library, readFileSync(join(dirname(file), name), "utf8"));
   }
