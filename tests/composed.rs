@@ -18,9 +18,13 @@ use composed::composed;
 use mechc::{Choice, Memory, Parsed};
 use oracles::{a_part_is_what_it_is_alone, repetition_is_what_is_written_out};
 use random::Random;
+use std::time::{Duration, Instant};
 
 /// Texts that are tried.
 const TEXTS: u64 = 40;
+
+/// By when what is too large is told, by a build that is not optimised.
+const SOON: Duration = Duration::from_secs(20);
 
 /// Bytes that make one.
 const BYTES: usize = 900;
@@ -55,5 +59,38 @@ fn composed_texts_are_formatted_to_what_they_mean() {
             Parsed::of("text", text).check(&choice, &Memory::default()).equations_text()
         };
         assert_eq!(equations(&formatted), equations(&text), "{seed}:\n{text}");
+    }
+}
+
+/// What is said of a text that is too large: just that.
+fn too_large(text: &str) {
+    let begun = Instant::now();
+    let checked = Parsed::of("text", text)
+        .check(&Choice { mechanism: Some("top".to_owned()), ..Choice::default() }, &Memory::default());
+    let told: Vec<&str> = checked.diagnostics().iter().map(|said| said.code.as_str()).collect();
+    assert!(!told.is_empty() && told.iter().all(|code| *code == "E0208"), "{told:?}: {text}");
+    assert!(begun.elapsed() < SOON, "{:?}: {text}", begun.elapsed());
+}
+
+#[test]
+fn what_is_too_large_is_told_soon_and_alone() {
+    let leaf = |copies: &str| {
+        format!(
+            "mechanism leaf {{ param n = 1 body b[k in 0..{copies}] {{ point O = (0, 0) }} driver d[k in 0..{copies}]: angle(b[k]) = t }}\n"
+        )
+    };
+    too_large(&format!("mechanism top {{ part p[i in 0..1000]: leaf() }}\n{}", leaf("1000")));
+    too_large(&format!(
+        "mechanism top {{ part p[i in 0..1000, j in 0..1000]: leaf()  measure x = x(p[3, 4].b[0].O) }}\n{}",
+        leaf("2")
+    ));
+    // twice as many on every level, all the same, and each another one
+    for bound in ["", "n = 2 * n"] {
+        let level = |k: u32| {
+            let name = if k == 0 { "top".to_owned() } else { format!("m{k}") };
+            let inner = if k == 31 { "leaf".to_owned() } else { format!("m{}", k + 1) };
+            format!("mechanism {name} {{ param n = 1  part a: {inner}({bound})  part b: {inner}() }}\n")
+        };
+        too_large(&((0..32).map(level).collect::<String>() + &leaf("n")));
     }
 }

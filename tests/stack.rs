@@ -6,9 +6,9 @@
 mod deepest;
 
 use deepest::{all_ways, deepest};
-use mechc::Sources;
 use mechc::rooms::model::Mechanism;
 use mechc::rooms::{check, math, syntax};
+use mechc::{Choice, Memory, Parsed, Sources};
 use proptest::collection::vec;
 use proptest::prelude::*;
 use std::thread;
@@ -116,4 +116,18 @@ fn what_is_said_of_a_long_chain_is_what_is_said_of_a_short_one() {
         let asked = model.map(|model| model.conditions.len());
         assert_eq!((asked, codes), (Some(1), vec![]), "{count} functions");
     }
+}
+
+#[test]
+fn any_number_of_levels_of_parts_is_told_with_a_small_stack() {
+    let level = |k: usize| format!("mechanism m{k} {{ part a: m{}() }}\n", k + 1);
+    let text = (0..4000).map(level).collect::<String>() + "mechanism m4000 { body b { point O = (0, 0) } }";
+    let check = move || {
+        let choice = Choice { mechanism: Some("m0".to_owned()), ..Choice::default() };
+        let checked = Parsed::of("levels", &text).check(&choice, &Memory::default());
+        checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>()
+    };
+    // a tenth of the levels would fill it
+    let told = thread::Builder::new().stack_size(STACK / 8).spawn(check).expect("a thread").join().expect("no panic");
+    assert_eq!(told, ["E0209"]);
 }

@@ -578,8 +578,8 @@ impl<'d, 'b> Draft<'d, 'b> {
             5 => format!("atan2(x({p}), y({p}))"),
             _ => format!("x({p}, {q})"),
         };
-        let param = self.declarations.iter().rev().find_map(|text| text.strip_prefix("param ")?.split(' ').next());
-        let param = param.map(str::to_owned);
+        // none that decides what is repeated, by which there is no derivative
+        let param = self.params.last().map(|(name, _)| name.clone());
         let value = match (self.pick(8), param) {
             (7, Some(param)) => format!("der(der(der({quantity}, {param})), {param})"),
             (which, _) => measured(which, quantity),

@@ -6,7 +6,7 @@ use super::errors;
 use super::instance::Instance;
 use super::library::{Library, NotKnown};
 use super::mentions::{formulas, indices, mentioned, name_of};
-use super::repetition::{MOST, Numbers, Writer, named, needs_writing};
+use super::repetition::{MOST, Numbers, Writer, broken, named, needs_writing};
 use super::{Checker, Surroundings};
 use crate::diag::Diagnostics;
 use crate::source::Sources;
@@ -27,7 +27,7 @@ pub(super) fn instance_of<'t>(
         library: &surroundings.library,
         surroundings,
         sources,
-        deciding: FxHashMap::default(),
+        outlines: FxHashMap::default(),
         known: FxHashMap::default(),
         around: Vec::new(),
         diagnostics: Diagnostics::default(),
@@ -43,12 +43,21 @@ pub(super) fn instance_of<'t>(
 /// The text of a mechanism, and what is bound of what decides its ranges.
 type Key = (*const Mechanism, Vec<(String, u64)>);
 
+/// What is known of a mechanism by its text and those of its parts, whatever its params are.
+#[derive(Clone, Default)]
+struct Outline {
+    /// The params that decide what is repeated.
+    deciding: Rc<FxHashSet<String>>,
+    /// So many declarations there are at least, written out.
+    fewest: usize,
+}
+
 struct Builder<'t, 's> {
     library: &'t Library,
     surroundings: &'s Surroundings,
     sources: &'s Sources,
     /// By the text of a mechanism.
-    deciding: FxHashMap<*const Mechanism, Rc<FxHashSet<String>>>,
+    outlines: FxHashMap<*const Mechanism, Outline>,
     /// By the text of a mechanism, and what is bound of what decides its ranges.
     known: FxHashMap<Key, Rc<Instance<'t>>>,
     /// The mechanisms around the one at hand, the outermost first.
@@ -99,19 +108,22 @@ impl<'t> Builder<'t, '_> {
         for (item, copies) in tree.items.iter().zip(&copies) {
             let (ItemKind::Part(part), Some(copies)) = (&item.kind, copies) else { continue };
             let mechanism = self.mechanism_of(part);
+            let fewest = mechanism.map_or(0, |mechanism| self.outline(mechanism).fewest);
             for numbers in copies {
-                let instance = mechanism
-                    .filter(|_| !self.is_too_large)
-                    .and_then(|mechanism| self.part(mechanism, part, path, numbers, &mut writer));
+                // before any of it is written out
+                self.must_be_small_enough(count.saturating_add(fewest), part);
+                if self.is_too_large {
+                    self.diagnostics.extend(writer.said());
+                    return too_large(tree, item, deciding);
+                }
+                let instance = mechanism.and_then(|mechanism| self.part(mechanism, part, path, numbers, &mut writer));
                 count += instance.as_ref().map_or(0, |instance| instance.count);
-                let instance = instance.filter(|_| self.is_small_enough(count, part));
+                self.must_be_small_enough(count, part);
+                if self.is_too_large {
+                    self.diagnostics.extend(writer.said());
+                    return too_large(tree, item, deciding);
+                }
                 by_name.insert(named(&part.name, numbers).text, instance);
-            }
-        }
-        if self.is_too_large {
-            // what cannot be is not looked at any further
-            for instance in by_name.values_mut() {
-                *instance = None;
             }
         }
         let ((found, said), copies, paths) = writer.written(tree, &copies, by_name.clone());
@@ -174,40 +186,72 @@ impl<'t> Builder<'t, '_> {
         Some(instance)
     }
 
-    fn is_small_enough(&mut self, count: usize, part: &ast::Part) -> bool {
+    fn must_be_small_enough(&mut self, count: usize, part: &ast::Part) {
         if count > MOST && !self.is_too_large {
             self.is_too_large = true;
             self.diagnostics.push(errors::too_many_declarations(part.name.span, MOST));
         }
-        !self.is_too_large
     }
 
     /// The params that the bounds of ranges and the numbers of copies are made of, in a mechanism and in its parts, through other params
     /// and functions too.
     fn deciding(&mut self, tree: &'t Mechanism) -> Rc<FxHashSet<String>> {
-        let key = std::ptr::from_ref(tree);
-        if let Some(known) = self.deciding.get(&key) {
-            return Rc::clone(known);
+        self.outline(tree).deciding
+    }
+
+    /// A mechanism, once those of its parts are known; without recursion, for there may be any number of levels, which is told elsewhere.
+    fn outline(&mut self, tree: &'t Mechanism) -> Outline {
+        let mut open = vec![(tree, false)];
+        while let Some((tree, are_parts_known)) = open.pop() {
+            let key = std::ptr::from_ref(tree);
+            if are_parts_known {
+                let outline = self.outline_with_parts(tree);
+                self.outlines.insert(key, outline);
+            } else if !self.outlines.contains_key(&key) {
+                // this is what counts in a circle of mechanisms, which is told elsewhere
+                self.outlines.insert(key, Outline::default());
+                open.push((tree, true));
+                open.extend(parts_of(tree).filter_map(|part| Some((self.find(&part.mechanism).ok()?, false))));
+            }
         }
-        // in a circle of mechanisms, which is told elsewhere
-        self.deciding.insert(key, Rc::default());
+        self.outlines.get(&std::ptr::from_ref(tree)).cloned().unwrap_or_default()
+    }
+
+    fn outline_with_parts(&self, tree: &'t Mechanism) -> Outline {
         let mut open: Vec<&'t Expr> = Vec::new();
+        let mut fewest = tree.items.iter().filter(|item| item.ranges.is_empty()).count();
         if needs_writing(tree) {
             let ranges = tree.items.iter().flat_map(|item| &item.ranges);
             open.extend(ranges.flat_map(|range| [&range.from, &range.to]));
             open.extend(tree.items.iter().flat_map(formulas).flat_map(indices));
-            for item in &tree.items {
-                let ItemKind::Part(part) = &item.kind else { continue };
-                let Ok(mechanism) = self.find(&part.mechanism) else { continue };
-                let inside = self.deciding(mechanism);
-                let bindings = part.bindings.iter().filter(|binding| inside.contains(&binding.name.text));
-                open.extend(bindings.map(|binding| &binding.value));
+        }
+        for item in &tree.items {
+            let ItemKind::Part(part) = &item.kind else { continue };
+            let Ok(mechanism) = self.find(&part.mechanism) else { continue };
+            let Some(inside) = self.outlines.get(&std::ptr::from_ref(mechanism)) else { continue };
+            let bindings = part.bindings.iter().filter(|binding| inside.deciding.contains(&binding.name.text));
+            open.extend(bindings.map(|binding| &binding.value));
+            if item.ranges.is_empty() {
+                fewest = fewest.saturating_add(inside.fewest);
             }
         }
-        let deciding = Rc::new(needed_by(tree, open));
-        self.deciding.insert(key, Rc::clone(&deciding));
-        deciding
+        Outline { deciding: Rc::new(needed_by(tree, open)), fewest }
     }
+}
+
+/// The declarations of parts in a mechanism.
+fn parts_of(tree: &Mechanism) -> impl Iterator<Item = &ast::Part> {
+    tree.items.iter().filter_map(|item| match &item.kind {
+        ItemKind::Part(part) => Some(part),
+        _ => None,
+    })
+}
+
+/// A mechanism that is not looked at any further, for what is in one of its parts.
+fn too_large<'t>(tree: &'t Mechanism, part: &Item, deciding: Rc<FxHashSet<String>>) -> Instance<'t> {
+    let items = vec![broken(part, &Vec::new())];
+    let written = Mechanism { items, docs: Vec::new(), name: tree.name.clone(), span: tree.span };
+    Instance { written: Some(written), deciding, ..Instance::plain(tree) }
 }
 
 /// The names that formulas mention, those that the formulas of these mention, and so on.

@@ -76,6 +76,11 @@ impl<'t, 'c> Writer<'t, 'c> {
         self.count
     }
 
+    /// What is wrong so far.
+    pub fn said(self) -> Diagnostics {
+        self.checker.diagnostics
+    }
+
     /// Whether there are too many.
     pub fn is_too_large(&self) -> bool {
         self.is_too_large
@@ -503,7 +508,7 @@ impl<'t, 'c> Writer<'t, 'c> {
 }
 
 /// A declaration, or one of its copies, that cannot be written out, which has been said.
-fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
+pub(super) fn broken(item: &Item, numbers: &Numbers<'_>) -> Item {
     let names = name_of(item).map(|name| named(name, numbers)).into_iter().collect();
     Item { docs: Vec::new(), span: item.span, ranges: Vec::new(), kind: ItemKind::Broken { names } }
 }
