@@ -734,6 +734,32 @@ impl Kinematics {
         self.variations.columns.get(column).copied().unwrap_or(false)
     }
 
+    /// The same equations and scales, whose variations are those that results need; none where they need none.
+    pub fn with_variations_of_results(&self) -> Option<Kinematics> {
+        let determined = Arc::new(self.determined.for_variations_of_results()?);
+        let program = Arc::new(Program::new(determined.system()));
+        let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
+        let (registers, variations) = (program.start(&params), Varied::new(determined.system()));
+        Some(Kinematics { determined, program, registers, variations, ..self.clone() })
+    }
+
+    /// Computes the variations of a state that was solved for, where they can be trusted.
+    pub fn vary_at(&mut self, state: &State) {
+        self.set_time(state.t);
+        let is_regular = self.set_position(&state.q).is_ok() && self.factor().is_ok();
+        self.set_derivatives(state);
+        if is_regular {
+            self.vary(state);
+        } else {
+            self.leave_variations_out();
+        }
+    }
+
+    /// How a coordinate, its velocity and its acceleration change in a variation.
+    pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
+        [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
+    }
+
     /// Computes the variations of a state whose derivatives were just computed, where they can be trusted.
     fn vary(&mut self, state: &State) {
         if self.system().variations().is_empty() {

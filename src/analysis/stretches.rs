@@ -62,9 +62,14 @@ impl Motion {
     fn stretch(&mut self, from: State, begins_at_edge: bool) -> Stretch {
         let bridge = self.bridge.clone().filter(|bridge| bridge.to.t.total_cmp(&self.state.t).is_eq());
         let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
-        let switches = self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect();
+        let switches = self.switches();
         let ends_at_edge = self.output.is_at_edge() || self.state.t >= self.last;
         Stretch { from, middle, to: self.state.clone(), switches, bridge, begins_at_edge, ends_at_edge }
+    }
+
+    /// The results that the equations' switches have now.
+    pub(super) fn switches(&self) -> Rc<[f64]> {
+        self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect()
     }
 
     /// Where the motion is.

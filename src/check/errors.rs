@@ -6,7 +6,7 @@ mod results;
 mod variables;
 
 pub use parts::*;
-pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_in_reduction};
+pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_of_result};
 pub use variables::*;
 
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};

@@ -141,10 +141,6 @@ impl Checker<'_> {
             None => None,
         };
         let of = of?;
-        if self.is_varied(of.id) {
-            self.report(errors::variation_in_reduction(e.span));
-            return None;
-        }
         let kind = kind(word.word.name, at)?;
         let dim = of.dim.settled();
         let dim = match kind {
@@ -171,6 +167,22 @@ impl Checker<'_> {
             Symbol::Time | Symbol::Signal { .. } | Symbol::Coordinate { .. } | Symbol::Varied { .. } => true,
         };
         !symbols.iter().any(changes)
+    }
+
+    /// Whether a formula holds a number for the whole analysis.
+    pub(super) fn holds_reduction(&self, id: ExprId) -> bool {
+        let mut open = vec![id];
+        while let Some(id) = open.pop() {
+            for symbol in self.model.graph.symbols(id) {
+                let Symbol::Named(k) = symbol else { continue };
+                match self.model.named.get(k as usize) {
+                    Some(Named::Reduction(_)) => return true,
+                    Some(Named::Derivative(inner) | Named::By(inner, _)) => open.push(*inner),
+                    _ => {}
+                }
+            }
+        }
+        false
     }
 
     /// The time of `at`, a constant.

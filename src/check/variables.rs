@@ -118,12 +118,20 @@ impl Checker<'_> {
 
     /// `der(e, NAME)`
     pub(super) fn derivative_by(&mut self, e: &Expr, [of, by]: [&Expr; 2], context: &Context<'_>) -> Option<Value> {
+        if context.results && !context.measures {
+            self.report(errors::variation_of_result(e.span));
+            return None;
+        }
         if !context.measures {
             self.report(errors::derivative_in(context.place, e.span));
             return None;
         }
         let (inner, variable) = (self.number(of, context), self.variable(by));
         let (inner, variable) = (inner?, variable?);
+        if self.holds_reduction(inner.id) {
+            self.report(errors::variation_of_result(e.span));
+            return None;
+        }
         let (times, _) = self.variation_orders(inner.id);
         let rates = self.derivative_order(inner.id);
         if times + 1 > MOST_VARIABLES {
@@ -147,11 +155,6 @@ impl Checker<'_> {
             self.variables.orders.insert(rate, (times, rates + 1));
         }
         times == 0 || rates < MOST_RATES
-    }
-
-    /// Whether a formula holds a derivative by an input or param.
-    pub(super) fn is_varied(&self, id: ExprId) -> bool {
-        self.variation_orders(id).0 > 0
     }
 
     /// By how many variables a formula is differentiated, and how often by time there.

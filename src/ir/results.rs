@@ -1,6 +1,6 @@
 //! What is asked of a whole analysis, beside its rows.
 
-use super::Units;
+use super::{ConstraintSystem, Units, Variations};
 use crate::expr::ExprId;
 use crate::source::Span;
 
@@ -11,6 +11,10 @@ pub struct Results {
     pub reductions: Vec<Reduction>,
     /// The numbers.
     pub outcomes: Vec<Outcome>,
+    /// The variations that the formulas hold, those of the rows first; where they hold any.
+    pub variations: Option<Box<Variations>>,
+    /// By the number of a variation: what holds only where the equations that were left out go on to hold.
+    pub varied_where: Vec<(u32, ExprId)>,
 }
 
 /// One number for the whole analysis.
@@ -29,7 +33,7 @@ pub struct Outcome {
 /// What becomes of a formula over the whole analysis.
 #[derive(Clone, Copy, Debug)]
 pub struct Reduction {
-    /// The formula, over parameters, time, coordinates with their derivatives, and other reductions.
+    /// The formula, over parameters, time, coordinates with their derivatives and variations, and other reductions.
     pub of: ExprId,
     /// Which number of it.
     pub kind: ReductionKind,
@@ -57,4 +61,14 @@ pub enum ReductionKind {
     Last,
     /// The value at a time (s), a formula of parameters.
     At(ExprId),
+}
+
+impl ConstraintSystem {
+    /// The same equations, whose variations are those that results need, and nothing that rows show; none where they need none.
+    #[must_use]
+    pub fn for_variations_of_results(&self) -> Option<ConstraintSystem> {
+        let variations = self.results.variations.clone()?;
+        let (measures, results) = (Vec::new(), Results::default());
+        Some(ConstraintSystem { variations: Some(variations), measures, results, ..self.clone() })
+    }
 }

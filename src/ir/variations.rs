@@ -133,11 +133,13 @@ impl Variations {
         graph.symbols(formula).into_iter().map(times).max().unwrap_or(0)
     }
 
-    /// The right sides of all variations, for rows of `Φ`.
+    /// The right sides of all variations that have none yet, for rows of `Φ`.
     fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
+        let first_open = self.list.iter().position(|variation| variation.rights[0].len() < phi.len());
+        let Some(first_open) = first_open else { return };
         let orders = with_rates(graph, phi);
         let mut whole: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
-        for number in 0..self.list.len() {
+        for number in first_open..self.list.len() {
             let (first, second) = self.list[number].by;
             for (order, roots) in orders.iter().enumerate() {
                 let top = order as u8;
@@ -160,6 +162,21 @@ impl Variations {
                 self.list[number].rights[order] = slopes.into_iter().map(|slope| graph.neg(slope)).collect();
             }
         }
+    }
+}
+
+impl Variations {
+    /// Only the right sides of some rows are left.
+    fn keep(&mut self, kept: &[usize]) {
+        for rights in self.list.iter_mut().flat_map(|variation| &mut variation.rights) {
+            *rights = kept.iter().map(|&row| rights[row]).collect();
+        }
+    }
+
+    /// The same without columns of their own.
+    #[must_use]
+    pub fn without_columns(&self) -> Variations {
+        Variations { appended: Vec::new(), ..self.clone() }
     }
 }
 
@@ -204,13 +221,20 @@ impl ConstraintSystem {
         }
     }
 
+    /// The right sides of the variations that only results need.
+    pub fn derive_variations_of_results(&mut self) {
+        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        if let Some(variations) = &mut self.results.variations {
+            variations.write_rights(&mut self.graph, &phi);
+        }
+    }
+
     /// Only some rows are left. What is varied in a way in which an equation that was left out would cease to hold has no derivative: the
     /// mechanism cannot be assembled beside where it is.
     pub(super) fn leave_out_of_variations(&mut self, kept: &[usize]) {
+        self.leave_out_of_variations_of_results(kept);
         let Some(mut variations) = self.variations.take() else { return };
-        for rights in variations.list.iter_mut().flat_map(|variation| &mut variation.rights) {
-            *rights = kept.iter().map(|&row| rights[row]).collect();
-        }
+        variations.keep(kept);
         let hold = self.where_checks_hold(&mut variations);
         for column in &mut variations.appended {
             column.value = only_where(&mut self.graph, &hold, column.value);
@@ -222,6 +246,14 @@ impl ConstraintSystem {
             }
         }
         self.variations = Some(variations);
+    }
+
+    fn leave_out_of_variations_of_results(&mut self, kept: &[usize]) {
+        let Some(mut variations) = self.results.variations.take() else { return };
+        variations.keep(kept);
+        let hold = self.where_checks_hold(&mut variations).into_iter().enumerate();
+        self.results.varied_where = hold.filter_map(|(number, hold)| Some((number as u32, hold?))).collect();
+        self.results.variations = Some(variations);
     }
 
     /// By variation: whether all equations that were left out go on to hold.

@@ -120,8 +120,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         // what is asked of the whole analysis changes nothing above
         lowering.graph = std::mem::take(&mut system.graph);
         lowering.coordinates.clone_from(&system.coordinates);
+        lowering.variations = system.variations.as_deref().map(Variations::without_columns);
         system.results = lowering.results();
         system.graph = lowering.graph;
+        system.derive_variations_of_results();
     }
     system
 }

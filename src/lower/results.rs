@@ -9,7 +9,8 @@ impl Lowering<'_> {
     pub(super) fn results(&mut self) -> Results {
         let model = self.model;
         self.named_up_to(model.named.len());
-        let reductions = model.reductions.iter().map(|reduction| self.reduction(reduction)).collect();
+        let reductions: Vec<ir::Reduction> =
+            model.reductions.iter().map(|reduction| self.reduction(reduction)).collect();
         let outcomes = model.outcomes.iter().map(|outcome| Outcome {
             name: outcome.declared.name.clone(),
             span: outcome.declared.span,
@@ -17,7 +18,11 @@ impl Lowering<'_> {
             units: units(&outcome.units),
         });
         let outcomes = outcomes.collect();
-        Results { reductions, outcomes }
+        let is_varied =
+            |reduction: &ir::Reduction| self.graph.dependence(reduction.of).highest_varied_order().is_some();
+        let holds_variations = reductions.iter().any(is_varied);
+        let variations = self.variations.take().filter(|_| holds_variations).map(Box::new);
+        Results { reductions, outcomes, variations, varied_where: Vec::new() }
     }
 
     fn reduction(&mut self, reduction: &crate::model::Reduction) -> ir::Reduction {

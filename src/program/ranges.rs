@@ -40,7 +40,6 @@ pub struct Ranges {
     is_frozen: bool,
     values: Vec<Interval>,
     time: Register,
-    coordinates: [Register; 4],
 }
 
 impl Ranges {
@@ -67,7 +66,6 @@ impl Ranges {
             is_frozen,
             values: (0..program.registers()).map(|k| point(registers.get(k as u32))).collect(),
             time: program.inputs.time,
-            coordinates: program.inputs.coordinates,
         }
     }
 
@@ -76,9 +74,9 @@ impl Ranges {
         self.values[self.time as usize] = Interval { low: from, high: to };
     }
 
-    /// Lets a coordinate's derivative of some order be anywhere between two values.
-    pub fn set(&mut self, order: usize, index: usize, [low, high]: [f64; 2]) {
-        self.values[self.coordinates[order] as usize + index] = Interval { low, high };
+    /// Lets an input be anywhere between two values.
+    pub fn set(&mut self, register: Register, [low, high]: [f64; 2]) {
+        self.values[register as usize] = Interval { low, high };
     }
 
     /// The range of a formula; those before it must have been asked for since time and coordinates were set.

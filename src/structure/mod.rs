@@ -40,6 +40,13 @@ impl Determined {
         &self.system
     }
 
+    /// The same with the variations that results need; none where they need none.
+    #[must_use]
+    pub fn for_variations_of_results(&self) -> Option<Determined> {
+        let system = self.system.for_variations_of_results()?;
+        Some(Determined { system, blocks: self.blocks.clone() })
+    }
+
     /// The blocks, in an order of solution.
     #[must_use]
     pub fn blocks(&self) -> &[Block] {

@@ -1,14 +1,17 @@
 //! Formulas that are reduced: their values, derivatives and ranges along the motion.
 
+use super::places::Places;
 use crate::analysis::kinematics::State;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
-use crate::program::{Program, Range, Ranges, Register, Registers, Stage};
+use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
 use std::rc::Rc;
 
 /// How much farther from a straight line a coordinate's last derivative may go between two states than it did in the middle of the
 /// stretch that they are a half of: four times as far as a parabola would.
 const SAFETY: f64 = 1.0;
+/// A variation is known with two time derivatives.
+const VARIED_ORDERS: u32 = 3;
 
 /// A formula along the motion.
 pub(super) struct Formula {
@@ -17,9 +20,42 @@ pub(super) struct Formula {
     /// Its value and time derivatives, as many as there are.
     roots: Vec<Register>,
     ranges: Ranges,
-    /// The coordinates that it or its derivatives hold.
-    coordinates: Vec<usize>,
+    /// What moves of all that it or its derivatives hold.
+    moving: Vec<Moving>,
     has_jerk: bool,
+}
+
+/// What changes with the motion.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
+pub(super) enum Moving {
+    /// A coordinate.
+    Coordinate(usize),
+    /// A variation of a coordinate.
+    Varied {
+        /// The variation's number.
+        variation: u32,
+        /// The coordinate's.
+        index: usize,
+    },
+}
+
+impl Moving {
+    fn of(symbol: Symbol) -> Option<Moving> {
+        match symbol {
+            Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
+            Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
+            _ => None,
+        }
+    }
+
+    /// Where it and its time derivatives go, as many as there are.
+    fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
+        match self {
+            Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
+            Moving::Varied { variation, index } => [0, 1, 2, 3]
+                .map(|order| (order < VARIED_ORDERS).then(|| inputs.varied(variation, order) + index as Register)),
+        }
+    }
 }
 
 /// A formula at a time: its value and time derivatives; those that it has not are no numbers.
@@ -33,6 +69,8 @@ pub(super) struct Sample {
 /// A formula at a state.
 pub(super) struct Point {
     pub state: State,
+    /// What moves of it, each with three time derivatives; one that there is not is 0.
+    moving: Vec<[f64; 4]>,
     pub sample: Sample,
 }
 
@@ -41,7 +79,7 @@ pub(super) struct Point {
 pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
-    /// By coordinate that the formula holds: how far its second and third derivatives are from a straight line.
+    /// By what moves of the formula: how far its second and third derivatives are from a straight line.
     bends: Rc<[[f64; 2]]>,
 }
 
@@ -64,7 +102,7 @@ impl Cell {
 
     /// Its two halves.
     pub fn halves(&self, formula: &Formula, middle: &Rc<Point>) -> [Cell; 2] {
-        let bends = formula.bends([&self.a.state, &middle.state, &self.b.state]);
+        let bends = formula.bends([&self.a, middle, &self.b]);
         [
             Cell { a: Rc::clone(&self.a), b: Rc::clone(middle), bends: Rc::clone(&bends) },
             Cell { a: Rc::clone(middle), b: Rc::clone(&self.b), bends },
@@ -73,19 +111,20 @@ impl Cell {
 
     /// From one point to another, of which nothing between is known yet.
     pub fn unknown(formula: &Formula, a: &Rc<Point>, b: &Rc<Point>) -> Cell {
-        let bends = formula.coordinates.iter().map(|_| [f64::INFINITY; 2]).collect();
+        let bends = formula.moving.iter().map(|_| [f64::INFINITY; 2]).collect();
         Cell { a: Rc::clone(a), b: Rc::clone(b), bends }
     }
 }
 
 impl Formula {
-    /// A formula of a graph over the parameters and coordinates of a system.
-    pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem) -> Formula {
+    /// A formula of a graph over the parameters, coordinates and variations of a system.
+    pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
         let has_jerk = system.jerk.is_some();
         let mut formulas = vec![value];
         while formulas.len() < 3 {
             let last = formulas[formulas.len() - 1];
-            if graph.dependence(last).highest_order() == Some(3) {
+            let dependence = graph.dependence(last);
+            if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
                 break;
             }
             let next = ConstraintSystem::time_derivatives(graph, &[last], 3)[0];
@@ -94,21 +133,15 @@ impl Formula {
             }
             formulas.push(next);
         }
-        let mut coordinates: Vec<usize> = graph
-            .symbols_of_all(&formulas)
-            .into_iter()
-            .filter_map(|symbol| match symbol {
-                Symbol::Coordinate { index, .. } => Some(index as usize),
-                _ => None,
-            })
-            .collect();
-        coordinates.sort_unstable();
-        coordinates.dedup();
-        let (program, roots) = Program::of_formulas(graph, system.params.len(), system.coordinates.len(), &formulas);
+        let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
+        moving.sort_unstable();
+        moving.dedup();
+        let counts = [system.params.len(), system.coordinates.len(), variations];
+        let (program, roots) = Program::of_formulas(graph, counts, &formulas);
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
-        Formula { program, registers, roots, ranges, coordinates, has_jerk }
+        Formula { program, registers, roots, ranges, moving, has_jerk }
     }
 
     /// How many time derivatives it has: 0 to 2.
@@ -118,35 +151,56 @@ impl Formula {
 
     /// Whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
-        !self.coordinates.is_empty()
+        !self.moving.is_empty()
     }
 
-    /// At a state.
-    pub fn at(&mut self, state: State) -> Rc<Point> {
+    /// At a state of the stretch that was entered.
+    pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
         let inputs = self.program.inputs;
+        if self.is_varied() {
+            places.vary(&state);
+        }
+        let tower = |moving: &Moving| match *moving {
+            Moving::Coordinate(k) => [state.q[k], state.qd[k], state.qdd[k], state.qddd[k]],
+            Moving::Varied { variation, index } => {
+                let [place, first, second] = places.variation(variation, index);
+                [place, first, second, 0.0]
+            }
+        };
+        let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.registers.set(inputs.time, state.t);
-        for &k in &self.coordinates {
-            for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd, &state.qddd]) {
-                self.registers.set(first + k as u32, values[k]);
+        for (of, values) in self.moving.iter().zip(&moving) {
+            for (register, value) in of.registers(&inputs).into_iter().zip(values) {
+                if let Some(register) = register {
+                    self.registers.set(register, *value);
+                }
             }
         }
         self.program.run(Stage::Measures, &mut self.registers);
         let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
         let sample = Sample { value: value(0), first: value(1), second: value(2) };
-        Rc::new(Point { state, sample })
+        Rc::new(Point { state, moving, sample })
+    }
+
+    fn is_varied(&self) -> bool {
+        self.moving.iter().any(|moving| matches!(moving, Moving::Varied { .. }))
     }
 
     /// Begins to look at the ranges in a cell.
     pub fn look_at(&mut self, cell: &Cell) {
-        let (a, b, h) = (&cell.a.state, &cell.b.state, cell.length());
-        self.ranges.set_times([a.t, b.t]);
-        for (&k, bends) in self.coordinates.iter().zip(cell.bends.iter()) {
-            let third = around(a.qddd[k], b.qddd[k], bends[1]);
-            let second = around(a.qdd[k], b.qdd[k], bends[0]);
-            let first = between(a.qd[k], b.qd[k], second, h);
-            let place = between(a.q[k], b.q[k], first, h);
-            for (order, range) in [place, first, second, third].into_iter().enumerate() {
-                self.ranges.set(order, k, range);
+        let h = cell.length();
+        self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
+        let ends = cell.a.moving.iter().zip(&cell.b.moving);
+        for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(cell.bends.iter()) {
+            let third = around(a[3], b[3], bends[1]);
+            let second = around(a[2], b[2], bends[0]);
+            let first = between(a[1], b[1], second, h);
+            let place = between(a[0], b[0], first, h);
+            let registers = of.registers(&self.program.inputs);
+            for (register, range) in registers.into_iter().zip([place, first, second, third]) {
+                if let Some(register) = register {
+                    self.ranges.set(register, range);
+                }
             }
         }
     }
@@ -156,14 +210,16 @@ impl Formula {
         self.ranges.range(&self.program, &self.registers, order)
     }
 
-    /// How far the last derivatives are from a straight line in the middle of three states.
-    fn bends(&self, [a, middle, b]: [&State; 3]) -> Rc<[[f64; 2]]> {
-        let off = |a: &[f64], middle: &[f64], b: &[f64], k: usize| (middle[k] - 0.5 * a[k] - 0.5 * b[k]).abs();
-        let of = |&k: &usize| {
-            let third = if self.has_jerk { off(&a.qddd, &middle.qddd, &b.qddd, k) } else { 0.0 };
-            [off(&a.qdd, &middle.qdd, &b.qdd, k), third]
+    /// How far the last derivatives are from a straight line in the middle of three points.
+    fn bends(&self, [a, middle, b]: [&Point; 3]) -> Rc<[[f64; 2]]> {
+        let of = |k: usize| {
+            let off = |order: usize| {
+                let [a, middle, b] = [a, middle, b].map(|point| point.moving[k][order]);
+                (middle - 0.5 * a - 0.5 * b).abs()
+            };
+            [off(2), if self.has_jerk { off(3) } else { 0.0 }]
         };
-        self.coordinates.iter().map(of).collect()
+        (0..self.moving.len()).map(of).collect()
     }
 }
 

@@ -13,6 +13,7 @@ mod quadrature;
 mod reduced;
 mod search;
 mod survey;
+mod varying;
 
 use super::Started;
 use super::errors;
@@ -123,7 +124,8 @@ impl Analysis {
         let determined = Arc::clone(&self.determined);
         let system = determined.system();
         let asked: Vec<(usize, Reduction)> = level.iter().map(|&k| (k, system.results.reductions[k])).collect();
-        let (mut all, formula_of) = self.formulas(&asked);
+        let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
+        let (mut all, formula_of) = self.formulas(&asked, places.variations());
         let at = |reduction: &Reduction| match reduction.kind {
             ReductionKind::At(at) => system.value_at(at, &[]),
             _ => f64::NAN,
@@ -132,7 +134,7 @@ impl Analysis {
         for ((_, reduction), &of) in asked.iter().zip(&formula_of) {
             all[of].ask(reduction.kind, at(reduction), interval);
         }
-        self.run(&mut all, to - from)?;
+        self.run(&mut all, &mut places, to - from)?;
         for ((k, reduction), &of) in asked.iter().zip(&formula_of) {
             self.found[*k] = Some(all[of].outcome(reduction.kind, at(reduction), interval));
         }
@@ -140,7 +142,7 @@ impl Analysis {
     }
 
     /// The formulas of some reductions, each once, and which is whose.
-    fn formulas(&self, asked: &[(usize, Reduction)]) -> (Vec<Reduced>, Vec<usize>) {
+    fn formulas(&self, asked: &[(usize, Reduction)], variations: usize) -> (Vec<Reduced>, Vec<usize>) {
         let system = self.system();
         let (mut graph, mut known) = (Graph::new(), FxHashMap::default());
         graph.import_tables(&system.graph, &mut known, Graph::symbol);
@@ -158,28 +160,28 @@ impl Analysis {
             });
             formula_of.push(at);
         }
-        let all = ids.into_iter().map(|id| Reduced::new(Formula::new(&mut graph, id, system))).collect();
+        let all = ids.into_iter().map(|id| Reduced::new(Formula::new(&mut graph, id, system, variations))).collect();
         (all, formula_of)
     }
 
     /// Looks at formulas along the whole motion.
-    fn run(&self, all: &mut [Reduced], span: f64) -> Result<(), Box<Diagnostic>> {
+    fn run(&self, all: &mut [Reduced], places: &mut Places, span: f64) -> Result<(), Box<Diagnostic>> {
         let mut motion = self.asked.motion();
-        let mut places = Places::new(self.asked.kinematics.clone(), self.asked.solver.clone());
         let mut stretches = Vec::new();
         loop {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
             stretches.extend(next);
             if is_end && span <= 0.0 {
+                places.enter_where(&motion.switches());
                 for reduced in all.iter_mut() {
-                    reduced.look_at_start(motion.here(), span);
+                    reduced.look_at_start(motion.here(), places, span);
                 }
                 return Ok(());
             }
             if is_end || stretches.len() >= CHUNK {
                 for reduced in all.iter_mut() {
-                    reduced.look(&stretches, &mut places, span);
+                    reduced.look(&stretches, places, span);
                 }
                 stretches.clear();
             }

@@ -1,5 +1,6 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
+use super::varying::Varying;
 use crate::analysis::kinematics::{Kinematics, State};
 use crate::analysis::march::{along, quintic};
 use crate::analysis::rows::state_of_row;
@@ -26,6 +27,8 @@ pub(super) struct Places {
     /// What time alone asks of the equations.
     signals: Ranges,
     signal_count: usize,
+    /// What finds derivatives by inputs and parameters, where results hold any.
+    varying: Option<Varying>,
 }
 
 impl Places {
@@ -48,8 +51,14 @@ impl Places {
             signals,
             signal_count: registers.len(),
             solver,
+            varying: Varying::of(&kinematics),
             kinematics,
         }
+    }
+
+    /// How many variations formulas may hold.
+    pub fn variations(&self) -> usize {
+        self.varying.as_ref().map_or(0, Varying::count)
     }
 
     /// Goes over to a stretch.
@@ -57,6 +66,26 @@ impl Places {
         self.kinematics.freeze(true, true);
         self.kinematics.set_switches(&stretch.switches);
         self.has_bounds = false;
+        self.enter_where(&stretch.switches);
+    }
+
+    /// Goes over to where the switches of the equations have some results, for variations alone.
+    pub fn enter_where(&mut self, switches: &[f64]) {
+        if let Some(varying) = &mut self.varying {
+            varying.enter(switches);
+        }
+    }
+
+    /// Finds the variations at a state of the stretch.
+    pub fn vary(&mut self, state: &State) {
+        if let Some(varying) = &mut self.varying {
+            varying.go_to(state);
+        }
+    }
+
+    /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
+    pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
+        self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))
     }
 
     /// Whether what time alone asks of the equations changes so little between two times (s) that the states there tell all.

@@ -69,8 +69,8 @@ impl Reduced {
     }
 
     /// Of an analysis of a single time.
-    pub fn look_at_start(&mut self, state: &State, span: f64) {
-        let point = self.formula.at(state.clone());
+    pub fn look_at_start(&mut self, state: &State, places: &mut Places, span: f64) {
+        let point = self.formula.at(state.clone(), places);
         let value = point.sample.value;
         self.times.iter_mut().for_each(|(_, known)| *known = value);
         if !value.is_finite() {
@@ -123,7 +123,7 @@ impl Reduced {
                 places.solve(stretch, [&stretch.from, &stretch.to], t)
             };
             // of an edge the later side counts, which comes later
-            self.times[k].1 = state.map_or(f64::NAN, |state| self.formula.at(state).sample.value);
+            self.times[k].1 = state.map_or(f64::NAN, |state| self.formula.at(state, places).sample.value);
         }
     }
 
@@ -150,7 +150,7 @@ impl Reduced {
             return None;
         }
         let is_integrated = self.integral.is_some();
-        let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone()));
+        let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone(), places));
         let mut survey = self.survey(stretch, places, span);
         for point in [&from, &to] {
             survey.see(point);
@@ -158,7 +158,7 @@ impl Reduced {
         let whole = Cell::unknown(survey.formula, &from, &to);
         let middle = match &stretch.middle {
             Some(state) => {
-                let point = survey.formula.at(state.clone());
+                let point = survey.formula.at(state.clone(), survey.places);
                 survey.see(&point);
                 Some(point)
             }

@@ -85,7 +85,7 @@ impl Survey<'_> {
         } else {
             State { t, ..a.clone() }
         };
-        let point = self.formula.at(state);
+        let point = self.formula.at(state, self.places);
         self.see(&point).then_some(point)
     }
 

@@ -37,9 +37,9 @@ pub fn derivative_of_result(span: Span) -> Diagnostic {
         .help("take the derivative inside: `max(der(e))`")
 }
 
-/// `max(der(e, NAME))`
-pub fn variation_in_reduction(span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0310, "a derivative by an input or parameter may not stand in a reduction")
-        .at(span, "between the rows it is not known")
-        .help("a measure shows it at every time: `measure NAME = der(…)`")
+/// `der` by an input or parameter of what holds a number of the whole analysis.
+pub fn variation_of_result(span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0310, "a result has no derivative by an input or parameter")
+        .at(span, "holds a number of the whole analysis")
+        .help("take the derivative inside the reduction, or run it with another value: `--set`")
 }
