@@ -13,6 +13,10 @@ const SAFETY: f64 = 1.0;
 /// A variation is known with two time derivatives.
 const VARIED_ORDERS: u32 = 3;
 
+/// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
+const MOVED: f64 = 1.0 / 1_048_576.0;
+const WAYS: u32 = 3;
+
 /// A formula along the motion.
 pub(super) struct Formula {
     program: Program,
@@ -156,7 +160,6 @@ impl Formula {
 
     /// At a state of the stretch that was entered.
     pub fn at(&mut self, state: State, places: &mut Places) -> Rc<Point> {
-        let inputs = self.program.inputs;
         if self.is_varied() {
             places.vary(&state);
         }
@@ -168,8 +171,17 @@ impl Formula {
             }
         };
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
-        self.registers.set(inputs.time, state.t);
-        for (of, values) in self.moving.iter().zip(&moving) {
+        self.run(state.t, &moving);
+        let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
+        let sample = Sample { value: value(0), first: value(1), second: value(2) };
+        Rc::new(Point { state, moving, sample })
+    }
+
+    /// Computes the formula and its derivatives at a time (s).
+    fn run(&mut self, t: f64, moving: &[[f64; 4]]) {
+        let inputs = self.program.inputs;
+        self.registers.set(inputs.time, t);
+        for (of, values) in self.moving.iter().zip(moving) {
             for (register, value) in of.registers(&inputs).into_iter().zip(values) {
                 if let Some(register) = register {
                     self.registers.set(register, *value);
@@ -177,9 +189,25 @@ impl Formula {
             }
         }
         self.program.run(Stage::Measures, &mut self.registers);
-        let value = |order: usize| self.roots.get(order).map_or(f64::NAN, |&root| self.registers.get(root));
-        let sample = Sample { value: value(0), first: value(1), second: value(2) };
-        Rc::new(Point { state, moving, sample })
+    }
+
+    /// How large the numbers are that the value is a sum of, or a difference: the unit of its rounding. Seen from a mount that is far away a
+    /// length may be much smaller than what it is made of.
+    pub fn weight(&mut self, point: &Point) -> f64 {
+        let mut weight = point.sample.value.abs();
+        for way in 0..WAYS {
+            let moved = |k: usize| {
+                // up and down without a pattern that a formula could have
+                let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ way.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
+                if is_up { 1.0 + MOVED } else { 1.0 - MOVED }
+            };
+            let moving: Vec<[f64; 4]> =
+                point.moving.iter().enumerate().map(|(k, tower)| tower.map(|value| value * moved(k))).collect();
+            self.run(point.state.t, &moving);
+            let change = (self.registers.get(self.roots[0]) - point.sample.value).abs();
+            weight = weight.max(if change.is_finite() { change / MOVED } else { 0.0 });
+        }
+        weight
     }
 
     fn is_varied(&self) -> bool {

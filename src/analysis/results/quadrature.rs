@@ -29,7 +29,7 @@ impl Survey<'_> {
             let widest = f64::max(first.1.high, second.1.high) - f64::min(first.1.low, second.1.low);
             let halves = [first.0, second.0];
             let (found, error) = self.both_rules(&cell, &halves);
-            let rounding = ROUNDING * scale.largest * h;
+            let rounding = ROUNDING * scale.weight * h;
             let is_exact = is_resolved && error <= f64::max(ACCURACY * scale.range * h, rounding);
             let is_negligible = widest * h <= f64::max(NEGLIGIBLE * scale.range * scale.span, NOTHING);
             if is_exact || is_negligible || !self.goes_on(&cell, widest) {

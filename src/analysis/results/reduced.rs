@@ -24,6 +24,8 @@ pub(super) struct Reduced {
     times: Vec<(f64, f64)>,
     /// The least and the largest value so far.
     seen: [f64; 2],
+    /// The size of the largest numbers that a value was a sum of.
+    weight: f64,
     trouble: Option<Trouble>,
     cells: usize,
 }
@@ -31,7 +33,16 @@ pub(super) struct Reduced {
 impl Reduced {
     pub fn new(formula: Formula) -> Reduced {
         let seen = [f64::INFINITY, f64::NEG_INFINITY];
-        Reduced { formula, extremes: [None, None], integral: None, times: Vec::new(), seen, trouble: None, cells: 0 }
+        Reduced {
+            formula,
+            extremes: [None, None],
+            integral: None,
+            times: Vec::new(),
+            seen,
+            weight: 0.0,
+            trouble: None,
+            cells: 0,
+        }
     }
 
     /// Takes note of what is asked for.
@@ -84,7 +95,7 @@ impl Reduced {
 
     fn scale(&self, span: f64) -> Scale {
         let [low, high] = self.seen;
-        Scale { range: f64::max(high - low, 0.0), largest: f64::max(low.abs(), high.abs()), span }
+        Scale { range: f64::max(high - low, 0.0), weight: self.weight.max(low.abs()).max(high.abs()), span }
     }
 
     /// What a reduction is, once all has been seen.
@@ -151,6 +162,9 @@ impl Reduced {
         }
         let is_integrated = self.integral.is_some();
         let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone(), places));
+        for point in [&from, &to] {
+            self.weight = self.weight.max(self.formula.weight(point));
+        }
         let mut survey = self.survey(stretch, places, span);
         for point in [&from, &to] {
             survey.see(point);

@@ -116,7 +116,7 @@ impl Survey<'_> {
     /// Whether a cell holds nothing more of interest; what it holds has been noted.
     fn is_done(&mut self, cell: &Cell, known: Option<Range>, extreme: &mut Extreme, scale: Scale) -> bool {
         let sign = extreme.sign;
-        let gap = f64::max(GAP * scale.range, ROUNDING * scale.largest);
+        let gap = f64::max(GAP * scale.range, ROUNDING * scale.weight);
         let (least, enough) = (extreme.best - ALIKE * scale.range - gap, extreme.largest + gap);
         let is_hopeless = |upper: f64| upper < least || upper <= enough;
         let oriented = |low: f64, high: f64| if sign > 0.0 { [low, high] } else { [-high, -low] };
@@ -140,7 +140,7 @@ impl Survey<'_> {
         }
         let derivatives = self.formula.derivatives();
         if derivatives == 0 {
-            let small = f64::max(GAP_OF_VALUES * scale.range, ROUNDING * scale.largest);
+            let small = f64::max(GAP_OF_VALUES * scale.range, ROUNDING * scale.weight);
             let is_small = upper <= f64::max(a, b) + small;
             if is_small {
                 let (t, value) = if b > a { (cell.b.state.t, b) } else { (cell.a.state.t, a) };

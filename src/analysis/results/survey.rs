@@ -22,8 +22,8 @@ const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may
 pub(super) struct Scale {
     /// The largest value less the least.
     pub range: f64,
-    /// The largest magnitude.
-    pub largest: f64,
+    /// The largest magnitude of a value, or of the numbers that it is a sum of: the unit of rounding.
+    pub weight: f64,
     /// The time of the analysis (s).
     pub span: f64,
 }
