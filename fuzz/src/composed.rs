@@ -5,10 +5,11 @@
 //! declares; `⟦k - 1⟧` behind a name means one of its copies, and `«k»` is a number in a formula.
 
 use super::generate::{Bytes, Draft};
+use mechc::rooms::math;
 use std::fmt::Write as _;
 
 /// Copies of one declaration at most, for each index.
-const MOST_COPIES: usize = 3;
+const MOST_COPIES: u8 = 3;
 
 /// A text in its two forms; the first mechanism uses the others.
 pub struct Composed {
@@ -100,6 +101,9 @@ fn mechanism(bytes: &mut Bytes<'_>, name: &str, parts: &[Used], elements: usize)
         if draft.chance(40) {
             draft.declarations.push(format!("trace path{k} = {body}.{point}"));
         }
+        if draft.chance(40) {
+            draft.declarations.push(format!("result reach{k} = max(own{k}_x) - min(own{k}_x)"));
+        }
     }
     let used = Used {
         mechanism: name.to_owned(),
@@ -116,8 +120,8 @@ fn mechanism(bytes: &mut Bytes<'_>, name: &str, parts: &[Used], elements: usize)
 
 /// The ranges of something, and the numbers that copies of it may be named by.
 fn ranges(draft: &mut Draft<'_, '_>) -> (String, Vec<i64>) {
-    let count = draft.pick(MOST_COPIES + 1) as i64;
-    let from = if draft.chance(200) { 0 } else { draft.pick(5) as i64 - 3 };
+    let count = i64::from(draft.byte() % (MOST_COPIES + 1));
+    let from = if draft.chance(200) { 0 } else { i64::from(draft.byte() % 5) - 3 };
     let last = from + count;
     let range = match draft.pick(4) {
         0 => format!("k in {from}..={}", last - 1),
@@ -201,6 +205,8 @@ fn row(draft: &mut Draft<'_, '_>) {
         draft.declarations.push(format!("⟪{range}⟫trace {seen}⟦*⟧ = {name}⟦k⟧.E"));
     } else {
         draft.declarations.push(format!("⟪{range}⟫measure {seen}⟦*⟧ = y({name}⟦k⟧.E)"));
+        let most = draft.name("most");
+        draft.declarations.push(format!("⟪{range}⟫result {most}⟦*⟧ = max({seen}⟦k⟧) + «k» * first({seen}⟦k⟧)"));
     }
 }
 
@@ -264,10 +270,8 @@ fn part<'u>(draft: &mut Draft<'_, '_>, of: &'u Used, placed: &mut Vec<(String, &
     let (mark, star) = if is_repeated { (format!("⟪{range}⟫"), "⟦*⟧") } else { (String::new(), "") };
     let mechanism = &of.mechanism;
     draft.declarations.push(format!("{mark}part {name}{star}: {mechanism}({}){on}{at}{mirrored}", bindings.join(", ")));
-    let copies: Vec<String> = match is_repeated {
-        true => numbers.iter().map(|k| format!("{name}⟦{k}⟧")).collect(),
-        false => vec![name.clone()],
-    };
+    let copies: Vec<String> =
+        if is_repeated { numbers.iter().map(|k| format!("{name}⟦{k}⟧")).collect() } else { vec![name.clone()] };
     if let Some([body, point]) = of.points.last() {
         let [seen, path] = ["seen", "path"].map(|word| draft.name(word));
         let copy = if is_repeated { format!("{name}⟦k⟧") } else { name.clone() };
@@ -330,25 +334,27 @@ fn part_of(bytes: &mut Bytes<'_>, used: &[Used], texts: &[String]) -> PartOf {
             let (rate, start) = (draft.number().clamp(-2.0, 2.0), draft.number().clamp(-1.0, 1.0));
             let formula = format!("{start} + {rate} * t / 1 s");
             inputs.push(format!("{input}={formula}"));
-            bindings.push(match is_carried && draft.chance(128) {
-                true => format!("{input} = {start} + {rate} / 0.9 * (angle(carrier) - 0.4)"),
-                false => format!("{input} = {formula}"),
+            bindings.push(if is_carried && draft.chance(128) {
+                format!("{input} = {start} + {rate} / 0.9 * (angle(carrier) - 0.4)")
+            } else {
+                format!("{input} = {formula}")
             });
         }
     }
     let ([x, y], phi) = (draft.place(), draft.number());
     let mirrored = if draft.chance(128) { " mirrored" } else { "" };
-    let (carrier, on) = match is_carried {
-        true => (
+    let (carrier, on) = if is_carried {
+        (
             "body carrier { point O = (0, 0) }\ndriver along: x(carrier.O) = sin(1.3 * t)\n\
              driver across: y(carrier.O) = cos(0.7 * t)\ndriver spin: angle(carrier) = 0.4 + 0.9 * t\n",
             " on carrier",
-        ),
-        false => ("", ""),
+        )
+    } else {
+        ("", "")
     };
     let call = format!("part p: {}({}){on} at ({x}, {y}, {phi}){mirrored}", of.mechanism, bindings.join(", "));
     let text = format!("mechanism around {{\n{carrier}{call}\n}}\n{}", with_ranges(&texts.join("\n")));
-    let distance = x.hypot(y).max(phi.abs()) + if is_carried { 2.0 } else { 0.0 };
+    let distance = math::hypot(x, y).max(phi.abs()) + if is_carried { 2.0 } else { 0.0 };
     PartOf { text, around: "around", name: "p", mechanism: of.mechanism.clone(), set, inputs, distance }
 }
 

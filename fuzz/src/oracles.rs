@@ -24,6 +24,8 @@ struct Outcome {
     said: String,
     columns: Vec<String>,
     rows: Vec<Vec<f64>>,
+    /// By their names; none where the rows took too long for them to be asked for.
+    results: Option<Vec<(String, Option<f64>)>>,
     /// Whether all rows were asked for.
     is_whole: bool,
     /// How far its start is from a singular position.
@@ -38,6 +40,7 @@ fn outcome(text: &str, choice: &Choice, times: Option<&Times>) -> Outcome {
         said: String::new(),
         columns: Vec::new(),
         rows: Vec::new(),
+        results: None,
         is_whole: true,
         conditioning: 0.0,
         times: None,
@@ -48,7 +51,8 @@ fn outcome(text: &str, choice: &Choice, times: Option<&Times>) -> Outcome {
     let Some(compiled) = compiled else { return outcome };
     let few = |[from, to, _]: [f64; 3]| {
         let part = |k: u32| from + (to - from) * f64::from(k) / 8.0;
-        Times::listed(from, (0..8).map(part).chain([to]).collect())
+        let listed = || Times::listed(from, (0..8).map(part).chain([to]).collect());
+        Times::grid(from, to, (to - from) / 8.0).unwrap_or_else(listed)
     };
     let times = times.cloned().or_else(|| compiled.analysis().map(few));
     let times = times.unwrap_or_else(|| few([0.0, 1.0, 0.1]));
@@ -66,8 +70,12 @@ fn outcome(text: &str, choice: &Choice, times: Option<&Times>) -> Outcome {
         }
         if begun.elapsed() > PATIENCE {
             outcome.is_whole = false;
-            break;
+            return outcome;
         }
+    }
+    if begun.elapsed() < PATIENCE / 10 {
+        let names = compiled.results().into_iter().map(|(name, _)| name);
+        outcome.results = run.results().map(|answers| names.zip(answers.values).collect());
     }
     outcome
 }
@@ -121,6 +129,11 @@ pub fn repetition_is_what_is_written_out(composed: &Composed) -> bool {
             assert!(is_same, "{column}: {one:e} with ranges, {other:e} by hand\n{}", texts());
         }
     }
+    if let (Some(some), Some(all)) = (&ranges.results, &by_hand.results) {
+        let bits = |(name, value): &(String, Option<f64>)| (column_by_hand(name), value.map(f64::to_bits));
+        let [some, all] = [some, all].map(|results| results.iter().map(bits).collect::<Vec<_>>());
+        assert_eq!(some, all, "{}", texts());
+    }
     !ranges.rows.is_empty()
 }
 
@@ -165,6 +178,14 @@ pub fn a_part_is_what_it_is_alone(part: &PartOf) -> bool {
             let is_same = want.to_bits() == got.to_bits() || want.is_nan() && got.is_nan();
             assert!(is_same || (want - got).abs() <= tolerance, "{own}: {want:e} alone, {got:e} as a part\n{}", told());
         }
+    }
+    let (Some(wanted), Some(all)) = (&alone.results, &whole.results) else { return true };
+    for (name, want) in wanted {
+        let path = format!("{prefix}{name}");
+        let got = all.iter().find(|(other, _)| *other == path).and_then(|(_, got)| *got);
+        let size = want.unwrap_or_default().abs().max(part.distance) + 1.0;
+        let is_same = want.is_none() || want.zip(got).is_some_and(|(want, got)| (want - got).abs() <= 1e-7 * size);
+        assert!(is_same, "{name}: {want:?} alone, {got:?} as a part\n{}", told());
     }
     true
 }

@@ -12,6 +12,7 @@ use crate::diag::Diagnostics;
 use crate::source::Sources;
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Mechanism, MechanismName};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::collections::hash_map::Entry;
 use std::rc::Rc;
 
 /// Levels of parts within parts.
@@ -207,9 +208,9 @@ impl<'t> Builder<'t, '_> {
             if are_parts_known {
                 let outline = self.outline_with_parts(tree);
                 self.outlines.insert(key, outline);
-            } else if !self.outlines.contains_key(&key) {
+            } else if let Entry::Vacant(unknown) = self.outlines.entry(key) {
                 // this is what counts in a circle of mechanisms, which is told elsewhere
-                self.outlines.insert(key, Outline::default());
+                unknown.insert(Outline::default());
                 open.push((tree, true));
                 open.extend(parts_of(tree).filter_map(|part| Some((self.find(&part.mechanism).ok()?, false))));
             }
