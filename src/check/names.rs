@@ -263,7 +263,7 @@ impl Checker<'_> {
             };
             match *first {
                 None => *first = Some(item.span),
-                Some(span) => self.diagnostics.push(errors::second(word, item.span, span)),
+                Some(span) => self.report(errors::second(word, item.span, span)),
             }
         }
     }

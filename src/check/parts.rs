@@ -32,6 +32,8 @@ impl<'a> Checker<'a> {
             used_at.insert(0, (name.clone(), part.name.span));
             let mut child = Checker::of_instance(inner, surroundings, sources, &format!("{name}."), &used_at);
             child.bound_inputs = part.bindings.iter().map(|binding| binding.name.text.as_str()).collect();
+            // what is shared from now on is not the child's own
+            checker.diagnostics.extend(std::mem::take(&mut child.diagnostics));
             checker.parts.push(child);
             checker.imports.push(Vec::new());
             checker.bindings.push(part);

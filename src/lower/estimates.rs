@@ -85,9 +85,10 @@ impl Numbers {
         for estimate in estimates.skip(self.q.len()) {
             self.q.push(graph.value(estimate, param));
         }
+        // a measure may name a contact's argument before its joint has an estimate
         let q = &self.q;
         graph.extend_values(&mut self.values, |symbol| match symbol {
-            Symbol::Coordinate { index, order: 0 } => q[index as usize],
+            Symbol::Coordinate { index, order: 0 } => q.get(index as usize).copied().unwrap_or(f64::NAN),
             other => param(other),
         });
     }
