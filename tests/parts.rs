@@ -278,3 +278,38 @@ fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
     // where the rod and the rocker are in line, at acos(9/24)
     assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552"));
 }
+
+#[test]
+fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
+    // a body without extent, whose size is that of what it is joined to
+    let part = "mechanism guided {
+        ground { point D = (60 mm, 0) }
+        body arm { point O = (0, 0)  point P = (30 mm, 0) }
+        body eye at (30 mm, 0, 0) { point c = (0, 0)  axis along_slot = c along (1, 0) }
+        joint main: revolute((0, 0), arm.O)
+        joint pin: revolute(arm.P, eye.c)
+        joint slot: revolute_translational(ground.D, eye.along_slot, 1 mm)
+        driver motor: rotation(main) = 5 rad/s * t
+        measure turned = angle(eye)
+        analysis from 0 s to 1 s every 0.1 s
+    }";
+    let (_, alone) = said(part);
+    for distance in ["45 m", "100 m", "10 km", "100 km"] {
+        let distance = distance.replace(" km", "000 m");
+        let text = format!(
+            "mechanism top {{
+                body base {{ point h = (0, 0) }}
+                driver across: x(base.h) = 0
+                driver up: y(base.h) = 0
+                driver turn: angle(base) = 10 rad/s * t
+                part p: guided() on base at ({distance}, 0, 0)
+                measure turned = p.turned
+                analysis from 0 s to 1 s every 0.1 s
+            }}
+            {part}"
+        );
+        let (told, rows) = said(&text);
+        assert!(told.is_empty(), "{distance}: {told:?}");
+        assert_eq!(rows.len(), alone.len(), "{distance}");
+    }
+}

@@ -40,6 +40,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         named: Vec::new(),
         as_drawn: false,
         view: None,
+        part_sizes: size::of_parts(model, &sizes),
         largest_size: sizes.iter().copied().fold(0.0, f64::max),
         sizes,
         numbers: estimates::Numbers::default(),
@@ -139,8 +140,9 @@ struct Lowering<'m> {
     as_drawn: bool,
     /// The part from whose ground things are seen; the ground of all if there is none.
     view: Option<PartId>,
-    /// The size of each body (m), and the largest of them.
+    /// The size of each body (m), of the largest in each part, and of the largest of all.
     sizes: Vec<f64>,
+    part_sizes: Vec<f64>,
     largest_size: f64,
     /// What the search for contacts knows already.
     numbers: estimates::Numbers,
@@ -263,12 +265,15 @@ impl Lowering<'_> {
         }
     }
 
-    /// The size of a frame's body (m), that of the largest for the ground.
+    /// The size of a frame's body (m), that of the largest for the ground; for what carries a part, of the largest in the part.
     fn size(&self, frame: Frame) -> f64 {
-        match self.model.carrier(frame) {
-            Frame::Body(body) => self.sizes[body.index()],
-            Frame::Ground | Frame::Part(_) => self.largest_size,
-        }
+        let around = match frame {
+            Frame::Body(body) => return self.sizes[body.index()],
+            Frame::Ground => None,
+            Frame::Part(part) => Some(part),
+        };
+        let mut parts = self.model.parts_around(around).map(|part| self.part_sizes[part.index()]);
+        parts.find(|&size| size > 0.0).unwrap_or(self.largest_size)
     }
 
     /// What frames are in their poses as written.

@@ -5,7 +5,7 @@
 
 use super::uses::Uses;
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Curve, Frame, JointKind, Mechanism, Named};
+use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
 use rustc_hash::FxHashMap;
 
 /// Frames with more points than this are measured by their bounding box, to stay linear.
@@ -46,7 +46,7 @@ pub(super) fn of_bodies(model: &Mechanism) -> Vec<f64> {
 /// The sizes of bodies by all features, or by those that are used; none where no body has two apart.
 ///
 /// A body without two features apart takes the size of the largest body that a joint holds it to, then that of the
-/// largest one at all.
+/// largest one at all. What carries a part counts as its ground does: for nothing; and the largest body is that of the part.
 fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>) -> Option<Vec<f64>> {
     let points = places(model, value, uses);
     let mut sizes = vec![0.0; model.bodies.len()];
@@ -65,16 +65,33 @@ fn by_features(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&
         Frame::Ground | Frame::Part(_) => 0.0,
     };
     for joint in &model.joints {
-        let frames = joint.kind.frames(model).map(|frame| model.carrier(frame));
+        let frames = joint.kind.frames(model);
         for (frame, other) in [(frames[0], frames[1]), (frames[1], frames[0])] {
-            if let Frame::Body(body) = frame
+            if let Frame::Body(body) = model.carrier(frame)
                 && !is_size(own[body.index()])
             {
                 sizes[body.index()] = f64::max(sizes[body.index()], size_of(other));
             }
         }
     }
-    Some(sizes.into_iter().map(|size| if is_size(size) { size } else { largest }).collect())
+    let of_parts = of_parts(model, &sizes);
+    let around = |body: &Body| {
+        let mut parts = model.parts_around(body.part).map(|part| of_parts[part.index()]);
+        parts.find(|&size| is_size(size)).unwrap_or(largest)
+    };
+    let filled = sizes.iter().zip(&model.bodies).map(|(&size, body)| if is_size(size) { size } else { around(body) });
+    Some(filled.collect())
+}
+
+/// The size of the largest body of each part, with those of its own parts (m); 0 where there is none.
+pub(super) fn of_parts(model: &Mechanism, sizes: &[f64]) -> Vec<f64> {
+    let mut largest = vec![0.0; model.parts.len()];
+    for (body, &size) in model.bodies.iter().zip(sizes) {
+        for part in model.parts_around(body.part) {
+            largest[part.index()] = f64::max(largest[part.index()], size);
+        }
+    }
+    largest
 }
 
 /// How far each body's frame lies from the features that equations use (m): as far as that goes a body's origin moves when it

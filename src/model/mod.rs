@@ -214,6 +214,11 @@ impl Mechanism {
         }
     }
 
+    /// A part and those that it stands in, the innermost first.
+    pub fn parts_around(&self, part: Option<PartId>) -> impl Iterator<Item = PartId> {
+        std::iter::successors(part, |&part| self[part].within)
+    }
+
     /// Whether lengths to the left in the text of a part are lengths to the right in the ground's frame.
     #[must_use]
     pub fn is_mirrored(&self, part: Option<PartId>) -> bool {
