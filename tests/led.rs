@@ -8,6 +8,7 @@ use mechc::rooms::math::{acos, cos, sin};
 use mechc::rooms::program::Program;
 use mechc::rooms::{check, lower, syntax};
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Sources, Times};
+use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// Lengths of a four-bar's links (mm), ground first, and the angles (deg) at which coupler and rocker are drawn: near to where they are with
@@ -255,4 +256,86 @@ fn what_is_cancelled_says_nothing() {
     cancel.cancel();
     let (run, said) = led.run(&Times::listed(0.0, vec![0.0]), &RunOptions { cancel, ..RunOptions::default() });
     assert!(run.is_none() && said.is_empty());
+}
+
+/// A parallelogram, which folds at a half turn and at a whole one.
+fn parallelogram(name: &str, input: &str) -> String {
+    format!(
+        "mechanism {name} {{
+            input turn = {input}
+            ground {{ point A = (0, 0)  point B = (2 m, 0) }}
+            body crank at (0, 0, 45 deg) {{ point A = (0, 0)  point C = (1 m, 0) }}
+            body coupler at (0.7 m, 0.7 m, 0) {{ point C = (0, 0)  point D = (2 m, 0) }}
+            body rocker at (2 m, 0, 45 deg) {{ point B = (0, 0)  point D = (1 m, 0) }}
+            joint A: revolute(ground.A, crank.A)
+            joint C: revolute(crank.C, coupler.C)
+            joint D: revolute(coupler.D, rocker.D)
+            joint B: revolute(ground.B, rocker.B)
+            driver motor: rotation(A) = turn
+        }}\n"
+    )
+}
+
+/// What is said on a way, with the parts of it at which that is.
+fn said_on_the_way(compiled: &Compiled, pass_bifurcations: bool) -> (Vec<(String, f64)>, Vec<f64>) {
+    let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
+    let (run, said) = compiled.run(&Times::listed(0.0, vec![0.0]), &options);
+    let row = run.expect("it starts").next().expect("a row").expect("it stands");
+    let told = said.iter().map(|said| {
+        let whole = format!("{} {}", said.code.as_str(), said.message);
+        (whole, said.data["part"].as_f64().expect("a part"))
+    });
+    (told.collect(), row)
+}
+
+#[test]
+fn bifurcations_that_are_passed_on_the_way_are_told() {
+    let led = compiled(&parallelogram("m", "45 deg"), &["turn=405 deg"], None);
+    let (told, row) = said_on_the_way(&led, true);
+    let wanted = [(PI, 0.375), (2.0 * PI, 0.875)];
+    assert_eq!(told.len(), wanted.len(), "{told:?}");
+    for ((message, part), (place, at)) in told.iter().zip(wanted) {
+        let begins = "W0602 on the way to the inputs that are given two branches of the motion meet at `turn` = ";
+        let number = message.strip_prefix(begins).and_then(|rest| rest.split(';').next()).expect("a place");
+        assert!((number.parse::<f64>().expect("a number") - place).abs() < 1e-5, "{message}");
+        assert!((part - at).abs() < 1e-6, "{part}");
+    }
+    // it is the parallelogram still
+    assert!((row[3] - 405_f64.to_radians()).abs() < 1e-12 && (row[9] - row[3]).abs() < 1e-9, "{row:?}");
+    // where they are not passed the way ends there
+    let (told, _) = said_on_the_way(&led, false);
+    assert!(told.len() == 1 && told[0].0.starts_with("E0612") && (told[0].1 - 0.375).abs() < 1e-6, "{told:?}");
+    let short = compiled(&parallelogram("m", "45 deg"), &["turn=170 deg"], None);
+    assert!(said_on_the_way(&short, true).0.is_empty());
+}
+
+#[test]
+fn a_part_tells_what_it_passed_on_its_way_and_where_it_is_used() {
+    let text = format!(
+        "mechanism whole {{
+            part near: linkage(turn = 100 deg) at (0, 0, 0)
+            part far: linkage(turn = 200 deg) at (0, 5 m, 30 deg) mirrored
+            part other: linkage(turn = -200 deg) at (0, 9 m, 0)
+        }}\n{}",
+        parallelogram("linkage", "45 deg")
+    );
+    let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
+    let whole = compiled(&text, &[], None);
+    let (run, said) = whole.run(&Times::listed(0.0, vec![0.0]), &options);
+    assert!(run.is_some());
+    let told: Vec<(&str, f64)> = said
+        .iter()
+        .map(|said| {
+            assert_eq!(said.code.as_str(), "W0602");
+            let used = said.labels.iter().find(|label| label.text.starts_with("in part `"));
+            let part = used.expect("where it is used").text.split('`').nth(1).expect("a name");
+            assert!(said.message.contains(&format!("of the part `{part}` to its inputs")), "{}", said.message);
+            (part, said.data["part"].as_f64().expect("a part"))
+        })
+        .collect();
+    let wanted = [("far", 135.0 / 155.0), ("other", 45.0 / 245.0), ("other", 225.0 / 245.0)];
+    assert_eq!(told.iter().map(|(part, _)| *part).collect::<Vec<_>>(), wanted.map(|(part, _)| part));
+    for ((_, found), (_, wanted)) in told.iter().zip(wanted) {
+        assert!((found - wanted).abs() < 1e-6, "{told:?}");
+    }
 }

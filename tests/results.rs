@@ -462,6 +462,52 @@ fn a_bifurcation_that_is_passed_is_looked_over() {
     }
 }
 
+/// A rod that a slider draws nearly straight and lets back again, up to so much before its dead point.
+fn nearly_straight(short: f64) -> String {
+    format!(
+        "mechanism m {{
+    ground {{ point O = (0, 0) axis way = O along (1, 0) }}
+    body rod at (0, 0, 45 deg) {{ point O = (0, 0) point eye = (1 m, 0) }}
+    body slider at (0.7 m, 0, 0) {{ axis slot = (0, 0) along (0, 1) axis way = (0, 0) along (1, 0) }}
+    joint main: revolute(ground.O, rod.O)
+    joint touch: revolute_translational(rod.eye, slider.slot)
+    joint guide: translational(ground.way, slider.way)
+    driver pull: displacement(guide) = 1 m - {short:?} m - 1 m/s^2 * (t - 0.5 s)^2
+    result a = max(der(der(angle(rod)))) result b = argmax(der(der(angle(rod)))) result c = min(angle(rod))
+    result d = at(angle(rod), 0.5 s) result e = rms(der(angle(rod))) result f = a / 2
+    result g = max(angle(rod)) result h = first(der(der(angle(rod)))) result i = mean(angle(rod)) result j = max(x(rod.eye)^0 * t)
+}}"
+    )
+}
+
+#[test]
+fn what_is_found_where_a_row_would_be_refused_is_null() {
+    // at the turn the acceleration is 2 / sin of the angle, whose cosine is 1 − short
+    for (short, is_refused) in [(1e-4, false), (1e-6, false), (1e-8, true), (1e-10, true), (1e-12, true)] {
+        let text = nearly_straight(short);
+        let compiled = compiled("m", &text);
+        let mut run = compiled.run(&Times::listed(0.0, vec![0.5]), &RunOptions::default()).0.expect("it assembles");
+        assert_eq!(run.next_row().expect("a row").is_err(), is_refused, "{short}");
+        let (answers, _) = answers(&text, [1.0, 0.3]);
+        let value = |name: &str| answers.values["abcdefghij".find(name).expect("a result")];
+        for name in ["a", "b", "c", "d", "f"] {
+            assert_eq!(value(name).is_none(), is_refused, "{name} at {short}: {:?}", answers.notes);
+        }
+        assert!(["g", "h", "i", "j"].into_iter().all(|name| value(name).is_some()), "{short}: {:?}", answers.notes);
+        for note in &answers.notes {
+            assert!(note.code.as_str() == "N0604" && note.message.contains("too near to a singular one"));
+            assert!((note.data["t"].as_f64().expect("a time") - 0.5).abs() < 1e-3);
+        }
+        if let Some(found) = value("a") {
+            let wanted = 2.0 / (short * (2.0 - short)).sqrt();
+            assert!((found - wanted).abs() <= 1e-8 * wanted, "{found} instead of {wanted}");
+        }
+    }
+    // of velocities an integral is as uncertain
+    let (answers, _) = answers(&nearly_straight(1e-12), [1.0, 0.3]);
+    assert_eq!(answers.values[4], None);
+}
+
 /// What the command line says on standard error and writes, in a folder with a file `m.mech`.
 fn said(folder: &std::path::Path, arguments: &[&str]) -> (Option<i32>, String) {
     let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));

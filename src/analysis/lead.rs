@@ -36,6 +36,8 @@ pub struct Way {
     pub reached: Vec<Vec<f64>>,
     /// What is to be said of where it began.
     pub remarks: Diagnostics,
+    /// The bifurcations that were passed, from 0 to 1, and what is to be said of each.
+    pub passed: Vec<(f64, Diagnostic)>,
     /// Where it did not go on, from 0 to 1, and what happens there.
     pub stopped: Option<(f64, Box<Diagnostic>)>,
 }
@@ -57,11 +59,13 @@ pub fn lead(
         start_from(Arc::clone(determined), Arc::clone(program), part, Some(from), *tolerance, cancel)
     };
     let mut started = start_from(Arc::clone(determined), Arc::clone(program), 0.0, from, *tolerance, cancel)?;
-    let mut way = Way { reached: Vec::new(), remarks: started.far_estimates_at(options.t), stopped: None };
+    let remarks = started.far_estimates_at(options.t);
+    let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
     let mut from = (0.0, started.q().to_vec());
     for _ in 0..MOST_KINKS {
         let known = way.reached.len();
-        let stopped = follow(started, from.0, &parts[known..], options, &mut way.reached);
+        let Way { reached, passed, .. } = &mut way;
+        let stopped = follow(started, from.0, &parts[known..], options, reached, passed);
         let Some((part, why)) = stopped else { return Ok(way) };
         if let Some(last) = way.reached[known..].last() {
             from = (parts[way.reached.len() - 1], last.clone());
@@ -74,7 +78,7 @@ pub fn lead(
         let (before, behind) = ((part - BESIDE_A_KINK).max(from.0), (part + BESIDE_A_KINK).min(1.0));
         let mut there = Vec::new();
         let near = again(from.0, &from.1).ok().and_then(|s| {
-            let stopped = follow(s, from.0, &[before], options, &mut there);
+            let stopped = follow(s, from.0, &[before], options, &mut there, &mut Vec::new());
             there.pop().filter(|_| stopped.is_none())
         });
         let beyond = near.and_then(|q| {
@@ -96,13 +100,15 @@ pub fn lead(
     Ok(way)
 }
 
-/// Adds the positions at some parts of the way; says where the motion ends before the last, and why.
+/// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
+/// why.
 fn follow(
     started: Started,
     from: f64,
     parts: &[f64],
     options: &LeadOptions,
     reached: &mut Vec<Vec<f64>>,
+    passed: &mut Vec<(f64, Diagnostic)>,
 ) -> Option<(f64, Box<Diagnostic>)> {
     let n = started.q().len();
     let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
@@ -110,14 +116,24 @@ fn follow(
         motion.pass_bifurcations();
     }
     let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
+    let mut stopped = None;
     for _ in parts {
         match motion.next_row() {
-            Some(Ok(row)) => reached.push(row[1..=n].to_vec()),
-            Some(Err(why)) => return Some((part_of(&why), why)),
-            None => return Some((from, Box::new(Diagnostic::new(Code::E0604, "the way was not followed to its end")))),
+            Some(Ok(row)) => {
+                reached.push(row[1..=n].to_vec());
+                continue;
+            }
+            Some(Err(why)) => stopped = Some((part_of(&why), why)),
+            None => {
+                let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
+                stopped = Some((from, Box::new(why)));
+            }
         }
+        break;
     }
-    None
+    let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
+    passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
+    stopped
 }
 
 fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {

@@ -72,6 +72,11 @@ impl Motion {
         self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect()
     }
 
+    /// Whether the step to where the motion is has ended clear of singular positions.
+    pub(super) fn was_clear_here(&self) -> bool {
+        self.clear.t.total_cmp(&self.state.t).is_eq()
+    }
+
     /// Where the motion is.
     pub(super) fn here(&self) -> &State {
         &self.state

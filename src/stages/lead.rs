@@ -131,7 +131,10 @@ impl<'s> Starts<'s> {
         // if alone it is nowhere, there is nothing to lead
         let way = analysis::lead(&whole.0, &whole.1, from.as_deref(), &[1.0], self.options).ok()?;
         match way.stopped {
-            None => self.said.extend(way.remarks),
+            None => {
+                self.said.extend(way.remarks);
+                self.said.extend(way.passed.iter().map(|(part, what)| passed(None, &inputs, times, *part, what)));
+            }
             Some(_) if self.options.cancel.is_cancelled() => {}
             Some((part, why)) => self.said.push(not_led(None, &inputs, times, span, part, &why)),
         }
@@ -251,6 +254,11 @@ impl<'s> Starts<'s> {
                 match (&q, &way.stopped) {
                     (Some(q), _) => {
                         self.led.insert(ends.clone(), q.clone());
+                        let inputs = shortened(&inputs, *part_of_line);
+                        let before = way.passed.iter().filter(|(part, _)| part <= part_of_line);
+                        said.extend(before.map(|(part, what)| {
+                            (number, passed(Some(start), &inputs, times, part / part_of_line, what))
+                        }));
                     }
                     (None, Some((part, why))) if !self.options.cancel.is_cancelled() => {
                         let inputs = shortened(&inputs, *part_of_line);
@@ -389,6 +397,37 @@ fn not_led(
         diagnostic = diagnostic.also(of.span, format!("in part `{}`, used here", of.name));
     }
     diagnostic.note(tried).help(mend).datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
+}
+
+/// A bifurcation that was passed at a part of a way, from 0 to 1; of a mechanism or of a part of it.
+fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, what: &Diagnostic) -> Diagnostic {
+    let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
+    let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
+    let way = match of {
+        None => "on the way to the inputs that are given".to_owned(),
+        Some(of) => format!("on the way of the part `{}` to its inputs", of.name),
+    };
+    let message = format!(
+        "{way} two branches of the motion meet{}; the one that continues smoothly was taken",
+        here.unwrap_or_default()
+    );
+    let mut diagnostic = Diagnostic::new(Code::W0602, message);
+    for (k, input) in moving.iter().take(TOLD).enumerate() {
+        let [from, to, here] = [0.0, 1.0, part].map(|part| value_at(input, part));
+        let text = format!("led from {from} to {to}, by way of {here}");
+        let span = input.declared.span;
+        diagnostic = if k == 0 { diagnostic.at(span, text) } else { diagnostic.also(span, text) };
+    }
+    for (k, label) in what.labels.iter().enumerate() {
+        let is_first = k == 0 && moving.is_empty();
+        let text = label.text.clone();
+        diagnostic = if is_first { diagnostic.at(label.span, text) } else { diagnostic.also(label.span, text) };
+    }
+    if let Some(of) = of {
+        diagnostic = diagnostic.also(of.span, format!("in part `{}`, used here", of.name));
+    }
+    diagnostic = what.notes.iter().cloned().fold(diagnostic, Diagnostic::note);
+    diagnostic.datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
 }
 
 /// The value of an input at a part of its way, with its unit.

@@ -16,11 +16,15 @@ pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diag
         Some(Trouble::Unknown(t)) => {
             (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
         }
+        Some(Trouble::Uncertain(t)) => (
+            format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
+            "more rounding than digits there",
+        ),
         None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
     };
     let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
     match trouble {
-        Some(Trouble::Missing(t) | Trouble::Unknown(t)) => diagnostic.datum("t", t),
+        Some(Trouble::Missing(t) | Trouble::Unknown(t) | Trouble::Uncertain(t)) => diagnostic.datum("t", t),
         None => diagnostic,
     }
 }

@@ -27,6 +27,7 @@ pub(super) struct Formula {
     /// What moves of all that it or its derivatives hold.
     moving: Vec<Moving>,
     has_jerk: bool,
+    holds_rates: bool,
 }
 
 /// What changes with the motion.
@@ -124,6 +125,8 @@ impl Formula {
     /// A formula of a graph over the parameters, coordinates and variations of a system.
     pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
         let has_jerk = system.jerk.is_some();
+        let dependence = graph.dependence(value);
+        let holds_rates = dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some();
         let mut formulas = vec![value];
         while formulas.len() < 3 {
             let last = formulas[formulas.len() - 1];
@@ -145,7 +148,7 @@ impl Formula {
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
-        Formula { program, registers, roots, ranges, moving, has_jerk }
+        Formula { program, registers, roots, ranges, moving, has_jerk, holds_rates }
     }
 
     /// How many time derivatives it has: 0 to 2.
@@ -156,6 +159,11 @@ impl Formula {
     /// Whether it changes with the motion, and not with time alone.
     pub fn moves(&self) -> bool {
         !self.moving.is_empty()
+    }
+
+    /// Whether it holds derivatives of the coordinates.
+    pub fn holds_rates(&self) -> bool {
+        self.holds_rates
     }
 
     /// At a state of the stretch that was entered.

@@ -7,6 +7,7 @@
 //! The motion is followed once more, in the steps that it allows, and looked at between their ends as closely as each
 //! formula needs. No bit of a row depends on it.
 
+mod certain;
 mod formulas;
 mod places;
 mod quadrature;
@@ -25,6 +26,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
+use certain::Near;
 use formulas::Formula;
 use places::Places;
 use reduced::Reduced;
@@ -85,10 +87,8 @@ impl Asked {
         analysis.answers()
     }
 
-    /// A motion of its own.
-    fn motion(&self) -> Motion {
-        let [from, to] = self.interval;
-        let times = Times::listed(from, vec![to]);
+    /// A motion of its own to some times.
+    fn motion(&self, times: Times) -> Motion {
         let mut motion = Motion::new(self.kinematics.clone(), self.state.clone(), self.solver.clone(), times);
         if self.pass {
             motion.pass_bifurcations();
@@ -130,13 +130,14 @@ impl Analysis {
             ReductionKind::At(at) => system.value_at(at, &[]),
             _ => f64::NAN,
         };
-        let interval @ [from, to] = self.asked.interval;
+        let interval = self.asked.interval;
         for ((_, reduction), &of) in asked.iter().zip(&formula_of) {
             all[of].ask(reduction.kind, at(reduction), interval);
         }
-        self.run(&mut all, &mut places, to - from)?;
+        let mut near = Near::new();
+        self.run(&mut all, &mut places, &mut near)?;
         for ((k, reduction), &of) in asked.iter().zip(&formula_of) {
-            self.found[*k] = Some(all[of].outcome(reduction.kind, at(reduction), interval));
+            self.found[*k] = Some(self.asked.certain(&all[of], (reduction.kind, at(reduction)), &near));
         }
         Ok(())
     }
@@ -165,12 +166,17 @@ impl Analysis {
     }
 
     /// Looks at formulas along the whole motion.
-    fn run(&self, all: &mut [Reduced], places: &mut Places, span: f64) -> Result<(), Box<Diagnostic>> {
-        let mut motion = self.asked.motion();
+    fn run(&self, all: &mut [Reduced], places: &mut Places, near: &mut Near) -> Result<(), Box<Diagnostic>> {
+        let [from, to] = self.asked.interval;
+        let span = to - from;
+        let mut motion = self.asked.motion(Times::listed(from, vec![to]));
         let mut stretches = Vec::new();
         loop {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
+            if let Some(stretch) = &next {
+                near.take_note(stretch, &motion);
+            }
             stretches.extend(next);
             if is_end && span <= 0.0 {
                 places.enter_where(&motion.switches());

@@ -26,6 +26,8 @@ pub(super) struct Reduced {
     seen: [f64; 2],
     /// The size of the largest numbers that a value was a sum of.
     weight: f64,
+    /// When these were seen first (s).
+    seen_at: [f64; 2],
     trouble: Option<Trouble>,
     cells: usize,
 }
@@ -40,6 +42,7 @@ impl Reduced {
             times: Vec::new(),
             seen,
             weight: 0.0,
+            seen_at: [f64::NAN; 2],
             trouble: None,
             cells: 0,
         }
@@ -76,7 +79,14 @@ impl Reduced {
             ReductionKind::At(_) => at,
             _ => interval[0],
         };
-        if value.is_finite() { Ok(value) } else { Err(Trouble::Missing(t)) }
+        match kind {
+            _ if value.is_finite() => Ok(value),
+            // rounding may show values that no extremum has
+            ReductionKind::Extreme { largest, .. } if self.seen_at[0].is_finite() => {
+                Err(Trouble::Unknown(self.seen_at[usize::from(largest)]))
+            }
+            _ => Err(Trouble::Missing(t)),
+        }
     }
 
     /// Of an analysis of a single time.
@@ -91,6 +101,23 @@ impl Reduced {
         self.seen = [value; 2];
         let scale = self.scale(span);
         self.extremes.iter_mut().flatten().for_each(|extreme| extreme.note_edge(state.t, value, scale));
+    }
+
+    /// Whether it changes with the motion, and not with time alone.
+    pub fn moves(&self) -> bool {
+        self.formula.moves()
+    }
+
+    /// Whether it holds derivatives of the coordinates.
+    pub fn holds_rates(&self) -> bool {
+        self.formula.holds_rates()
+    }
+
+    /// The first time (s) of the largest or least value, be it just one that was seen.
+    pub fn time_of_extreme(&self, largest: bool, span: f64) -> f64 {
+        let extreme = self.extremes[usize::from(largest)].as_ref();
+        let time = extreme.map_or(f64::NAN, |extreme| extreme.time(self.scale(span)));
+        if time.is_finite() { time } else { self.seen_at[usize::from(largest)] }
     }
 
     fn scale(&self, span: f64) -> Scale {
@@ -240,7 +267,7 @@ impl Reduced {
     }
 
     fn survey<'r>(&'r mut self, stretch: &'r Stretch, places: &'r mut Places, span: f64) -> Survey<'r> {
-        let Reduced { formula, trouble, cells, seen, .. } = self;
-        Survey { formula, places, stretch, trouble, cells, seen, shortest: SHORTEST * span }
+        let Reduced { formula, trouble, cells, seen, seen_at, .. } = self;
+        Survey { formula, places, stretch, trouble, cells, seen, seen_at, shortest: SHORTEST * span }
     }
 }

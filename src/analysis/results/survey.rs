@@ -35,12 +35,14 @@ pub(in crate::analysis) enum Trouble {
     Missing(f64),
     /// It could not be found out around a time (s).
     Unknown(f64),
+    /// It is of a time (s) at which a row would be more rounding than digits.
+    Uncertain(f64),
 }
 
 impl Trouble {
     fn t(self) -> f64 {
         match self {
-            Trouble::Missing(t) | Trouble::Unknown(t) => t,
+            Trouble::Missing(t) | Trouble::Unknown(t) | Trouble::Uncertain(t) => t,
         }
     }
 }
@@ -53,6 +55,8 @@ pub(super) struct Survey<'r> {
     pub trouble: &'r mut Option<Trouble>,
     pub cells: &'r mut usize,
     pub seen: &'r mut [f64; 2],
+    /// When these were seen first (s).
+    pub seen_at: &'r mut [f64; 2],
     pub shortest: f64,
 }
 
@@ -96,7 +100,12 @@ impl Survey<'_> {
             self.meet(Trouble::Missing(point.state.t));
             return false;
         }
-        *self.seen = [self.seen[0].min(value), self.seen[1].max(value)];
+        if value < self.seen[0] {
+            (self.seen[0], self.seen_at[0]) = (value, point.state.t);
+        }
+        if value > self.seen[1] {
+            (self.seen[1], self.seen_at[1]) = (value, point.state.t);
+        }
         true
     }
 
