@@ -1,6 +1,7 @@
 //! Formulas that are reduced: their values, derivatives and ranges along the motion.
 
 use super::places::Places;
+use super::smooth::Smooth;
 use crate::analysis::kinematics::State;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
@@ -26,6 +27,9 @@ pub(super) struct Formula {
     ranges: Ranges,
     /// What moves of all that it or its derivatives hold.
     moving: Vec<Moving>,
+    /// What of it stands behind the coordinates of the system, of which there are so many.
+    smooth: Smooth,
+    coordinates: usize,
     has_jerk: bool,
     holds_rates: bool,
 }
@@ -33,7 +37,7 @@ pub(super) struct Formula {
 /// What changes with the motion.
 #[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub(super) enum Moving {
-    /// A coordinate.
+    /// A coordinate, or what moves as smoothly.
     Coordinate(usize),
     /// A variation of a coordinate.
     Varied {
@@ -127,6 +131,7 @@ impl Formula {
         let has_jerk = system.jerk.is_some();
         let dependence = graph.dependence(value);
         let holds_rates = dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some();
+        let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);
         let mut formulas = vec![value];
         while formulas.len() < 3 {
             let last = formulas[formulas.len() - 1];
@@ -134,7 +139,7 @@ impl Formula {
             if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
                 break;
             }
-            let next = ConstraintSystem::time_derivatives(graph, &[last], 3)[0];
+            let next = ConstraintSystem::time_derivatives(&mut graph, &[last], 3)[0];
             if graph.dependence(next).highest_order() == Some(3) && !has_jerk {
                 break;
             }
@@ -143,12 +148,13 @@ impl Formula {
         let mut moving: Vec<Moving> = graph.symbols_of_all(&formulas).into_iter().filter_map(Moving::of).collect();
         moving.sort_unstable();
         moving.dedup();
-        let counts = [system.params.len(), system.coordinates.len(), variations];
-        let (program, roots) = Program::of_formulas(graph, counts, &formulas);
+        let coordinates = system.coordinates.len();
+        let counts = [system.params.len(), coordinates + smooth.count(), variations];
+        let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);
         let ranges = Ranges::new(&program, &registers, &roots, Stage::Measures, false);
-        Formula { program, registers, roots, ranges, moving, has_jerk, holds_rates }
+        Formula { program, registers, roots, ranges, moving, smooth, coordinates, has_jerk, holds_rates }
     }
 
     /// How many time derivatives it has: 0 to 2.
@@ -171,7 +177,9 @@ impl Formula {
         if self.is_varied() {
             places.vary(&state);
         }
+        self.smooth.look(&state, |_| 1.0);
         let tower = |moving: &Moving| match *moving {
+            Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
             Moving::Coordinate(k) => [state.q[k], state.qd[k], state.qdd[k], state.qddd[k]],
             Moving::Varied { variation, index } => {
                 let [place, first, second] = places.variation(variation, index);
@@ -209,8 +217,12 @@ impl Formula {
                 let is_up = (k as u32 + 1).wrapping_mul(0x9E37_79B9 ^ way.wrapping_mul(0x85EB_CA6B)) >> 31 == 0;
                 if is_up { 1.0 + MOVED } else { 1.0 - MOVED }
             };
-            let moving: Vec<[f64; 4]> =
-                point.moving.iter().enumerate().map(|(k, tower)| tower.map(|value| value * moved(k))).collect();
+            self.smooth.look(&point.state, moved);
+            let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
+                Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
+                Moving::Coordinate(k) | Moving::Varied { index: k, .. } => tower.map(|value| value * moved(k)),
+            };
+            let moving: Vec<[f64; 4]> = self.moving.iter().zip(&point.moving).map(tower).collect();
             self.run(point.state.t, &moving);
             let change = (self.registers.get(self.roots[0]) - point.sample.value).abs();
             weight = weight.max(if change.is_finite() { change / MOVED } else { 0.0 });
@@ -239,6 +251,11 @@ impl Formula {
                 }
             }
         }
+    }
+
+    /// Whether a cell is too wide for anything to be known of what is smooth in it.
+    pub fn turns_far(&self, cell: &Cell) -> bool {
+        self.smooth.turns_far([&cell.a.state, &cell.b.state])
     }
 
     /// The range of the value (0) or of a derivative in the cell that is looked at; in order.

@@ -13,6 +13,7 @@ mod places;
 mod quadrature;
 mod reduced;
 mod search;
+mod smooth;
 mod survey;
 mod varying;
 

@@ -113,7 +113,8 @@ impl Survey<'_> {
     pub fn range(&mut self, cell: &Cell) -> Range {
         self.formula.look_at(cell);
         let range = self.formula.range(0);
-        let is_known = !self.formula.moves() || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]);
+        let is_known = !self.formula.moves()
+            || self.places.signals_are_resolved([cell.a.state.t, cell.b.state.t]) && !self.formula.turns_far(cell);
         if is_known { range } else { ANYTHING }
     }
 

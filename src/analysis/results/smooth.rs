@@ -1,0 +1,211 @@
+//! What of a formula is made of places and of sines of turns alone, by sums and products: it moves as smoothly as they do.
+//!
+//! What is seen from a body that moves is a sum of this kind, of terms that may be much larger than it is itself: what these can be in
+//! a cell says little of what it can be. So it is looked at as the coordinates are, by its own time derivatives at the ends of the cell.
+
+use crate::analysis::kinematics::State;
+use crate::expr::{ExprId, Graph, Node, Symbol, Unary};
+use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::program::{Program, Register, Registers, Stage};
+use rustc_hash::FxHashMap;
+
+/// Of no more factors than this.
+const MOST_FACTORS: u32 = 6;
+/// A cell in which a body turns farther than this (rad) says nothing of the sine of the turn.
+const WIDEST_TURN: f64 = 0.25;
+
+/// Of what kind a formula is.
+#[derive(Clone, Copy, PartialEq, Debug)]
+enum Kind {
+    /// It does not change.
+    Constant,
+    /// A sum of turns and of what does not change.
+    Turn,
+    /// A sum of products of what is smooth.
+    Smooth {
+        /// The highest time derivative of a coordinate in it.
+        order: u8,
+        /// How many things that move are multiplied in it at most.
+        factors: u32,
+    },
+    Other,
+}
+
+/// What is smooth of a formula, with its time derivatives.
+pub(super) struct Smooth {
+    program: Program,
+    registers: Registers,
+    /// Of each, where its value and its time derivatives are: at the order that its value has as a coordinate, and behind it.
+    towers: Vec<[Option<Register>; 4]>,
+    /// The coordinates that they hold.
+    coordinates: Vec<usize>,
+    /// Those that are turns.
+    turns: Vec<usize>,
+}
+
+impl Smooth {
+    /// A formula in a graph of its own, in which what is smooth of it stands as further coordinates, behind those that there are; and what
+    /// that is.
+    pub fn out_of(graph: &mut Graph, value: ExprId, system: &ConstraintSystem) -> (Graph, ExprId, Smooth) {
+        let kinds = kinds(graph, value, system);
+        let found = largest(graph, value, &kinds);
+        let (mut own, mut known) = (Graph::new(), FxHashMap::default());
+        own.import_tables(graph, &mut known, Graph::symbol);
+        let mut towers = Vec::with_capacity(found.len());
+        let first = system.coordinates.len();
+        for (k, &(id, order)) in found.iter().enumerate() {
+            known.insert(id, own.symbol(Symbol::Coordinate { index: (first + k) as u32, order }));
+            towers.push(tower(graph, id, order, system.jerk.is_some()));
+        }
+        own.import(graph, &[value], &mut known, Graph::symbol);
+        (own, known[&value], Smooth::new(graph, &towers, system))
+    }
+
+    fn new(graph: &Graph, towers: &[[Option<ExprId>; 4]], system: &ConstraintSystem) -> Smooth {
+        let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
+        let (program, roots) =
+            Program::of_formulas(graph, [system.params.len(), system.coordinates.len(), 0], &formulas);
+        let mut roots = roots.into_iter();
+        let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
+        let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+        let registers = program.start(&params);
+        let symbols = graph.symbols_of_all(&formulas);
+        let mut coordinates: Vec<usize> = symbols.iter().filter_map(|&symbol| coordinate_of(symbol)).collect();
+        coordinates.dedup();
+        let is_turn = |&k: &usize| system.coordinates[k].kind == CoordinateKind::Angle;
+        let turns = coordinates.iter().copied().filter(is_turn).collect();
+        Smooth { program, registers, towers, coordinates, turns }
+    }
+
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.towers.len()
+    }
+
+    /// Computes all of them at a state whose coordinates are taken times a factor.
+    pub fn look(&mut self, state: &State, factor: impl Fn(usize) -> f64) {
+        let inputs = self.program.inputs;
+        for &k in &self.coordinates {
+            for (first, values) in inputs.coordinates.into_iter().zip([&state.q, &state.qd, &state.qdd, &state.qddd]) {
+                self.registers.set(first + k as Register, values[k] * factor(k));
+            }
+        }
+        self.program.run(Stage::Measures, &mut self.registers);
+    }
+
+    /// One of them and its time derivatives at the state that was looked at, by their orders; 0 where there is none.
+    pub fn tower(&self, k: usize) -> [f64; 4] {
+        self.towers[k].map(|register| register.map_or(0.0, |register| self.registers.get(register)))
+    }
+
+    /// Whether a body turns too far between two states for them to tell what its sine is between.
+    pub fn turns_far(&self, [a, b]: [&State; 2]) -> bool {
+        let turned = |&k: &usize| {
+            let fastest = f64::max(a.qd[k].abs(), b.qd[k].abs());
+            f64::max((b.q[k] - a.q[k]).abs(), fastest * (b.t - a.t))
+        };
+        self.turns.iter().any(|k| turned(k) > WIDEST_TURN)
+    }
+}
+
+fn coordinate_of(symbol: Symbol) -> Option<usize> {
+    match symbol {
+        Symbol::Coordinate { index, .. } => Some(index as usize),
+        _ => None,
+    }
+}
+
+/// Of all that a formula is made of.
+fn kinds(graph: &Graph, value: ExprId, system: &ConstraintSystem) -> FxHashMap<ExprId, Kind> {
+    let mut kinds = FxHashMap::default();
+    for id in graph.reachable(&[value]) {
+        let kind = if graph.dependence(id).is_constant() {
+            Kind::Constant
+        } else {
+            kind_of(graph.node(id), system, |child| kinds[&child])
+        };
+        kinds.insert(id, kind);
+    }
+    kinds
+}
+
+fn kind_of(node: Node, system: &ConstraintSystem, of: impl Fn(ExprId) -> Kind) -> Kind {
+    match node {
+        Node::Symbol(Symbol::Coordinate { index, order }) => match (system.coordinates[index as usize].kind, order) {
+            (CoordinateKind::Angle, 0) => Kind::Turn,
+            (CoordinateKind::Angle | CoordinateKind::Length, _) => Kind::Smooth { order, factors: 1 },
+            (CoordinateKind::Argument, _) => Kind::Other,
+        },
+        Node::Add(a, b) | Node::Sub(a, b) => of(a).plus(of(b)),
+        Node::Mul(a, b) => of(a).times(of(b)),
+        Node::Div(a, b) if of(b) == Kind::Constant => of(a).times(Kind::Constant),
+        Node::Power(a, 2) => of(a).times(of(a)),
+        Node::Neg(a) => of(a),
+        Node::Unary(Unary::Sin | Unary::Cos, a) if of(a) == Kind::Turn => Kind::Smooth { order: 0, factors: 1 },
+        _ => Kind::Other,
+    }
+}
+
+impl Kind {
+    /// The highest time derivative, and the number of factors.
+    fn smooth(self) -> Option<(u8, u32)> {
+        match self {
+            Kind::Constant => Some((0, 0)),
+            Kind::Turn => Some((0, 1)),
+            Kind::Smooth { order, factors } => Some((order, factors)),
+            Kind::Other => None,
+        }
+    }
+
+    fn plus(self, other: Kind) -> Kind {
+        let is_turn = |kind| matches!(kind, Kind::Constant | Kind::Turn);
+        match (self.smooth(), other.smooth()) {
+            _ if is_turn(self) && is_turn(other) => Kind::Turn,
+            (Some(a), Some(b)) => Kind::Smooth { order: a.0.max(b.0), factors: a.1.max(b.1) },
+            _ => Kind::Other,
+        }
+    }
+
+    fn times(self, other: Kind) -> Kind {
+        match (self.smooth(), other.smooth()) {
+            (Some(a), Some(b)) if a.1 + b.1 <= MOST_FACTORS => Kind::Smooth { order: a.0.max(b.0), factors: a.1 + b.1 },
+            _ => Kind::Other,
+        }
+    }
+}
+
+/// The largest formulas within a formula that are smooth, and that are more than a coordinate; each with its order.
+fn largest(graph: &Graph, value: ExprId, kinds: &FxHashMap<ExprId, Kind>) -> Vec<(ExprId, u8)> {
+    let (mut found, mut open) = (Vec::new(), vec![value]);
+    let mut seen = rustc_hash::FxHashSet::default();
+    while let Some(id) = open.pop() {
+        let node = graph.node(id);
+        if !seen.insert(id) || matches!(node, Node::Symbol(_)) {
+            continue;
+        }
+        match kinds[&id] {
+            Kind::Constant => {}
+            Kind::Turn => found.push((id, 0)),
+            Kind::Smooth { order, .. } => found.push((id, order)),
+            Kind::Other => open.extend_from_slice(node.children().as_slice()),
+        }
+    }
+    found.sort_unstable();
+    found
+}
+
+/// A formula and its time derivatives, by their orders, as many as there are.
+fn tower(graph: &mut Graph, value: ExprId, order: u8, has_jerk: bool) -> [Option<ExprId>; 4] {
+    let mut tower = [None; 4];
+    tower[usize::from(order)] = Some(value);
+    for next in usize::from(order) + 1..4 {
+        let last = tower[next - 1].into_iter().collect::<Vec<_>>();
+        let formula = ConstraintSystem::time_derivatives(graph, &last, 3).pop();
+        let is_known = |&formula: &ExprId| has_jerk || graph.dependence(formula).highest_order() != Some(3);
+        tower[next] = formula.filter(is_known);
+        if tower[next].is_none() {
+            break;
+        }
+    }
+    tower
+}
