@@ -187,6 +187,9 @@ impl Analysis {
                 return Ok(());
             }
             if is_end || stretches.len() >= CHUNK {
+                if all.iter().any(Reduced::needs_middles) {
+                    places.find_middles(&mut stretches);
+                }
                 for reduced in all.iter_mut() {
                     reduced.look(&stretches, places, span);
                 }

@@ -108,6 +108,16 @@ impl Reduced {
         self.formula.moves()
     }
 
+    /// Whether what lies between the ends of stretches matters.
+    pub fn needs_middles(&self) -> bool {
+        self.moves() && !self.is_of_times_alone()
+    }
+
+    /// Whether nothing is asked but values at some times.
+    fn is_of_times_alone(&self) -> bool {
+        self.extremes.iter().all(Option::is_none) && self.integral.is_none()
+    }
+
     /// Whether it holds derivatives of the coordinates.
     pub fn holds_rates(&self) -> bool {
         self.formula.holds_rates()
@@ -184,7 +194,7 @@ impl Reduced {
     fn root(&mut self, stretch: &Stretch, places: &mut Places, span: f64) -> Option<Root> {
         places.enter(stretch);
         self.take_times(stretch, places);
-        if self.extremes.iter().all(Option::is_none) && self.integral.is_none() {
+        if self.is_of_times_alone() {
             return None;
         }
         let is_integrated = self.integral.is_some();
