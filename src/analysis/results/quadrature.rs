@@ -1,4 +1,5 @@
-//! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin).
+//! Integrals over time, by formulas that take value and derivatives of both ends of a cell (Euler and Maclaurin), or by values
+//! alone where there are none (Simpson).
 
 use super::formulas::{Cell, Point};
 use super::survey::{Root, Scale, Survey};
@@ -55,6 +56,11 @@ impl Survey<'_> {
 
     /// The integral over a cell by its halves, made better by what the whole says, and how far off it may be.
     fn both_rules(&mut self, cell: &Cell, halves: &[Cell; 2]) -> (f64, f64) {
+        if self.formula.derivatives() == 0
+            && let Some(found) = self.by_values(cell, halves)
+        {
+            return found;
+        }
         let whole = self.rule(&cell.a, &cell.b);
         let parts = self.rule(&halves[0].a, &halves[0].b) + self.rule(&halves[1].a, &halves[1].b);
         let gained = [3.0, 15.0, 63.0][self.formula.derivatives()];
@@ -65,6 +71,18 @@ impl Survey<'_> {
         let h = cell.length();
         let middle = halves[0].b.sample.value;
         (0.25 * h * (cell.a.sample.value + 2.0 * middle + cell.b.sample.value), f64::INFINITY)
+    }
+
+    /// The integral of a formula without derivatives: by Simpson's rule over the halves, made better by what it says over the whole. None
+    /// where a value is missing.
+    fn by_values(&mut self, cell: &Cell, halves: &[Cell; 2]) -> Option<(f64, f64)> {
+        let [first, third] = halves.each_ref().map(|half| self.middle(half));
+        let values = [&cell.a, &first?, &halves[0].b, &third?, &cell.b].map(|point| point.sample.value);
+        let h = cell.length();
+        let whole = h / 6.0 * (values[0] + 4.0 * values[2] + values[4]);
+        let parts = h / 12.0 * (values[0] + 4.0 * values[1] + 2.0 * values[2] + 4.0 * values[3] + values[4]);
+        let better = (parts - whole) / 15.0;
+        better.is_finite().then_some((parts + better, better.abs()))
     }
 
     /// The integral of the polynomial that has the values and derivatives of two points.
