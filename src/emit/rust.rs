@@ -78,7 +78,8 @@ pub(super) fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Table
 #[must_use]
 pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_solver = unit.motion.as_ref().map_or(0, |motion| motion.solver.operations());
+    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).operations();
+    let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
         |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
@@ -486,6 +487,7 @@ impl Writer<'_> {
             ("large", self.equations.book.is_some()),
             ("inputs", self.unit.following.is_some()),
             ("led", is_led),
+            ("joined", !solution.joined.is_empty()),
         ]
     }
 
@@ -496,7 +498,8 @@ impl Writer<'_> {
         let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
         let sides = if self.has_sides() { "sides" } else { "&[]" };
         let model = if solution.known.is_empty() && !has_params && !is_led { "_" } else { "m" };
-        let lists = if self.unit.system.measures.is_empty() { 3 } else { 6 } + usize::from(is_led);
+        let lists = if self.unit.system.measures.is_empty() { 3 } else { 6 };
+        let lists = lists + usize::from(is_led) + usize::from(!solution.joined.is_empty());
         let of_signals = |text: &'static str| if is_led { text } else { "" };
         let template = chosen(LARGE, wanted)
             .replace("$known", known)
@@ -504,6 +507,7 @@ impl Writer<'_> {
             .replace("$time", if is_led { "m.way.list(t)" } else { "[t]" })
             .replace("$p.", if is_led { "m.way.params." } else { "m.params." })
             .replace("$lists", &lists.to_string())
+            .replace("$joined", if solution.joined.is_empty() { "" } else { ", &self.joined" })
             .replace("$by_signal_mut", of_signals(", self.by_signal.as_flattened_mut()"))
             .replace("$by_signal", of_signals(", self.by_signal.as_flattened()"));
         template.replace("$m", model) + "\n"
@@ -527,12 +531,20 @@ impl Writer<'_> {
 
     /// The derivatives by parameters, where these are wanted.
     pub fn sensitivity(&self, solution: &Solution<'_>, wanted: &[(&str, bool)]) -> String {
-        let Some(function) = solution.sensitive_function() else {
+        let params = &self.unit.system.params;
+        let function = match &self.equations.book {
+            _ if params.is_empty() && solution.motion.sensitive.is_some() => Some(String::new()),
+            None => solution.sensitive_function(),
+            Some(book) => solution.sensitive_as_numbers(&self.large(solution, wanted), &mut book.borrow_mut()),
+        };
+        let Some(function) = function else {
             return String::new();
         };
         let mut text = String::new();
+        if params.is_empty() && self.equations.is_led {
+            return text;
+        }
         if !self.equations.is_led {
-            let params = &self.unit.system.params;
             text += &format!("/// Number of parameters.\npub const PARAMS: usize = {};\n\n", params.len());
             text += "/// Where each parameter stands in what [`sensitivity`] gives.\npub mod param {\n";
             let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
@@ -544,6 +556,9 @@ impl Writer<'_> {
                 );
             }
             text += "}\n\n";
+            if params.is_empty() {
+                return text + NO_SENSITIVITY;
+            }
         }
         text += &chosen(SENSITIVITY, wanted);
         text += &function;
@@ -807,6 +822,17 @@ impl Writer<'_> {
         text
     }
 }
+
+/// The derivatives of the coordinates by parameters where there are none.
+const NO_SENSITIVITY: &str = "/// The derivatives of the coordinates by each parameter: there is none.
+///
+/// # Errors
+/// Never; of mechanisms with parameters there are some.
+pub fn sensitivity(_: &Params, _: &State) -> Result<[Q; PARAMS], Error> {
+    Ok([])
+}
+
+";
 
 /// What is said of the function that the equations left out are.
 const LEFT_OUT_DOCS: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";

@@ -1,7 +1,7 @@
 //! Inputs as signals: what their place in the equations asks for beside what a system of time alone has.
 
 use super::{ConstraintSystem, Measure};
-use crate::expr::{Dependence, ExprId, Graph, Node, Symbol};
+use crate::expr::{ExprId, Graph, Symbol};
 
 /// Nobody gives more of a signal than its value, rate and acceleration.
 const HIGHEST: u8 = 2;
@@ -13,29 +13,16 @@ impl ConstraintSystem {
         self.by_signal = signals.into_iter().map(|index| self.rights_by(Symbol::Signal { index, order: 0 })).collect();
     }
 
-    /// The right sides of the equations for the derivatives of `q` by each parameter.
-    ///
-    /// # Errors
-    /// The name of a table that is made of parameters: its derivatives by these are not known.
-    pub fn derive_by_params(&mut self) -> Result<(), String> {
-        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
-        for id in self.graph.reachable(&phi) {
-            if let Node::Table(table, ..) = self.graph.node(id) {
-                let table = &self.graph.tables()[table.index()];
-                if table.cells().any(|cell| self.graph.dependence(cell).on(Dependence::PARAMS)) {
-                    return Err(table.name.clone());
-                }
-            }
-        }
+    /// The right sides of the equations for the derivatives of `q` by each parameter, those by which tables change too.
+    pub fn derive_by_params(&mut self) {
         self.by_param = (0..self.params.len() as u32).map(|k| self.rights_by(Symbol::Param(k))).collect();
-        Ok(())
     }
 
     /// The partial derivatives of `Φ` by a symbol, negated.
     fn rights_by(&mut self, own: Symbol) -> Vec<ExprId> {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
         let graph = &mut self.graph;
-        let slopes = graph.derivatives(&phi, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)));
+        let slopes = graph.variations(&phi, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)));
         slopes.into_iter().map(|id| graph.neg(id)).collect()
     }
 

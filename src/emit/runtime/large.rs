@@ -35,7 +35,7 @@ impl Solution {
 //# if measures
     fn lists(&self) -> [&[f64]; $lists] {
         let [values, rates, accelerations] = self.measures.lists();
-        [&self.q, values, &self.qd, rates, &self.qdd, accelerations$by_signal]
+        [&self.q, values, &self.qd, rates, &self.qdd, accelerations$by_signal$joined]
     }
 //# end
 //# if !measures
@@ -57,6 +57,9 @@ impl Solution {
             &mut of.accelerations,
 //# if led
             self.by_signal.as_flattened_mut(),
+//# end
+//# if joined
+            &mut self.joined,
 //# end
         ];
 //# end

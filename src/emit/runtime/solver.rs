@@ -589,6 +589,10 @@ struct Solution {
 //# if measures
     measures: Measures,
 //# end
+//# if joined
+    /// What only measures need.
+    joined: [f64; JOINED],
+//# end
 //# if sides
     /// The branches of formulas.
     sides: Sides,
@@ -621,6 +625,9 @@ impl Solution {
 //# end
 //# if measures
         measures: Measures::ZERO,
+//# end
+//# if joined
+        joined: [0.0; JOINED],
 //# end
 //# if sides
         sides: [0.0; SIDES],
