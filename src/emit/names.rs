@@ -20,6 +20,9 @@ const RESERVED: &[&str] = &[
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
 ];
 
+/// The array of the derivatives by inputs and parameters, of a mechanism that has such.
+pub(super) const VARIED: &str = "varied";
+
 /// Longer names of variables would make lines that a formatter breaks.
 const LONGEST_VARIABLE: usize = 20;
 
@@ -43,6 +46,9 @@ impl Names {
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);
+        }
+        if !system.variations().is_empty() {
+            variables.snake(VARIED);
         }
         let mut variable = |wanted: String, short: String| {
             // what looks like a numbered one could be mistaken for it

@@ -3,15 +3,16 @@
 mod following;
 
 use super::Unit;
-use super::code::MODULE;
+use super::code::{MODULE, column_of};
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Case, Names};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
+use crate::expr::{ExprId, VARIED_TABLE};
 use crate::ir::{Check, Measure, Owner, Units};
 use crate::program::{Column, Register, Rim, STAGES};
-use crate::solver::RowLayout;
+use crate::solver::{Op, RowLayout};
 use crate::source::Span;
 use std::cell::RefCell;
 
@@ -48,7 +49,7 @@ pub fn rust(unit: &Unit<'_>) -> String {
         body += &writer.motion(solution);
     }
     if let Some(book) = &equations.book {
-        body += RUN;
+        body += &run(&equations);
         body += "\n";
         body += &book.borrow().print(&equations);
     }
@@ -72,6 +73,12 @@ pub(super) fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Table
         is_led,
         book: is_large(unit).then(RefCell::default),
     }
+}
+
+/// What runs operations that are written as numbers.
+pub(super) fn run(equations: &Equations<'_>) -> String {
+    let arrays = if equations.has_varied() { "; 9]" } else { "; 8]" };
+    RUN.replace("; 8]", arrays)
 }
 
 /// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
@@ -125,7 +132,11 @@ impl Writer<'_> {
         text += "//! - needs no heap and no standard library; nothing in it panics\n";
         text += "//!\n//! This code carries no licence of mechc's: use, change and pass it on as you like.\n\n";
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
-        text + "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
+        text += "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n";
+        if self.equations.has_varied() {
+            text += "#![allow(clippy::too_many_arguments)]\n";
+        }
+        text + "\n"
     }
 
     /// Where something is declared, for a comment.
@@ -278,7 +289,10 @@ impl Writer<'_> {
         for (number, table) in program.tables().iter().enumerate() {
             for column in COLUMNS {
                 let number = number as u32;
-                let Some(values) = numbers(program, &self.equations.constants, number, column) else {
+                // how a table varies has the pieces of that table
+                let is_left_out = table.name.ends_with(VARIED_TABLE) && !self.is_looked_into(number, column);
+                let Some(values) = numbers(program, &self.equations.constants, number, column).filter(|_| !is_left_out)
+                else {
                     continue;
                 };
                 let what = match column {
@@ -296,6 +310,12 @@ impl Writer<'_> {
             }
         }
         text
+    }
+
+    /// Whether some operation looks into a column of a table, or may by its number.
+    fn is_looked_into(&self, table: u32, column: Column) -> bool {
+        let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
+        self.equations.book.is_some() || all().any(|&op| column_of(Op::Other(op)) == Some((table, column)))
     }
 
     pub fn has_sides(&self) -> bool {
@@ -342,6 +362,7 @@ impl Writer<'_> {
                 is_public: true,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length,
                 negated: name == "phi_t",
@@ -351,6 +372,9 @@ impl Writer<'_> {
         }
         if self.unit.system.coordinates.len() <= LARGEST_DENSE {
             text += DENSE;
+        }
+        if !self.equations.is_led {
+            text += &self.varied(Given::None);
         }
         text + &self.measures()
     }
@@ -371,6 +395,58 @@ impl Writer<'_> {
         text + &format!("pub const LEFT_OUT: usize = {};\n\n", system.checks.len())
     }
 
+    /// The right sides of the equations for the derivatives by inputs and parameters that measures hold; nothing where there are none.
+    pub fn varied(&self, given: Given) -> String {
+        let (system, variations) = (self.unit.system, &self.unit.program.outputs.variations);
+        if variations.is_empty() {
+            return String::new();
+        }
+        let outputs: Vec<Register> = variations.iter().flatten().flatten().copied().collect();
+        let is_public = given == Given::None && !self.equations.is_led;
+        let mut text = String::new();
+        if is_public {
+            text += "/// Number of derivatives of the coordinates by inputs and parameters that measures hold. For each of the\n\
+                /// following one behind the other: those of `q`, of `qd` and of `qdd`. By\n";
+            for number in 0..variations.len() as u32 {
+                let name = one_line(&system.variation_name("", number));
+                text += &format!("/// - {}\n", name.trim_start_matches(".by.").replace(".by.", " and "));
+            }
+            text += &format!("pub const VARIED: usize = {};\n\n", outputs.len());
+        }
+        text + &self.equations.function(&Wanted {
+            name: if is_public || !self.has_sides() { "varied_right" } else { "varied_right_with" },
+            docs: "Right sides of the equations `phi_q x = varied_right` for each list of `N` of [`VARIED`]. Those by one are found\nbefore those by \
+                   two, those of `q` before those of `qd` and these before those of `qdd`: what is not found yet\nmay be anything.",
+            is_public,
+            orders: 3,
+            has_time: true,
+            varied: true,
+            outputs: &outputs,
+            length: "VARIED",
+            negated: false,
+            given,
+        })
+    }
+
+    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters.
+    fn is_varied(&self) -> String {
+        let (graph, measures) = (&self.unit.system.graph, &self.unit.system.measures);
+        let is_varied = |id: ExprId| graph.dependence(id).highest_varied_order().is_some().to_string();
+        let values = measures.iter().map(|measure| is_varied(measure.value));
+        let rates = measures.iter().filter_map(|measure| measure.first.map(is_varied));
+        let accelerations = measures.iter().filter_map(|measure| measure.second.map(is_varied));
+        let all: Vec<String> = values.chain(rates).chain(accelerations).collect();
+        let docs = "Which measures, rates and accelerations are derivatives by inputs or parameters.";
+        super::text::constant(docs, "IS_VARIED", "bool", "MEASURES + RATES + ACCELERATIONS", &all) + LEAVE_VARIED_OUT
+    }
+
+    /// By derivative of the coordinates: whether it is one by two.
+    pub fn is_by_two(&self) -> String {
+        let variations = self.unit.system.variations();
+        let by_two: Vec<String> = variations.iter().map(|variation| variation.by.1.is_some().to_string()).collect();
+        super::text::constant("Which lists of [`VARIED`] are by two.", "IS_BY_TWO", "bool", "VARIED / (3 * N)", &by_two)
+    }
+
     /// The measures with their derivatives.
     pub fn measures(&self) -> String {
         let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
@@ -386,13 +462,21 @@ impl Writer<'_> {
             is_public: false,
             orders,
             has_time: true,
+            varied: true,
             outputs: &all,
             length: &all.len().to_string(),
             negated: false,
             given: Given::None,
         };
         let (more, call) = if orders == 4 { (", qddd: &[f64; N]", ", qddd") } else { ("", "") };
+        let has_varied = self.equations.has_varied();
         let jerk = if orders == 4 { ", and their third derivatives" } else { "" };
+        let jerk = jerk.to_owned() + if has_varied { ",\n/// and the derivatives of [`VARIED`]" } else { "" };
+        let (more, call) = if has_varied {
+            (format!("{more}, varied: &[f64; VARIED]"), format!("{call}, varied"))
+        } else {
+            (more.to_owned(), call.to_owned())
+        };
         let head = format!("pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd{more}, t: f64, p: &Params) -> Measures {{\n");
         format!(
             "/// The measures with their time derivatives, from the coordinates, their velocities and\n/// accelerations{jerk}.\n{head}    \
@@ -421,6 +505,10 @@ impl Writer<'_> {
             + &solution.constants(&solve, self.unit.lanes.is_some() && solution.has_newton()));
         if !system.measures.is_empty() {
             text += MEASURES_IN_SOLUTION;
+        }
+        if self.equations.has_varied() {
+            text += &self.is_varied();
+            text += &self.is_by_two();
         }
         text += &self.left_out_limits();
         if let Some(to) = solution.motion.to.filter(|_| of_time) {
@@ -488,6 +576,7 @@ impl Writer<'_> {
             ("inputs", self.unit.following.is_some()),
             ("led", is_led),
             ("joined", !solution.joined.is_empty()),
+            ("varied", self.equations.has_varied()),
         ]
     }
 
@@ -507,6 +596,7 @@ impl Writer<'_> {
             .replace("$time", if is_led { "m.way.list(t)" } else { "[t]" })
             .replace("$p.", if is_led { "m.way.params." } else { "m.params." })
             .replace("$lists", &lists.to_string())
+            .replace("$varied", if self.equations.has_varied() { ", &[]" } else { "" })
             .replace("$joined", if solution.joined.is_empty() { "" } else { ", &self.joined" })
             .replace("$by_signal_mut", of_signals(", self.by_signal.as_flattened_mut()"))
             .replace("$by_signal", of_signals(", self.by_signal.as_flattened()"));
@@ -517,7 +607,7 @@ impl Writer<'_> {
     pub fn filled(&self, text: &str, solution: &Solution<'_>) -> String {
         let mut text = text.to_owned();
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
-        for name in ["phi_q", "phi", "nu", "gamma", "jerk", "left_out"] {
+        for name in ["phi_q", "phi", "varied_right", "nu", "gamma", "jerk", "left_out"] {
             text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
@@ -527,6 +617,7 @@ impl Writer<'_> {
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)
+            .replace("$varied", if self.equations.has_varied() { ", &varied" } else { "" })
     }
 
     /// The derivatives by parameters, where these are wanted.
@@ -578,6 +669,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs: &all,
             length: &format!("N * {count}"),
             negated: false,
@@ -639,6 +731,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 0,
             has_time: false,
+            varied: false,
             outputs: &registers,
             length: "KNOWN",
             negated: false,
@@ -668,6 +761,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs: &outputs,
             length: &outputs.len().to_string(),
             negated: false,
@@ -692,6 +786,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs,
             length: "WATCHES",
             negated: false,
@@ -724,6 +819,7 @@ impl Writer<'_> {
                 is_public: false,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length: "SIDES",
                 negated: false,
@@ -773,6 +869,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 0,
             has_time: true,
+            varied: false,
             outputs: &outputs,
             length: "2 * RIMS",
             negated: false,
@@ -812,6 +909,7 @@ impl Writer<'_> {
                     is_public: false,
                     orders,
                     has_time: true,
+                    varied: false,
                     outputs,
                     length,
                     negated: false,
@@ -819,9 +917,27 @@ impl Writer<'_> {
                 });
             }
         }
+        if sides && has_pivoting {
+            text += &self.varied(Given::All);
+        }
         text
     }
 }
+
+/// What a solution needs of measures that are derivatives by inputs and parameters.
+const LEAVE_VARIED_OUT: &str = "impl Measures {
+    /// Close to a singular position derivatives by inputs and parameters have no value.
+    fn leave_varied_out(&mut self) {
+        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
+        for (value, is_varied) in self.values.iter_mut().chain(rest).zip(&IS_VARIED) {
+            if *is_varied {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+";
 
 /// The derivatives of the coordinates by parameters where there are none.
 const NO_SENSITIVITY: &str = "/// The derivatives of the coordinates by each parameter: there is none.

@@ -386,7 +386,9 @@ impl Outputs {
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms);
+        let more = more.into_iter().chain([&self.appended]);
+        let varied = self.variations.iter().flatten();
+        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms).chain(varied);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
         for rim in &self.rims {
             [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));

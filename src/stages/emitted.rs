@@ -79,19 +79,19 @@ impl Compiled {
         }
     }
 
-    /// Whether it can be written for others.
+    /// Whether it can be written as JSON or LaTeX.
     ///
     /// # Errors
-    /// A measure holds a derivative by an input or parameter, which is computed by `run` alone.
-    pub(crate) fn can_be_emitted(&self) -> Result<(), Box<Diagnostic>> {
+    /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
+    pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
         let is_varied = |id| system.graph.dependence(id).highest_varied_order().is_some();
         match system.measures.iter().find(|measure| is_varied(measure.value)) {
             None => Ok(()),
             Some(measure) => {
                 let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
-                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "cannot be emitted");
-                Err(Box::new(diagnostic.help("`mechc run` computes it; leave the measure out of what is emitted")))
+                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` and Rust code");
+                Err(Box::new(diagnostic.help("`mechc run` and emitted Rust compute it; leave the measure out here")))
             }
         }
     }
@@ -111,7 +111,6 @@ impl Compiled {
         signals: Option<&'u Signals>,
         said: &mut Diagnostics,
     ) -> Result<Unit<'u>, Box<Diagnostic>> {
-        self.can_be_emitted()?;
         let program = &**self.program();
         let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
         let (system, sources) = (self.system(), self.sources());

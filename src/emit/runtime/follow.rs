@@ -300,6 +300,11 @@ impl Led {
         if at.is_negative != from.is_negative || steepest > STEEPEST {
             return Err(Fault::Singular);
         }
+//# if varied
+        if steepest > STEEP {
+            at.measures.leave_varied_out();
+        }
+//# end
         if is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY {
             return Err(Fault::Singular);
         }

@@ -94,7 +94,7 @@ fn solve(guess: &[f64; TEARS], t: f64, $m: &Model$sides_argument, at: &mut Solut
 //# if !params
     let params = [];
 //# end
-    let inputs: Inputs<'_> = [&params, $known, $given_sides, &$time, &[], &[], &[], &[]];
+    let inputs: Inputs<'_> = [&params, $known, $given_sides, &$time, &[], &[], &[], &[]$varied];
     let mut v = [0.0; REGISTERS];
     for segment in &SEGMENTS {
         let code = SOLVE.get(segment.code[0]..segment.code[1]).unwrap_or(&[]);

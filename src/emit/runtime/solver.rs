@@ -320,6 +320,11 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     if at.is_negative != from.is_negative || steepest > STEEPEST {
         return Err(Fault::Singular);
     }
+//# if varied
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+//# end
     if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
         return Err(Fault::Singular);
     }
@@ -781,8 +786,11 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     }
 //# end
     (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
+//# if varied
+    let varied = vary(&mut elimination, &slopes, [&at.q, &qd, &qdd], t, p$sides);
+//# end
 //# if measures
-    at.measures = measures(&at.q, &qd, &qdd$qddd, t, p);
+    at.measures = measures(&at.q, &qd, &qdd$qddd$varied, t, p);
 //# end
     let values = $phi(&at.q, t, p$sides);
     at.holds = is_next_to_nothing(&values, &slopes, &at.q);
@@ -795,6 +803,34 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
 
+//# if varied
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters:
+/// those by one before those by two, each order from those before.
+#[rustfmt::skip]
+fn vary(
+    elimination: &mut Elimination,
+    slopes: &[f64; ENTRIES],
+    [q, qd, qdd]: [&Q; 3],
+    t: f64,
+    p: &Params$sides_argument,
+) -> [f64; VARIED] {
+    let mut varied = [0.0; VARIED];
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = $varied_right(q, qd, qdd, &varied, t, p$sides);
+            let lists = rights.chunks_exact(N).zip(varied.chunks_exact_mut(N)).skip(order).step_by(3);
+            for ((right, list), _) in lists.zip(&IS_BY_TWO).filter(|(_, of)| **of == by_two) {
+                let mut all = right.iter().copied();
+                let right = core::array::from_fn(|_| all.next().unwrap_or(f64::NAN));
+                let (x, _) = elimination.solve(slopes, &right);
+                list.iter_mut().zip(x).for_each(|(place, x)| *place = x);
+            }
+        }
+    }
+    varied
+}
+
+//# end
 /// The work of solving linear equations in blocks.
 struct Elimination {
     work: [f64; WORK],

@@ -3,7 +3,7 @@
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
-use super::{RUN, SOLVER, Writer, equations};
+use super::{SOLVER, Writer, equations, run};
 use crate::emit::Following;
 use crate::emit::equations::{Equations, Given, Wanted};
 use crate::emit::names::{Case, Names};
@@ -94,6 +94,7 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables) -> String 
         is_public: false,
         orders: 0,
         has_time: true,
+        varied: false,
         outputs: &outputs,
         length: "3 * SIGNALS",
         negated: false,
@@ -124,7 +125,7 @@ impl Module<'_> {
         text += &match &equations.book {
             Some(book) => {
                 let template = writer.large(solution, &wanted);
-                RUN.replace("Inputs<'", "Arrays<'")
+                run(equations).replace("Inputs<'", "Arrays<'")
                     + "\n"
                     + &solution.as_numbers(&template.replace("Inputs<'", "Arrays<'"), &mut book.borrow_mut())
             }
@@ -156,6 +157,11 @@ impl Module<'_> {
             }
         }
         text += "];\n\n";
+        if self.writer.equations.has_varied() {
+            let count = 3 * system.variations().len() * system.coordinates.len();
+            text += &format!("const VARIED: usize = {count};\n\n");
+            text += &self.writer.is_by_two();
+        }
         if !system.checks.is_empty() {
             text += &format!("const LEFT_OUT: usize = {};\n\n", system.checks.len());
         }
@@ -174,6 +180,7 @@ impl Module<'_> {
             is_public: false,
             orders: 0,
             has_time: false,
+            varied: false,
             outputs: &registers,
             length: "KNOWN",
             negated: false,
@@ -206,6 +213,7 @@ impl Module<'_> {
                 is_public: false,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length,
                 negated: false,
@@ -215,6 +223,7 @@ impl Module<'_> {
         if has_pivoting {
             text += &writer.rights("signal", &outputs.by_signal, "SIGNALS");
             text += &of_led(&writer.measures().replace("pub fn measures", "fn measures"));
+            text += &writer.varied(Given::All);
         }
         text
     }
