@@ -28,7 +28,7 @@ const LONGEST_VARIABLE: usize = 20;
 
 /// The names of a system's parameters and coordinates.
 pub(super) struct Names {
-    /// Fields of the parameters.
+    /// How parameters are reached: `leg[1].shank`.
     pub params: Vec<String>,
     /// What they are called in a body.
     pub param_variables: Vec<String>,
@@ -41,7 +41,8 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub fn new(system: &ConstraintSystem) -> Names {
+    /// The names of a system whose parameters are reached by some paths.
+    pub fn new(system: &ConstraintSystem, paths: Vec<String>) -> Names {
         let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
@@ -68,7 +69,7 @@ impl Names {
                 .map(|(k, name)| variable(name.trim_end_matches('_').to_owned() + end, format!("u{k}{end}")))
                 .collect()
         });
-        Names { params, param_variables, coordinates, inputs, signals }
+        Names { params: paths, param_variables, coordinates, inputs, signals }
     }
 
     /// What a signal or a derivative of it is called in a body.

@@ -6,6 +6,7 @@ use super::Unit;
 use super::code::{MODULE, column_of};
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Case, Names};
+use super::params::{Of, Params};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
@@ -38,7 +39,7 @@ const LARGEST_DENSE: usize = 64;
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
 #[must_use]
 pub fn rust(unit: &Unit<'_>) -> String {
-    let names = Names::new(unit.system);
+    let names = Names::new(unit.system, Params::new(unit.system).paths);
     let tables = Tables::new(unit.program);
     let equations = equations(unit, &names, &tables, false);
     let writer = Writer { unit, names: &names, equations: &equations };
@@ -155,16 +156,11 @@ impl Writer<'_> {
             }
             return text;
         }
-        let mut text = "/// The parameters, in SI; those of the file by default.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Params {\n".to_owned();
-        for (name, param) in self.names.params.iter().zip(&system.params) {
-            let (source, line) = (one_line(&param.name), self.line(param.span));
-            text += &format!("    /// `{source}` ({}){line}\n    pub {name}: f64,\n", param.unit);
-        }
-        text += "}\n\nimpl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        Self {\n";
-        for (name, param) in self.names.params.iter().zip(&system.params) {
-            text += &format!("            {name}: {},\n", literal(param.value));
-        }
-        text += "        }\n    }\n}\n\n";
+        let params = Params::new(system);
+        let mut text = self.types_of_params(&params);
+        text += "impl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        ";
+        text += &params.value("Self", "        ", &|param| literal(system.params[param].value));
+        text += "\n    }\n}\n\n";
         if self.equations.book.is_some() {
             let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
             text += &format!(
@@ -174,15 +170,47 @@ impl Writer<'_> {
             );
         }
         if has_motion {
-            text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        Self {\n";
-            for name in &self.names.params {
-                text += &format!("            {name}: self.{name} + part * (other.{name} - self.{name}),\n");
-            }
-            text +=
-                "        }\n    }\n\n    #[rustfmt::skip]\n    fn is_finite(&self) -> bool {\n        let all = [\n";
+            text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        ";
+            text += &params.value("Self", "        ", &|param| {
+                let path = &params.paths[param];
+                format!("self.{path} + part * (other.{path} - self.{path})")
+            });
+            text += "\n    }\n\n    #[rustfmt::skip]\n    fn is_finite(&self) -> bool {\n        let all = [\n";
             let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
             text += &lines(&fields, "        ");
             text += "        ];\n        all.into_iter().all(f64::is_finite)\n    }\n}\n\n";
+        }
+        text
+    }
+
+    /// The structures of the parameters.
+    fn types_of_params(&self, params: &Params) -> String {
+        let mut text = String::new();
+        for of in &params.types {
+            text += &if of.source.is_empty() {
+                "/// The parameters, in SI; those of the file by default.\n".to_owned()
+            } else {
+                format!("/// The parameters of a part, as `{}`, in SI.\n", of.source)
+            };
+            text += &format!("#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {} {{\n", of.name);
+            for field in &of.fields {
+                let (source, name) = (one_line(&field.source), &field.name);
+                text += &match &field.of {
+                    Of::Number(param) => {
+                        let param = &self.unit.system.params[*param];
+                        format!("    /// `{source}` ({}){}\n    pub {name}: f64,\n", param.unit, self.line(param.span))
+                    }
+                    Of::Part(part) => {
+                        format!("    /// Those of `{source}`.\n    pub {name}: {},\n", params.types[*part].name)
+                    }
+                    Of::Copies(part, lengths) => {
+                        let inner = params.types[*part].name.clone();
+                        let array = lengths.iter().rev().fold(inner, |of, length| format!("[{of}; {length}]"));
+                        format!("    /// Those of `{source}`, by its numbers.\n    pub {name}: {array},\n")
+                    }
+                };
+            }
+            text += "}\n\n";
         }
         text
     }

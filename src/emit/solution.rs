@@ -168,7 +168,7 @@ impl<'s> Solution<'s> {
         let solve = solve
             .replace("fn solve(", "fn solve_by_params(")
             .replace("at: &mut Solution", "at: &mut Solution, by: &mut [Q; PARAMS]")
-            .replace("at.begin(t);", "at.begin(t);\n    let mut all = ByParams { at, by };")
+            .replace("at.begin(t);", "at.begin(t);\n    let mut all = Derivatives { at, by };")
             .replace("&mut v, at)", "&mut v, &mut all)")
             .replace("at.note(", "all.at.note(");
         let named = |text: String| {

@@ -100,6 +100,8 @@ pub struct ConstraintSystem {
 pub struct Param {
     /// Its name.
     pub name: String,
+    /// How many bytes of it are the path of its part, the last dot too; 0 of one of the mechanism's own.
+    pub part: usize,
     /// Its value in SI.
     pub value: f64,
     /// Its SI unit: `m`, `1/s`, or `1` for a pure number.

@@ -1,10 +1,10 @@
 /// Results with the derivatives by parameters behind them.
-struct ByParams<'a> {
+struct Derivatives<'a> {
     at: &'a mut Solution,
     by: &'a mut [Q; PARAMS],
 }
 
-impl Results for ByParams<'_> {
+impl Results for Derivatives<'_> {
     fn store(&mut self, column: usize, value: f64) {
         let place = column.checked_sub($results);
         match place.and_then(|place| self.by.as_flattened_mut().get_mut(place)) {

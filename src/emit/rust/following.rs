@@ -7,6 +7,7 @@ use super::{SOLVER, Writer, equations, run};
 use crate::emit::Following;
 use crate::emit::equations::{Equations, Given, Wanted};
 use crate::emit::names::{Case, Names};
+use crate::emit::params::Params;
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
 use crate::emit::text::{chosen, indented, one_line};
@@ -26,7 +27,7 @@ pub(super) fn module(following: &Following<'_>) -> String {
     let Some(motion) = &unit.motion else {
         return String::new();
     };
-    let (names, tables) = (Names::new(unit.system), Tables::new(unit.program));
+    let (names, tables) = (Names::new(unit.system, Params::new(unit.system).paths), Tables::new(unit.program));
     let equations = equations(unit, &names, &tables, true);
     let writer = Writer { unit, names: &names, equations: &equations };
     let solution = Solution::new(unit, motion, &equations);
