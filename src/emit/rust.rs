@@ -11,7 +11,7 @@ use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
-use crate::ir::{Check, Measure, Owner, Units};
+use crate::ir::{Check, CheckSlopes, Measure, Owner, Units};
 use crate::program::{Column, Register, Rim, STAGES};
 use crate::solver::{Op, RowLayout};
 use crate::source::Span;
@@ -684,7 +684,43 @@ impl Writer<'_> {
         if solution.motion.blocks.is_some() {
             text += &self.rights("param", &self.unit.program.outputs.by_param, "PARAMS");
         }
+        text += &self.held_apart("param", &self.unit.program.outputs.check_slopes.by_param, "PARAMS");
         text
+    }
+
+    /// What tells derivatives apart in whose direction an equation that was left out would cease to hold; nothing where none was.
+    pub fn held_apart(&self, by: &str, lists: &[Vec<Register>], count: &str) -> String {
+        let (pattern, slopes) = (&self.unit.system.check_slopes.pattern, &self.unit.program.outputs.check_slopes);
+        if self.unit.system.checks.is_empty() {
+            return String::new();
+        }
+        let all: Vec<Register> = slopes.by_q.iter().chain(lists.iter().flatten()).copied().collect();
+        let function = self.equations.function(&Wanted {
+            name: &format!("left_out_slopes_by_{by}"),
+            docs: &format!(
+                "How the equations that were left out change with the coordinates, and then with each {by}."
+            ),
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            varied: false,
+            outputs: &all,
+            length: &all.len().to_string(),
+            negated: false,
+            given: Given::All,
+        });
+        let entries: Vec<String> = pattern.iter().map(|entry| format!("{entry:?}")).collect();
+        let (argument, call) = if self.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
+        HELD_APART
+            .replace("$by", by)
+            .replace("$count", count)
+            .replace("$entries", &lines(&entries, "    "))
+            .replace("$length", &entries.len().to_string())
+            .replace("$misses", &literal(CheckSlopes::MISSES))
+            .replace("$of", if self.equations.is_led { "Way" } else { "Params" })
+            .replace("$argument", argument)
+            .replace("$call", call)
+            + &function
     }
 
     /// The right sides for the derivatives of the coordinates by signals or parameters.
@@ -974,6 +1010,32 @@ const NO_SENSITIVITY: &str = "/// The derivatives of the coordinates by each par
 /// Never; of mechanisms with parameters there are some.
 pub fn sensitivity(_: &Params, _: &State) -> Result<[Q; PARAMS], Error> {
     Ok([])
+}
+
+";
+
+/// Derivatives in whose direction an equation that was left out would cease to hold have no value: `|D Φ| ≤ ε ‖Φ_q‖ Σ |D q|`, scaled.
+const HELD_APART: &str = "/// Derivatives of the coordinates by each $by in whose direction an equation that was left out would cease to hold have no
+/// value: the mechanism cannot be assembled beside where it is.
+#[rustfmt::skip]
+fn hold_apart_by_$by(by: &mut [Q; $count], q: &Q, t: f64, p: &$of$argument) {
+    const ENTRIES: [(usize, usize); $length] = [
+$entries    ];
+    let slopes = left_out_slopes_by_$by(q, t, p$call);
+    for (number, by) in by.iter_mut().enumerate() {
+        let size: f64 = by.iter().zip(&SCALES).map(|(x, scale)| x.abs() / scale).sum();
+        let mut off = [0.0; LEFT_OUT];
+        let own = slopes.iter().skip(ENTRIES.len() + number * LEFT_OUT);
+        off.iter_mut().zip(own).for_each(|(off, own)| *off = *own);
+        for (&(check, column), slope) in ENTRIES.iter().zip(&slopes) {
+            if let (Some(off), Some(x)) = (off.get_mut(check), by.get(column)) {
+                *off += slope * x;
+            }
+        }
+        if !off.iter().zip(&LEFT_OUT_SCALES).all(|(off, scale)| off.abs() <= $misses * scale * size) {
+            *by = [f64::NAN; N];
+        }
+    }
 }
 
 ";

@@ -91,6 +91,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         has_signals: model.has_signals,
         by_signal: Vec::new(),
         by_param: Vec::new(),
+        check_slopes: ir::CheckSlopes::default(),
         bodies: model
             .bodies
             .iter()
