@@ -818,12 +818,15 @@ fn vary(
     for by_two in [false, true] {
         for order in 0..3 {
             let rights = $varied_right(q, qd, qdd, &varied, t, p$sides);
-            let lists = rights.chunks_exact(N).zip(varied.chunks_exact_mut(N)).skip(order).step_by(3);
-            for ((right, list), _) in lists.zip(&IS_BY_TWO).filter(|(_, of)| **of == by_two) {
-                let mut all = right.iter().copied();
-                let right = core::array::from_fn(|_| all.next().unwrap_or(f64::NAN));
+            for (number, _) in IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * N;
+                let right = core::array::from_fn(|k| rights.get(first + k).copied().unwrap_or(f64::NAN));
                 let (x, _) = elimination.solve(slopes, &right);
-                list.iter_mut().zip(x).for_each(|(place, x)| *place = x);
+                for (k, x) in x.into_iter().enumerate() {
+                    if let Some(place) = varied.get_mut(first + k) {
+                        *place = x;
+                    }
+                }
             }
         }
     }
