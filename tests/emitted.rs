@@ -29,8 +29,17 @@ fn nothing_in_a_module_can_panic() {
             assert!(!has_symbol(&object, b"panic"), "{name} refers to the panicking machinery at level {level}");
         }
     }
-    for (name, level) in [("four_bar", "3"), ("platform", "s"), ("slider_crank", "3")] {
-        let path = PathBuf::from(format!("tests/following/{name}.mech"));
+    let followed = [
+        ("following/four_bar", "3"),
+        ("following/platform", "s"),
+        ("following/slider_crank", "3"),
+        // measures that are derivatives; params in structures
+        ("slopes/asked", "s"),
+        ("slopes/drive", "3"),
+    ];
+    for (file, level) in followed {
+        let path = PathBuf::from(format!("tests/{file}.mech"));
+        let name = path.file_stem().expect("a name").to_str().expect("a name");
         let emitted = Emitted::new(name.to_owned(), &path, 0).expect("determined");
         let options = RustOptions { with_sensitivities: true, lanes: Some(2), ..RustOptions::of("machine.mech") };
         let all = emitted.compiled.rust(&options).0.expect("a module");

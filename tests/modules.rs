@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, OnceLock};
 use support::listed::{Tests, is_asked_for};
-use support::{emitted_cases, files, mechanisms, stem};
+use support::{files, mechanisms, stem};
 
 /// Modules that one run of rustc compiles: few, so that several runs share the machine, and enough that they are not many.
 const BATCH: usize = 12;
@@ -81,9 +81,9 @@ const HELD_BY_OTHERS: &str = "leg";
 
 /// Examples, reference cases and the stages; formulas with rims; and one that takes several functions.
 fn determined() -> Vec<Module> {
-    let paths =
-        [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech"), files("tests/following", "mech")]
-            .concat();
+    let paths = ["examples", "tests/cases", "tests/stages", "tests/following", "tests/slopes"]
+        .map(|folder| files(folder, "mech"))
+        .concat();
     let mut list: Vec<Module> = Vec::new();
     for path in paths {
         let names = mechanisms(&fs::read_to_string(&path).expect("a text"));

@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, emitted_cases, files, mechanisms, stem};
+use support::{compile_number, compiled, files, mechanisms, stem};
 
 struct Emitted {
     name: String,
@@ -26,8 +26,7 @@ struct Emitted {
 /// Examples, reference cases and stages, each mechanism of theirs.
 fn all() -> Vec<Emitted> {
     let paths =
-        [files("examples", "mech"), emitted_cases(), files("tests/stages", "mech"), files("tests/following", "mech")]
-            .concat();
+        ["examples", "tests/cases", "tests/stages", "tests/following"].map(|folder| files(folder, "mech")).concat();
     let mut list = Vec::new();
     for path in paths {
         let text = fs::read_to_string(&path).expect("a text");
@@ -35,7 +34,9 @@ fn all() -> Vec<Emitted> {
             let (compiled, _) = compile_number(&path, &text, number);
             let folder = stem(path.parent().expect("a folder"));
             let name = format!("{folder}/{}", stem(&path));
-            list.extend(compiled.map(|compiled| Emitted { name, compiled }));
+            // derivatives by inputs and parameters are for `run` and code
+            let is_wanted = |compiled: &Compiled| compiled.inside().0.system().variations().is_empty();
+            list.extend(compiled.filter(is_wanted).map(|compiled| Emitted { name, compiled }));
         }
     }
     assert!(list.len() >= 75, "{} systems", list.len());

@@ -143,17 +143,19 @@ impl Checker<'_> {
         };
         let value = self.led_input(name, in_file, value, &needs);
         let declared = self.declared(name);
-        let value = value.map(|value| self.with_shift(&declared, value));
+        let has_signals = self.model.has_signals;
+        // what varies is the signal then, whatever its formula
+        let value = value.map(|value| if has_signals { value } else { self.with_shift(&declared, value) });
         self.inputs[k].value = value;
         if let Some(value) = value {
             let number = self.model.inputs.len();
             let dimension = value.dim.settled();
-            self.model.inputs.push(Input { declared, number, value: value.id, dimension });
-            if self.model.has_signals {
+            self.model.inputs.push(Input { declared: declared.clone(), number, value: value.id, dimension });
+            if has_signals {
                 // what the formula asks for is no concern of those that take what they are given
                 self.model.conditions.truncate(before);
                 let id = self.model.graph.symbol(Symbol::Signal { index: number as u32, order: 0 });
-                self.inputs[k].value = Some(Value { id, ..value });
+                self.inputs[k].value = Some(self.with_shift(&declared, Value { id, ..value }));
             }
         }
     }

@@ -27,7 +27,9 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     let (input, mut timings) = (&arguments.input, Timings::new(false));
     let parsed = input::parsed(input, reporter)?;
     let compiled = input::compiled(&parsed, input, arguments.allow_redundant, reporter, &mut timings)?;
-    compiled.can_be_emitted()?;
+    if format != EmitFormat::Rust {
+        compiled.has_no_variations()?;
+    }
     // the name without its folder: the same output wherever the file lies
     let file = Path::new(&arguments.input.file).file_name().map_or("-".into(), |name| name.to_string_lossy());
     let options = RustOptions {

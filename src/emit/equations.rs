@@ -1,7 +1,7 @@
 //! `Φ`, `Φ_q`, `Φ_t`, `ν`, `γ` and what else the program evaluates, as functions of the coordinates.
 
 use super::code::{Code, Function, Input, Out, Scene};
-use super::names::Names;
+use super::names::{Names, VARIED};
 use super::operations::slice;
 use super::tables::{self, Tables};
 use super::tape::{self, Book, Notes};
@@ -36,6 +36,7 @@ pub(super) enum Loaded {
 }
 
 /// A function to write.
+#[allow(clippy::struct_excessive_bools)] // what it is given and what it gives are said one by one
 pub(super) struct Wanted<'f> {
     pub name: &'f str,
     pub docs: &'f str,
@@ -43,6 +44,8 @@ pub(super) struct Wanted<'f> {
     /// How many derivatives of the coordinates it is given, itself counted: 0 for none.
     pub orders: usize,
     pub has_time: bool,
+    /// Whether it is given the derivatives by inputs and parameters too, of a mechanism that has such.
+    pub varied: bool,
     /// Its outputs, and the length of the array that they make.
     pub outputs: &'f [Register],
     pub length: &'f str,
@@ -76,6 +79,9 @@ impl Equations<'_> {
         let operations = slice(self.program, wanted.outputs, &given);
         let mut arguments: Vec<(&str, String)> =
             ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
+        if wanted.varied && self.has_varied() {
+            arguments.push((VARIED, "&[f64; VARIED]".to_owned()));
+        }
         if wanted.has_time {
             arguments.push(("t", "f64".to_owned()));
         }
@@ -127,6 +133,9 @@ impl Equations<'_> {
         let time = if self.is_led { "&p.list(t)" } else { "&[t]" };
         lists.push(if given("t") { time } else { "&[]" }.to_owned());
         lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
+        if self.has_varied() {
+            lists.push(if given(VARIED) { VARIED } else { "&[]" }.to_owned());
+        }
         let turned = if wanted.negated { "    out = out.map(|value| -value);\n" } else { "" };
         let body = format!(
             "    let inputs: Inputs<'_> = [{}];\n    let mut out = [0.0; {}];\n    let mut v = [0.0; {}];\n    \
@@ -167,6 +176,9 @@ impl Equations<'_> {
         if register < inputs.time {
             return input(0, (register - inputs.params) as usize);
         }
+        if let Some(place) = self.varied(register) {
+            return input(4 + ARRAYS.len() as u32, place);
+        }
         let order =
             (0..4).find(|&order| (inputs.coordinates[order]..inputs.coordinates[order] + inputs.n).contains(&register));
         order.map_or(Loaded::Number(f64::NAN), |order| {
@@ -204,6 +216,9 @@ impl Equations<'_> {
             };
             return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
         }
+        if let Some(place) = self.varied(register) {
+            return Input::Text(format!("{VARIED}[{place}]"));
+        }
         for (order, array) in ARRAYS.iter().enumerate() {
             let first = inputs.coordinates[order];
             if (first..first + inputs.n).contains(&register) {
@@ -212,6 +227,18 @@ impl Equations<'_> {
             }
         }
         Input::Text("f64::NAN".to_owned())
+    }
+
+    /// Whether measures hold derivatives by inputs or parameters.
+    pub fn has_varied(&self) -> bool {
+        !self.program.outputs.variations.is_empty()
+    }
+
+    /// The place of a register among the derivatives by inputs and parameters.
+    fn varied(&self, register: Register) -> Option<usize> {
+        let (first, count) = (self.program.inputs.varied, self.program.outputs.variations.len() as u32);
+        let is_varied = (first..first + 3 * count * self.program.inputs.n).contains(&register);
+        is_varied.then(|| (register - first) as usize)
     }
 
     /// What a column of a table is called: a constant, or a variable where it depends on parameters.

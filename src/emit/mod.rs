@@ -10,6 +10,7 @@ mod latex;
 mod names;
 mod operations;
 mod package;
+mod params;
 mod rust;
 mod solution;
 mod tables;

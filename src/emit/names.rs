@@ -20,12 +20,15 @@ const RESERVED: &[&str] = &[
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
 ];
 
+/// The array of the derivatives by inputs and parameters, of a mechanism that has such.
+pub(super) const VARIED: &str = "varied";
+
 /// Longer names of variables would make lines that a formatter breaks.
 const LONGEST_VARIABLE: usize = 20;
 
 /// The names of a system's parameters and coordinates.
 pub(super) struct Names {
-    /// Fields of the parameters.
+    /// How parameters are reached: `leg[1].shank`.
     pub params: Vec<String>,
     /// What they are called in a body.
     pub param_variables: Vec<String>,
@@ -38,11 +41,15 @@ pub(super) struct Names {
 }
 
 impl Names {
-    pub fn new(system: &ConstraintSystem) -> Names {
+    /// The names of a system whose parameters are reached by some paths.
+    pub fn new(system: &ConstraintSystem, paths: Vec<String>) -> Names {
         let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);
+        }
+        if !system.variations().is_empty() {
+            variables.snake(VARIED);
         }
         let mut variable = |wanted: String, short: String| {
             // what looks like a numbered one could be mistaken for it
@@ -62,7 +69,7 @@ impl Names {
                 .map(|(k, name)| variable(name.trim_end_matches('_').to_owned() + end, format!("u{k}{end}")))
                 .collect()
         });
-        Names { params, param_variables, coordinates, inputs, signals }
+        Names { params: paths, param_variables, coordinates, inputs, signals }
     }
 
     /// What a signal or a derivative of it is called in a body.

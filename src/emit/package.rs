@@ -5,6 +5,7 @@
 
 use super::Unit;
 use super::names::{Case, Namer, is_keyword};
+use super::params::Params;
 use super::rust;
 use super::text::{lines, literal, one_line};
 use crate::ir::Measure;
@@ -269,16 +270,20 @@ impl Writer<'_> {
         let Some(first) = params.first() else {
             return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
         };
-        let names = Case::Snake.names(params.iter().map(|param| param.name.as_str()));
+        let names = Params::new(self.unit.system).paths;
         let rows = params.iter().zip(&names).map(|(param, name)| {
             [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit), literal(param.value)]
         });
         let rows: String = rows.map(|cells| line(&cells)).collect();
-        let field = &names[0];
+        let (field, value) = (&names[0], literal(first.value));
+        let sets = if field.contains('.') {
+            format!("`let mut params = Params::default(); params.{field} = {value};`")
+        } else {
+            format!("`Params {{ {field}: {value}, ..Params::default() }}`")
+        };
         format!(
-            "Those of the file by default; `Params {{ {field}: {}, ..Params::default() }}` sets one.\n\n\
-             | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}",
-            literal(first.value)
+            "Those of the file by default; {sets} sets one.\n\n\
+             | field of `Params` | parameter | unit | default |\n| --- | --- | --- | --- |\n{rows}"
         )
     }
 

@@ -3,15 +3,17 @@
 mod following;
 
 use super::Unit;
-use super::code::MODULE;
+use super::code::{MODULE, column_of};
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Case, Names};
+use super::params::{Of, Params};
 use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
-use crate::ir::{Check, Measure, Owner, Units};
+use crate::expr::{ExprId, VARIED_TABLE};
+use crate::ir::{Check, CheckSlopes, Measure, Owner, Units};
 use crate::program::{Column, Register, Rim, STAGES};
-use crate::solver::RowLayout;
+use crate::solver::{Op, RowLayout};
 use crate::source::Span;
 use std::cell::RefCell;
 
@@ -37,7 +39,7 @@ const LARGEST_DENSE: usize = 64;
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
 #[must_use]
 pub fn rust(unit: &Unit<'_>) -> String {
-    let names = Names::new(unit.system);
+    let names = Names::new(unit.system, Params::new(unit.system).paths);
     let tables = Tables::new(unit.program);
     let equations = equations(unit, &names, &tables, false);
     let writer = Writer { unit, names: &names, equations: &equations };
@@ -48,7 +50,7 @@ pub fn rust(unit: &Unit<'_>) -> String {
         body += &writer.motion(solution);
     }
     if let Some(book) = &equations.book {
-        body += RUN;
+        body += &run(&equations);
         body += "\n";
         body += &book.borrow().print(&equations);
     }
@@ -74,11 +76,18 @@ pub(super) fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Table
     }
 }
 
+/// What runs operations that are written as numbers.
+pub(super) fn run(equations: &Equations<'_>) -> String {
+    let arrays = if equations.has_varied() { "; 9]" } else { "; 8]" };
+    RUN.replace("; 8]", arrays)
+}
+
 /// Whether a mechanism is so large that its operations are written as numbers. Tables that depend on parameters are not.
 #[must_use]
 pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_solver = unit.motion.as_ref().map_or(0, |motion| motion.solver.operations());
+    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).operations();
+    let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
         |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
@@ -124,7 +133,11 @@ impl Writer<'_> {
         text += "//! - needs no heap and no standard library; nothing in it panics\n";
         text += "//!\n//! This code carries no licence of mechc's: use, change and pass it on as you like.\n\n";
         // a parameter of 3.14 is no approximation of pi, and a formula may hold what the parameters make trivial
-        text + "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n\n"
+        text += "#![allow(clippy::approx_constant, clippy::eq_op)]\n#![allow(clippy::excessive_precision, clippy::large_const_arrays)]\n";
+        if self.equations.has_varied() {
+            text += "#![allow(clippy::too_many_arguments)]\n";
+        }
+        text + "\n"
     }
 
     /// Where something is declared, for a comment.
@@ -143,16 +156,11 @@ impl Writer<'_> {
             }
             return text;
         }
-        let mut text = "/// The parameters, in SI; those of the file by default.\n#[derive(Clone, Copy, Debug, PartialEq)]\npub struct Params {\n".to_owned();
-        for (name, param) in self.names.params.iter().zip(&system.params) {
-            let (source, line) = (one_line(&param.name), self.line(param.span));
-            text += &format!("    /// `{source}` ({}){line}\n    pub {name}: f64,\n", param.unit);
-        }
-        text += "}\n\nimpl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        Self {\n";
-        for (name, param) in self.names.params.iter().zip(&system.params) {
-            text += &format!("            {name}: {},\n", literal(param.value));
-        }
-        text += "        }\n    }\n}\n\n";
+        let params = Params::new(system);
+        let mut text = self.types_of_params(&params);
+        text += "impl Default for Params {\n    #[rustfmt::skip]\n    fn default() -> Self {\n        ";
+        text += &params.value("Self", "        ", &|param| literal(system.params[param].value));
+        text += "\n    }\n}\n\n";
         if self.equations.book.is_some() {
             let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
             text += &format!(
@@ -162,15 +170,47 @@ impl Writer<'_> {
             );
         }
         if has_motion {
-            text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        Self {\n";
-            for name in &self.names.params {
-                text += &format!("            {name}: self.{name} + part * (other.{name} - self.{name}),\n");
-            }
-            text +=
-                "        }\n    }\n\n    #[rustfmt::skip]\n    fn is_finite(&self) -> bool {\n        let all = [\n";
+            text += "impl Params {\n    /// Part of the way from these to others.\n    #[rustfmt::skip]\n    fn towards(&self, other: &Self, part: f64) -> Self {\n        ";
+            text += &params.value("Self", "        ", &|param| {
+                let path = &params.paths[param];
+                format!("self.{path} + part * (other.{path} - self.{path})")
+            });
+            text += "\n    }\n\n    #[rustfmt::skip]\n    fn is_finite(&self) -> bool {\n        let all = [\n";
             let fields: Vec<String> = self.names.params.iter().map(|name| format!("self.{name}")).collect();
             text += &lines(&fields, "        ");
             text += "        ];\n        all.into_iter().all(f64::is_finite)\n    }\n}\n\n";
+        }
+        text
+    }
+
+    /// The structures of the parameters.
+    fn types_of_params(&self, params: &Params) -> String {
+        let mut text = String::new();
+        for of in &params.types {
+            text += &if of.source.is_empty() {
+                "/// The parameters, in SI; those of the file by default.\n".to_owned()
+            } else {
+                format!("/// The parameters of a part, as `{}`, in SI.\n", of.source)
+            };
+            text += &format!("#[derive(Clone, Copy, Debug, PartialEq)]\npub struct {} {{\n", of.name);
+            for field in &of.fields {
+                let (source, name) = (one_line(&field.source), &field.name);
+                text += &match &field.of {
+                    Of::Number(param) => {
+                        let param = &self.unit.system.params[*param];
+                        format!("    /// `{source}` ({}){}\n    pub {name}: f64,\n", param.unit, self.line(param.span))
+                    }
+                    Of::Part(part) => {
+                        format!("    /// Those of `{source}`.\n    pub {name}: {},\n", params.types[*part].name)
+                    }
+                    Of::Copies(part, lengths) => {
+                        let inner = params.types[*part].name.clone();
+                        let array = lengths.iter().rev().fold(inner, |of, length| format!("[{of}; {length}]"));
+                        format!("    /// Those of `{source}`, by its numbers.\n    pub {name}: {array},\n")
+                    }
+                };
+            }
+            text += "}\n\n";
         }
         text
     }
@@ -277,7 +317,10 @@ impl Writer<'_> {
         for (number, table) in program.tables().iter().enumerate() {
             for column in COLUMNS {
                 let number = number as u32;
-                let Some(values) = numbers(program, &self.equations.constants, number, column) else {
+                // how a table varies has the pieces of that table
+                let is_left_out = table.name.ends_with(VARIED_TABLE) && !self.is_looked_into(number, column);
+                let Some(values) = numbers(program, &self.equations.constants, number, column).filter(|_| !is_left_out)
+                else {
                     continue;
                 };
                 let what = match column {
@@ -295,6 +338,12 @@ impl Writer<'_> {
             }
         }
         text
+    }
+
+    /// Whether some operation looks into a column of a table, or may by its number.
+    fn is_looked_into(&self, table: u32, column: Column) -> bool {
+        let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
+        self.equations.book.is_some() || all().any(|&op| column_of(Op::Other(op)) == Some((table, column)))
     }
 
     pub fn has_sides(&self) -> bool {
@@ -341,6 +390,7 @@ impl Writer<'_> {
                 is_public: true,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length,
                 negated: name == "phi_t",
@@ -350,6 +400,9 @@ impl Writer<'_> {
         }
         if self.unit.system.coordinates.len() <= LARGEST_DENSE {
             text += DENSE;
+        }
+        if !self.equations.is_led {
+            text += &self.varied(Given::None);
         }
         text + &self.measures()
     }
@@ -370,6 +423,58 @@ impl Writer<'_> {
         text + &format!("pub const LEFT_OUT: usize = {};\n\n", system.checks.len())
     }
 
+    /// The right sides of the equations for the derivatives by inputs and parameters that measures hold; nothing where there are none.
+    pub fn varied(&self, given: Given) -> String {
+        let (system, variations) = (self.unit.system, &self.unit.program.outputs.variations);
+        if variations.is_empty() {
+            return String::new();
+        }
+        let outputs: Vec<Register> = variations.iter().flatten().flatten().copied().collect();
+        let is_public = given == Given::None && !self.equations.is_led;
+        let mut text = String::new();
+        if is_public {
+            text += "/// Number of derivatives of the coordinates by inputs and parameters that measures hold. For each of the\n\
+                /// following one behind the other: those of `q`, of `qd` and of `qdd`. By\n";
+            for number in 0..variations.len() as u32 {
+                let name = one_line(&system.variation_name("", number));
+                text += &format!("/// - {}\n", name.trim_start_matches(".by.").replace(".by.", " and "));
+            }
+            text += &format!("pub const VARIED: usize = {};\n\n", outputs.len());
+        }
+        text + &self.equations.function(&Wanted {
+            name: if is_public || !self.has_sides() { "varied_right" } else { "varied_right_with" },
+            docs: "Right sides of the equations `phi_q x = varied_right` for each list of `N` of [`VARIED`]. Those by one are found\nbefore those by \
+                   two, those of `q` before those of `qd` and these before those of `qdd`: what is not found yet\nmay be anything.",
+            is_public,
+            orders: 3,
+            has_time: true,
+            varied: true,
+            outputs: &outputs,
+            length: "VARIED",
+            negated: false,
+            given,
+        })
+    }
+
+    /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters.
+    fn is_varied(&self) -> String {
+        let (graph, measures) = (&self.unit.system.graph, &self.unit.system.measures);
+        let is_varied = |id: ExprId| graph.dependence(id).highest_varied_order().is_some().to_string();
+        let values = measures.iter().map(|measure| is_varied(measure.value));
+        let rates = measures.iter().filter_map(|measure| measure.first.map(is_varied));
+        let accelerations = measures.iter().filter_map(|measure| measure.second.map(is_varied));
+        let all: Vec<String> = values.chain(rates).chain(accelerations).collect();
+        let docs = "Which measures, rates and accelerations are derivatives by inputs or parameters.";
+        super::text::constant(docs, "IS_VARIED", "bool", "MEASURES + RATES + ACCELERATIONS", &all) + LEAVE_VARIED_OUT
+    }
+
+    /// By derivative of the coordinates: whether it is one by two.
+    pub fn is_by_two(&self) -> String {
+        let variations = self.unit.system.variations();
+        let by_two: Vec<String> = variations.iter().map(|variation| variation.by.1.is_some().to_string()).collect();
+        super::text::constant("Which lists of [`VARIED`] are by two.", "IS_BY_TWO", "bool", "VARIED / (3 * N)", &by_two)
+    }
+
     /// The measures with their derivatives.
     pub fn measures(&self) -> String {
         let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
@@ -385,13 +490,21 @@ impl Writer<'_> {
             is_public: false,
             orders,
             has_time: true,
+            varied: true,
             outputs: &all,
             length: &all.len().to_string(),
             negated: false,
             given: Given::None,
         };
         let (more, call) = if orders == 4 { (", qddd: &[f64; N]", ", qddd") } else { ("", "") };
+        let has_varied = self.equations.has_varied();
         let jerk = if orders == 4 { ", and their third derivatives" } else { "" };
+        let jerk = jerk.to_owned() + if has_varied { ",\n/// and the derivatives of [`VARIED`]" } else { "" };
+        let (more, call) = if has_varied {
+            (format!("{more}, varied: &[f64; VARIED]"), format!("{call}, varied"))
+        } else {
+            (more.to_owned(), call.to_owned())
+        };
         let head = format!("pub fn measures(q: &Q, qd: &Qd, qdd: &Qdd{more}, t: f64, p: &Params) -> Measures {{\n");
         format!(
             "/// The measures with their time derivatives, from the coordinates, their velocities and\n/// accelerations{jerk}.\n{head}    \
@@ -420,6 +533,10 @@ impl Writer<'_> {
             + &solution.constants(&solve, self.unit.lanes.is_some() && solution.has_newton()));
         if !system.measures.is_empty() {
             text += MEASURES_IN_SOLUTION;
+        }
+        if self.equations.has_varied() {
+            text += &self.is_varied();
+            text += &self.is_by_two();
         }
         text += &self.left_out_limits();
         if let Some(to) = solution.motion.to.filter(|_| of_time) {
@@ -486,6 +603,8 @@ impl Writer<'_> {
             ("large", self.equations.book.is_some()),
             ("inputs", self.unit.following.is_some()),
             ("led", is_led),
+            ("joined", !solution.joined.is_empty()),
+            ("varied", self.equations.has_varied()),
         ]
     }
 
@@ -496,7 +615,8 @@ impl Writer<'_> {
         let known = if solution.known.is_empty() { "&[]" } else { "&m.known" };
         let sides = if self.has_sides() { "sides" } else { "&[]" };
         let model = if solution.known.is_empty() && !has_params && !is_led { "_" } else { "m" };
-        let lists = if self.unit.system.measures.is_empty() { 3 } else { 6 } + usize::from(is_led);
+        let lists = if self.unit.system.measures.is_empty() { 3 } else { 6 };
+        let lists = lists + usize::from(is_led) + usize::from(!solution.joined.is_empty());
         let of_signals = |text: &'static str| if is_led { text } else { "" };
         let template = chosen(LARGE, wanted)
             .replace("$known", known)
@@ -504,6 +624,8 @@ impl Writer<'_> {
             .replace("$time", if is_led { "m.way.list(t)" } else { "[t]" })
             .replace("$p.", if is_led { "m.way.params." } else { "m.params." })
             .replace("$lists", &lists.to_string())
+            .replace("$varied", if self.equations.has_varied() { ", &[]" } else { "" })
+            .replace("$joined", if solution.joined.is_empty() { "" } else { ", &self.joined" })
             .replace("$by_signal_mut", of_signals(", self.by_signal.as_flattened_mut()"))
             .replace("$by_signal", of_signals(", self.by_signal.as_flattened()"));
         template.replace("$m", model) + "\n"
@@ -513,7 +635,7 @@ impl Writer<'_> {
     pub fn filled(&self, text: &str, solution: &Solution<'_>) -> String {
         let mut text = text.to_owned();
         let given = |name: &str| if self.has_sides() { format!("{name}_with") } else { name.to_owned() };
-        for name in ["phi_q", "phi", "nu", "gamma", "jerk", "left_out"] {
+        for name in ["phi_q", "phi", "varied_right", "nu", "gamma", "jerk", "left_out"] {
             text = text.replace(&format!("${name}("), &format!("{}(", given(name)));
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
@@ -523,16 +645,25 @@ impl Writer<'_> {
             .replace("$sides_argument", argument)
             .replace("$sides", sides)
             .replace("$qddd", qddd)
+            .replace("$varied", if self.equations.has_varied() { ", &varied" } else { "" })
     }
 
     /// The derivatives by parameters, where these are wanted.
     pub fn sensitivity(&self, solution: &Solution<'_>, wanted: &[(&str, bool)]) -> String {
-        let Some(function) = solution.sensitive_function() else {
+        let params = &self.unit.system.params;
+        let function = match &self.equations.book {
+            _ if params.is_empty() && solution.motion.sensitive.is_some() => Some(String::new()),
+            None => solution.sensitive_function(),
+            Some(book) => solution.sensitive_as_numbers(&self.large(solution, wanted), &mut book.borrow_mut()),
+        };
+        let Some(function) = function else {
             return String::new();
         };
         let mut text = String::new();
+        if params.is_empty() && self.equations.is_led {
+            return text;
+        }
         if !self.equations.is_led {
-            let params = &self.unit.system.params;
             text += &format!("/// Number of parameters.\npub const PARAMS: usize = {};\n\n", params.len());
             text += "/// Where each parameter stands in what [`sensitivity`] gives.\npub mod param {\n";
             let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
@@ -544,13 +675,52 @@ impl Writer<'_> {
                 );
             }
             text += "}\n\n";
+            if params.is_empty() {
+                return text + NO_SENSITIVITY;
+            }
         }
         text += &chosen(SENSITIVITY, wanted);
         text += &function;
         if solution.motion.blocks.is_some() {
             text += &self.rights("param", &self.unit.program.outputs.by_param, "PARAMS");
         }
+        text += &self.held_apart("param", &self.unit.program.outputs.check_slopes.by_param, "PARAMS");
         text
+    }
+
+    /// What tells derivatives apart in whose direction an equation that was left out would cease to hold; nothing where none was.
+    pub fn held_apart(&self, by: &str, lists: &[Vec<Register>], count: &str) -> String {
+        let (pattern, slopes) = (&self.unit.system.check_slopes.pattern, &self.unit.program.outputs.check_slopes);
+        if self.unit.system.checks.is_empty() {
+            return String::new();
+        }
+        let all: Vec<Register> = slopes.by_q.iter().chain(lists.iter().flatten()).copied().collect();
+        let function = self.equations.function(&Wanted {
+            name: &format!("left_out_slopes_by_{by}"),
+            docs: &format!(
+                "How the equations that were left out change with the coordinates, and then with each {by}."
+            ),
+            is_public: false,
+            orders: 1,
+            has_time: true,
+            varied: false,
+            outputs: &all,
+            length: &all.len().to_string(),
+            negated: false,
+            given: Given::All,
+        });
+        let entries: Vec<String> = pattern.iter().map(|entry| format!("{entry:?}")).collect();
+        let (argument, call) = if self.has_sides() { (", sides: &Sides", ", sides") } else { ("", "") };
+        HELD_APART
+            .replace("$by", by)
+            .replace("$count", count)
+            .replace("$entries", &lines(&entries, "    "))
+            .replace("$length", &entries.len().to_string())
+            .replace("$misses", &literal(CheckSlopes::MISSES))
+            .replace("$of", if self.equations.is_led { "Way" } else { "Params" })
+            .replace("$argument", argument)
+            .replace("$call", call)
+            + &function
     }
 
     /// The right sides for the derivatives of the coordinates by signals or parameters.
@@ -563,6 +733,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs: &all,
             length: &format!("N * {count}"),
             negated: false,
@@ -624,6 +795,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 0,
             has_time: false,
+            varied: false,
             outputs: &registers,
             length: "KNOWN",
             negated: false,
@@ -653,6 +825,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs: &outputs,
             length: &outputs.len().to_string(),
             negated: false,
@@ -677,6 +850,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 1,
             has_time: true,
+            varied: false,
             outputs,
             length: "WATCHES",
             negated: false,
@@ -709,6 +883,7 @@ impl Writer<'_> {
                 is_public: false,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length: "SIDES",
                 negated: false,
@@ -758,6 +933,7 @@ impl Writer<'_> {
             is_public: false,
             orders: 0,
             has_time: true,
+            varied: false,
             outputs: &outputs,
             length: "2 * RIMS",
             negated: false,
@@ -797,6 +973,7 @@ impl Writer<'_> {
                     is_public: false,
                     orders,
                     has_time: true,
+                    varied: false,
                     outputs,
                     length,
                     negated: false,
@@ -804,9 +981,64 @@ impl Writer<'_> {
                 });
             }
         }
+        if sides && has_pivoting {
+            text += &self.varied(Given::All);
+        }
         text
     }
 }
+
+/// What a solution needs of measures that are derivatives by inputs and parameters.
+const LEAVE_VARIED_OUT: &str = "impl Measures {
+    /// Close to a singular position derivatives by inputs and parameters have no value.
+    fn leave_varied_out(&mut self) {
+        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
+        for (value, is_varied) in self.values.iter_mut().chain(rest).zip(&IS_VARIED) {
+            if *is_varied {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+";
+
+/// The derivatives of the coordinates by parameters where there are none.
+const NO_SENSITIVITY: &str = "/// The derivatives of the coordinates by each parameter: there is none.
+///
+/// # Errors
+/// Never; of mechanisms with parameters there are some.
+pub fn sensitivity(_: &Params, _: &State) -> Result<[Q; PARAMS], Error> {
+    Ok([])
+}
+
+";
+
+/// Derivatives in whose direction an equation that was left out would cease to hold have no value: `|D Φ| ≤ ε ‖Φ_q‖ Σ |D q|`, scaled.
+const HELD_APART: &str = "/// Derivatives of the coordinates by each $by in whose direction an equation that was left out would cease to hold have no
+/// value: the mechanism cannot be assembled beside where it is.
+#[rustfmt::skip]
+fn hold_apart_by_$by(by: &mut [Q; $count], q: &Q, t: f64, p: &$of$argument) {
+    const ENTRIES: [(usize, usize); $length] = [
+$entries    ];
+    let slopes = left_out_slopes_by_$by(q, t, p$call);
+    for (number, by) in by.iter_mut().enumerate() {
+        let size: f64 = by.iter().zip(&SCALES).map(|(x, scale)| x.abs() / scale).sum();
+        let mut off = [0.0; LEFT_OUT];
+        let own = slopes.iter().skip(ENTRIES.len() + number * LEFT_OUT);
+        off.iter_mut().zip(own).for_each(|(off, own)| *off = *own);
+        for (&(check, column), slope) in ENTRIES.iter().zip(&slopes) {
+            if let (Some(off), Some(x)) = (off.get_mut(check), by.get(column)) {
+                *off += slope * x;
+            }
+        }
+        if !off.iter().zip(&LEFT_OUT_SCALES).all(|(off, scale)| off.abs() <= $misses * scale * size) {
+            *by = [f64::NAN; N];
+        }
+    }
+}
+
+";
 
 /// What is said of the function that the equations left out are.
 const LEFT_OUT_DOCS: &str = "The residual of the equations that were left out (m, m^2 or rad): nothing, as long as they follow from the others.";

@@ -22,11 +22,14 @@ pub(super) struct Solution<'s> {
     pub equations: &'s Equations<'s>,
     /// Registers of the program that follow from parameters alone, by their places in `known`.
     pub known: FxHashMap<Register, usize>,
+    /// Columns of what measures join that is no result, in order.
+    pub joined: Vec<u32>,
 }
 
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
-        let mut solution = Solution { unit, motion, equations, known: FxHashMap::default() };
+        let joined = joined(&motion.solver);
+        let mut solution = Solution { unit, motion, equations, known: FxHashMap::default(), joined };
         let operations = || {
             let sensitive = motion.sensitive.iter().flat_map(Solver::all_operations);
             motion.solver.all_operations().iter().chain(sensitive)
@@ -155,7 +158,31 @@ impl<'s> Solution<'s> {
 
     /// The function that reads its operations from lists of numbers, with these lists.
     pub fn as_numbers(&self, template: &str, book: &mut Book) -> String {
-        let solver = &self.motion.solver;
+        template.to_owned() + &self.lists(&self.motion.solver, "", book)
+    }
+
+    /// The function that gives the derivatives of the coordinates by parameters too, likewise; none where they are not wanted.
+    pub fn sensitive_as_numbers(&self, template: &str, book: &mut Book) -> Option<String> {
+        let solver = self.motion.sensitive.as_ref()?;
+        let (_, solve) = template.split_once(SOLVE_AS_NUMBERS)?;
+        let solve = solve
+            .replace("fn solve(", "fn solve_by_params(")
+            .replace("at: &mut Solution", "at: &mut Solution, by: &mut [Q; PARAMS]")
+            .replace("at.begin(t);", "at.begin(t);\n    let mut all = Derivatives { at, by };")
+            .replace("&mut v, at)", "&mut v, &mut all)")
+            .replace("at.note(", "all.at.note(");
+        let named = |text: String| {
+            ["REGISTERS", "SEGMENTS", "SETTLING", "SOLVE"]
+                .into_iter()
+                .fold(text, |text, name| text.replace(name, &format!("{name}_BY_PARAMS")))
+        };
+        let results = (self.results() + self.joined.len() as u32).to_string();
+        let lists = self.lists(solver, "_BY_PARAMS", book);
+        Some(BY_PARAMS.replace("$results", &results) + "/// As [`solve`], with" + &named(solve) + &lists)
+    }
+
+    /// The lists of numbers of a solver's operations, by names with an ending.
+    fn lists(&self, solver: &Solver, ending: &str, book: &mut Book) -> String {
         let Shared { operations, segments, registers } =
             tape::share(solver.all_operations(), solver.segments(), solver.registers());
         let notes = Notes {
@@ -166,6 +193,7 @@ impl<'s> Solution<'s> {
             weight: &|number| solver.weight(number),
             bound: &|row| self.motion.bounds[row as usize],
         };
+        let operations: Vec<Op> = operations.into_iter().map(|op| self.listed(op)).collect();
         let Tape { words, starts } = book.encode(&operations, self.equations, &self.known, &notes);
         let (mut list, mut settling) = (String::new(), Vec::new());
         for segment in &segments {
@@ -183,20 +211,45 @@ impl<'s> Solution<'s> {
             let tears = if self.has_newton() { tears } else { String::new() };
             list += &format!("    Segment {{ code: {code:?}{tears} }},\n");
         }
-        let mut text = template.to_owned();
-        text += &format!("/// Registers of [`solve`].\nconst REGISTERS: usize = {registers};\n\n");
-        text += "/// What [`solve`] runs, in order.\n#[rustfmt::skip]\n";
-        text += &format!("static SEGMENTS: [Segment; {}] = [\n{list}];\n\n", segments.len());
+        let solve = format!("solve{}", ending.to_lowercase());
+        let mut text = format!("/// Registers of [`{solve}`].\nconst REGISTERS{ending}: usize = {registers};\n\n");
+        text += &format!("/// What [`{solve}`] runs, in order.\n#[rustfmt::skip]\n");
+        text += &format!("static SEGMENTS{ending}: [Segment; {}] = [\n{list}];\n\n", segments.len());
         if self.has_newton() {
             text += "/// Of each coordinate that Newton solves for: the registers of it and of its correction, the width of a cell of its\n\
                 /// grid, and what it is judged against.\n#[rustfmt::skip]\n";
             text += &format!(
-                "static SETTLING: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n",
+                "static SETTLING{ending}: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n",
                 settling.len(),
                 lines(&settling, "")
             );
         }
-        text + &tape::list("The operations of [`solve`].", "SOLVE", &words)
+        text + &tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words)
+    }
+
+    /// The place behind the lists of results of a solution, one behind the other.
+    fn results(&self) -> u32 {
+        let inputs = &self.unit.program.inputs;
+        self.motion.solver.layout().printed as u32 + inputs.n * inputs.count
+    }
+
+    /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
+    /// behind that the derivatives by parameters.
+    fn listed(&self, op: Op) -> Op {
+        let (layout, results) = (self.motion.solver.layout(), self.results());
+        let place = |column: u32| match self.joined.binary_search(&column) {
+            Ok(place) => results + place as u32,
+            Err(_) if column >= layout.by_signal => {
+                let place = column - layout.by_signal + layout.printed as u32;
+                if place < results { place } else { place + self.joined.len() as u32 }
+            }
+            Err(_) => column,
+        };
+        match op {
+            Op::Column { to, column } => Op::Column { to, column: place(column) },
+            Op::Store { column, a } => Op::Store { column: place(column), a },
+            op => op,
+        }
     }
 
     /// By coordinate that Newton solves for: the width of a cell of its grid.
@@ -292,6 +345,10 @@ impl<'s> Solution<'s> {
         let turned: Vec<String> = solver.turns().iter().map(|turn| turn.is_negative.to_string()).collect();
         text +=
             &constant("Whether they are negative where all pivots are positive.", "TURNED", "bool", "TURNS", &turned);
+        if !self.joined.is_empty() {
+            text += "/// Number of values that measures join, beside those that are given out.\n";
+            text += &format!("const JOINED: usize = {};\n\n", self.joined.len());
+        }
         debug_assert_eq!(n, coordinates.len());
         text + &self.tables()
     }
@@ -343,6 +400,25 @@ impl<'s> Solution<'s> {
     }
 }
 
+/// The columns that a solver stores to read them again, but those of results.
+fn joined(solver: &Solver) -> Vec<u32> {
+    let printed = solver.layout().printed as u32;
+    let read = |op: &Op| match *op {
+        Op::Column { column, .. } => Some(column).filter(|column| *column >= printed),
+        _ => None,
+    };
+    let mut columns: Vec<u32> = solver.all_operations().iter().filter_map(read).collect();
+    columns.sort_unstable();
+    columns.dedup();
+    columns
+}
+
+/// Where the function begins that reads its operations from lists of numbers.
+const SOLVE_AS_NUMBERS: &str = "/// Position, velocity and acceleration at a time, by";
+
+/// What it leaves derivatives by parameters in.
+const BY_PARAMS: &str = include_str!("runtime/by_params.rs");
+
 /// More coordinates that Newton solves for are looked up in a table.
 const MOST_TEARS_IN_LINE: usize = 64;
 
@@ -389,6 +465,11 @@ impl SolverScene<'_> {
         if self.has_lanes { "[k]" } else { "" }
     }
 
+    /// The place of a column among those that are joined.
+    fn joined(&self, column: u32) -> Option<usize> {
+        self.solution.joined.binary_search(&column).ok()
+    }
+
     /// The kind of a column, its order and its number there.
     fn kind(&self, column: u32) -> (bool, usize, usize) {
         let n = self.solution.unit.program.inputs.n;
@@ -428,6 +509,9 @@ impl Scene for SolverScene<'_> {
     }
 
     fn place(&self, column: u32) -> String {
+        if let Some(place) = self.joined(column) {
+            return format!("at.joined[{place}]{}", self.lane());
+        }
         if let Some(k) = column.checked_sub(self.layout.by_signal) {
             let inputs = &self.solution.unit.program.inputs;
             let (number, k) = (k / inputs.n, k % inputs.n);
@@ -448,7 +532,7 @@ impl Scene for SolverScene<'_> {
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
         match self.kind(column) {
-            _ if column >= self.layout.by_signal => None,
+            _ if column >= self.layout.by_signal || self.joined(column).is_some() => None,
             (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
             _ => None,
         }
@@ -465,7 +549,7 @@ impl Scene for SolverScene<'_> {
 
     fn store(&self, column: u32, value: &str) -> Option<String> {
         match self.kind(column) {
-            (true, 3, _) if column < self.layout.by_signal => None,
+            (true, 3, _) if column < self.layout.by_signal && self.joined(column).is_none() => None,
             _ => match value.parse::<f64>() {
                 // +0 where it is −0
                 Ok(number) => Some(number + 0.0)

@@ -18,6 +18,7 @@ pub use evaluate::{binary_value, compare, unary_value};
 pub use motion::Motion;
 pub use print::{Printer, number};
 pub use table::{Table, TableId, piece};
+pub use vary::VARIED_TABLE;
 
 use rustc_hash::FxHashMap;
 

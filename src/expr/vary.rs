@@ -4,6 +4,9 @@ use super::table::{Table, TableId};
 use super::{Dependence, ExprId, Graph, Symbol, Unary};
 use rustc_hash::FxHashMap;
 
+/// What the name of a table's derivative by what its cells hold ends in, which no other table's does.
+pub const VARIED_TABLE: &str = " varied";
+
 /// The derivatives of tables by what their cells hold, along one direction.
 pub(super) type VariedTables = FxHashMap<TableId, VariedTable>;
 
@@ -94,7 +97,7 @@ impl Graph {
         let period = of.periodic.then(|| self.sub(knots[knots.len() - 1], knots[0]));
         let period = period.filter(|&period| !self.is_zero(period));
         let derived = Table {
-            name: format!("{} varied", of.name),
+            name: of.name.clone() + VARIED_TABLE,
             derived_from: of.derived_from.or(Some(table)),
             values,
             coefficients,

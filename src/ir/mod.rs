@@ -28,6 +28,7 @@ mod variations;
 
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
+pub use signals::CheckSlopes;
 pub use variations::{Appended, Variable, Variation, Variations};
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL, TableId};
@@ -53,6 +54,8 @@ pub struct ConstraintSystem {
     pub by_signal: Vec<Vec<ExprId>>,
     /// Likewise by parameter, `−Φ_p`, where that is asked for.
     pub by_param: Vec<Vec<ExprId>>,
+    /// How equations that were left out change, where one of the two is there.
+    pub check_slopes: CheckSlopes,
     /// The bodies, each with three coordinates; those of the joints come after them.
     pub bodies: Vec<Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
@@ -100,6 +103,8 @@ pub struct ConstraintSystem {
 pub struct Param {
     /// Its name.
     pub name: String,
+    /// How many bytes of it are the path of its part, the last dot too; 0 of one of the mechanism's own.
+    pub part: usize,
     /// Its value in SI.
     pub value: f64,
     /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
@@ -502,6 +507,7 @@ impl ConstraintSystem {
         }
         self.checks = checks;
         self.leave_out_of_variations(&kept);
+        self.derive_checks();
     }
 
     /// The body that a coordinate is of, if it is of a body.

@@ -8,13 +8,10 @@
 //! All have the matrix of the position. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
 //! Systems*, 1986, by direct differentiation.
 
-use super::{Check, ConstraintSystem};
+use super::{Check, CheckSlopes, ConstraintSystem};
 use crate::expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use crate::source::Span;
 use rustc_hash::FxHashMap;
-
-/// An equation that was left out may miss by this where something is varied, scaled, beside how much everything changes: rounding.
-const MISSES: f64 = 1e-8;
 
 /// What derivatives are taken by, and the variations that this needs.
 #[derive(Clone, Debug, Default)]
@@ -321,7 +318,7 @@ impl ConstraintSystem {
 
     fn is_next_to_nothing(&mut self, off: ExprId, scale: f64, size: ExprId) -> ExprId {
         let graph = &mut self.graph;
-        let part = graph.constant(MISSES * scale);
+        let part = graph.constant(CheckSlopes::MISSES * scale);
         let (off, limit) = (graph.unary(Unary::Abs, off), graph.mul(part, size));
         graph.compare(Comparison::LessEqual, off, limit)
     }

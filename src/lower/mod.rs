@@ -69,6 +69,11 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .flatten()
             .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
     }) || model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
+    let parts_by_name: FxHashSet<&str> = model.parts.iter().map(|part| part.declared.name.as_str()).collect();
+    let path = |name: &str| {
+        let ends = name.rmatch_indices('.').map(|(at, _)| at);
+        ends.into_iter().find(|&at| parts_by_name.contains(&name[..at])).map_or(0, |at| at + 1)
+    };
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
@@ -77,6 +82,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .iter()
             .map(|p| Param {
                 name: p.declared.name.clone(),
+                part: path(&p.declared.name),
                 value: p.value,
                 unit: p.dimension.unit(),
                 span: p.declared.span,
@@ -86,6 +92,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         has_signals: model.has_signals,
         by_signal: Vec::new(),
         by_param: Vec::new(),
+        check_slopes: ir::CheckSlopes::default(),
         bodies: model
             .bodies
             .iter()

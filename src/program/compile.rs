@@ -1,7 +1,7 @@
 //! Laying a constraint system out as operations.
 
 use super::tables::{Place, Reached};
-use super::{Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
+use super::{CheckSlopes, Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
 use crate::ir::{self, ConstraintSystem};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -27,12 +27,20 @@ impl Program {
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
-        let mut rights = |lists: &[Vec<ExprId>]| {
-            lists.iter().map(|list| layout.place(Stage::Velocity, list.iter().copied())).collect()
-        };
-        (outputs.by_signal, outputs.by_param) = (rights(&system.by_signal), rights(&system.by_param));
+        let velocity = |list: &Vec<ExprId>| layout.place(Stage::Velocity, list.iter().copied());
+        outputs.by_signal = system.by_signal.iter().map(velocity).collect();
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        // as variations have it: what is differentiated brings no branches of its own
+        let varied = |list: &Vec<ExprId>| layout.place(Stage::Variation, list.iter().copied());
+        outputs.by_param = system.by_param.iter().map(varied).collect();
+        let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
+        let slopes = &system.check_slopes;
+        outputs.check_slopes = CheckSlopes {
+            by_q: varied(&slopes.by_q),
+            by_signal: slopes.by_signal.iter().map(|list| varied(list)).collect(),
+            by_param: slopes.by_param.iter().map(|list| varied(list)).collect(),
+        };
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
             outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));

@@ -315,6 +315,17 @@ pub struct Inputs {
     pub varied: Register,
 }
 
+/// How equations that were left out change.
+#[derive(Clone, PartialEq, Eq, Debug, Default)]
+pub struct CheckSlopes {
+    /// With the coordinates: by the pattern of [`crate::ir::CheckSlopes`].
+    pub by_q: Vec<Register>,
+    /// With each signal, one entry per check.
+    pub by_signal: Vec<Vec<Register>>,
+    /// With each parameter, likewise.
+    pub by_param: Vec<Vec<Register>>,
+}
+
 impl Inputs {
     /// First register of a variation of `q` (order 0), `q̇` or `q̈`.
     #[must_use]
@@ -373,6 +384,8 @@ pub struct Outputs {
     pub conditions: Vec<Register>,
     /// Entries of `Φ` that follow from the others.
     pub checks: Vec<Register>,
+    /// How they change.
+    pub check_slopes: CheckSlopes,
     /// Quantities that keep their signs.
     pub watches: Vec<Register>,
     /// Where formulas come to the end of what their functions take.
@@ -386,7 +399,10 @@ impl Outputs {
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms);
+        let more = more.into_iter().chain([&self.appended, &self.check_slopes.by_q]);
+        let slopes = self.check_slopes.by_signal.iter().chain(&self.check_slopes.by_param);
+        let varied = self.variations.iter().flatten();
+        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
         for rim in &self.rims {
             [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));

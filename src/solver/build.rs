@@ -34,7 +34,7 @@ pub(super) fn build(
     let (measures, appended) = (groups.measures(system), groups.appended(system));
     let mut builder = Builder::new(determined, program, values, &groups);
     builder.notes_pivots = notes_pivots;
-    builder.joined = joined(system, program, &measures[groups.blocks.len()], &appended[groups.blocks.len()]);
+    builder.joined = joined(system, &builder.layout, &measures[groups.blocks.len()], &appended[groups.blocks.len()]);
     let (mut segments, mut registers, mut operations) = (Vec::new(), 0, Vec::new());
     let mut append = |(component, used): (Component, usize), operations: &mut Vec<Op>| {
         let from = operations.len();
@@ -152,21 +152,23 @@ fn root(parent: &mut [usize], mut k: usize) -> usize {
     k
 }
 
-/// The places, among all variations, of those that some measures and appended columns need.
-fn joined(system: &ConstraintSystem, program: &Program, measures: &[usize], appended: &[usize]) -> FxHashSet<u32> {
+/// The columns of what some measures and appended columns need beside accelerations: third derivatives, and variations.
+fn joined(system: &ConstraintSystem, layout: &RowLayout, measures: &[usize], appended: &[usize]) -> FxHashSet<u32> {
     let of_measure = |&k: &usize| {
         let measure = &system.measures[k];
         [Some(measure.value), measure.first, measure.second].into_iter().flatten()
     };
     let columns = appended.iter().map(|&k| system.appended()[k].value);
     let formulas: Vec<ExprId> = measures.iter().flat_map(of_measure).chain(columns).collect();
-    let place = |symbol| match symbol {
+    let n = system.coordinates.len() as u32;
+    let column = |symbol| match symbol {
+        Symbol::Coordinate { index, order: 3 } => Some(layout.coordinates[3] + index),
         Symbol::Varied { index, order, variation } => {
-            Some(program.inputs.varied(variation, u32::from(order)) - program.inputs.varied(0, 0) + index)
+            Some(layout.varied + (3 * variation + u32::from(order)) * n + index)
         }
         _ => None,
     };
-    system.graph.symbols_of_all(&formulas).into_iter().filter_map(place).collect()
+    system.graph.symbols_of_all(&formulas).into_iter().filter_map(column).collect()
 }
 
 struct Builder<'s, V> {
@@ -188,7 +190,7 @@ struct Builder<'s, V> {
     tears: Vec<u32>,
     age: u32,
     is_across: bool,
-    /// Places of the variations that join groups.
+    /// Columns of the third derivatives and variations that join groups.
     joined: FxHashSet<u32>,
     open: Vec<Register>,
     /// Registers whose values hold for this block alone: they depend on coordinates of later blocks, which cancel in what the
@@ -488,7 +490,8 @@ impl<'s, V: Values> Builder<'s, V> {
             for (&column, &rate) in block.columns.iter().zip(&rates) {
                 self.know(self.coordinate(order, column), rate);
                 // code has no use for third derivatives but in its measures
-                if order < 3 || !self.notes_pivots {
+                let is_of_measures = order == 3 && self.notes_pivots;
+                if !is_of_measures || self.joined.contains(&(self.layout.coordinates[3] + column)) {
                     self.store(order, column);
                 }
             }
@@ -519,10 +522,10 @@ impl<'s, V: Values> Builder<'s, V> {
                 let solution = self.solve(factors, sums);
                 for (&column, &value) in block.columns.iter().zip(&solution) {
                     self.know(first + column, value);
-                    let place = first - program.inputs.varied + column;
-                    if self.joined.contains(&place) {
+                    let column = self.layout.varied + first - program.inputs.varied + column;
+                    if self.joined.contains(&column) {
                         let a = self.tape.register(value);
-                        self.tape.act(Op::Store { column: self.layout.varied + place, a });
+                        self.tape.act(Op::Store { column, a });
                     }
                 }
             }

@@ -5,7 +5,7 @@ use super::signals::WithSignals;
 use super::used_at::UsedAt;
 use crate::analysis::{self, ColumnUnit, Times};
 use crate::cancel::Cancel;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::program::Program;
@@ -90,7 +90,7 @@ impl Compiled {
         let mut system = with_signals.system()?;
         system.align_measures(&self.system().measures);
         if !self.system().by_param.is_empty() {
-            system.derive_by_params().map_err(|table| by_table(&table))?;
+            system.derive_by_params();
         }
         let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, None, cancel);
         compiled.map(Some).ok_or(said)
@@ -99,11 +99,7 @@ impl Compiled {
     /// The same mechanism, whose equations are differentiated by its parameters too.
     pub(super) fn by_params(&self) -> Result<Compiled, Diagnostics> {
         let mut system = self.system().clone();
-        if system.params.is_empty() {
-            let why = format!("mechanism `{}` has no parameters to be sensitive to", system.name);
-            return Err(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out").into());
-        }
-        system.derive_by_params().map_err(|table| by_table(&table))?;
+        system.derive_by_params();
         let leading = self.leading.clone();
         let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, leading, &Cancel::default());
         compiled.map(|compiled| compiled.with_signals(self.with_signals.clone())).ok_or(said)
@@ -219,13 +215,6 @@ impl Compiled {
     pub(crate) fn program(&self) -> &Arc<Program> {
         self.program.get_or_init(|| Arc::new(Program::new(self.system())))
     }
-}
-
-/// What is said of a table whose derivatives by parameters are asked for.
-fn by_table(table: &str) -> Diagnostics {
-    Diagnostic::new(Code::E0706, format!("table `{table}` is made of parameters, by which it is not differentiated"))
-        .help("leave `--with sensitivities` out, or write numbers into the table")
-        .into()
 }
 
 /// For tests of what is inside.

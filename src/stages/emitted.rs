@@ -79,19 +79,19 @@ impl Compiled {
         }
     }
 
-    /// Whether it can be written for others.
+    /// Whether it can be written as JSON or LaTeX.
     ///
     /// # Errors
-    /// A measure holds a derivative by an input or parameter, which is computed by `run` alone.
-    pub(crate) fn can_be_emitted(&self) -> Result<(), Box<Diagnostic>> {
+    /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
+    pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
         let is_varied = |id| system.graph.dependence(id).highest_varied_order().is_some();
         match system.measures.iter().find(|measure| is_varied(measure.value)) {
             None => Ok(()),
             Some(measure) => {
                 let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
-                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "cannot be emitted");
-                Err(Box::new(diagnostic.help("`mechc run` computes it; leave the measure out of what is emitted")))
+                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` and Rust code");
+                Err(Box::new(diagnostic.help("`mechc run` and emitted Rust compute it; leave the measure out here")))
             }
         }
     }
@@ -111,9 +111,8 @@ impl Compiled {
         signals: Option<&'u Signals>,
         said: &mut Diagnostics,
     ) -> Result<Unit<'u>, Box<Diagnostic>> {
-        self.can_be_emitted()?;
         let program = &**self.program();
-        let motion = if options.with_motion { Some(self.motion(program, None, said)?) } else { None };
+        let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
         let (system, sources) = (self.system(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;
         let (lanes, largest_straight) = (*lanes, *largest_straight);
@@ -122,17 +121,13 @@ impl Compiled {
             Some(Signals { compiled, given: program }) => {
                 // of the assembly all is said already
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
-                let motion = Some(compiled.motion(program, begin, &mut Diagnostics::default())?);
+                let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
                 let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following: None };
                 Some(Following { unit: Box::new(unit), by_text: compiled.program() })
             }
         };
         let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following };
-        if options.with_sensitivities && emit::is_large(&unit) {
-            let why = format!("sensitivities are for mechanisms of up to {largest_straight} operations");
-            return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--with sensitivities` out")));
-        }
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));
@@ -146,6 +141,7 @@ impl Compiled {
         &self,
         program: &Program,
         begin: Option<&[f64]>,
+        options: &RustOptions,
         said: &mut Diagnostics,
     ) -> Result<Motion, Box<Diagnostic>> {
         let from = self.analysis().map_or(0.0, |[from, ..]| from);
@@ -160,9 +156,8 @@ impl Compiled {
         said.extend(started.remarks());
         let mut solver_of =
             |program: &Program| started.solver_for_code_of(program).ok_or_else(|| Box::new(too_large()));
-        let by_params = !program.outputs.by_param.is_empty();
         let solver = solver_of(&program.without_params())?;
-        let sensitive = if by_params { Some(solver_of(program)?) } else { None };
+        let sensitive = if options.with_sensitivities { Some(solver_of(program)?) } else { None };
         Ok(Motion {
             solver,
             sensitive,

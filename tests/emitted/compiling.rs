@@ -51,7 +51,7 @@ impl Emitted {
 
     /// How many lanes it has where all are looked at: the examples show what there is to see.
     pub fn lanes(&self) -> Option<usize> {
-        ["examples_", "rim_", "following_"].iter().any(|group| self.name.starts_with(group)).then_some(3)
+        ["examples_", "rim_", "following_", "slopes_"].iter().any(|group| self.name.starts_with(group)).then_some(3)
     }
 
     /// Beyond how many operations they are written as numbers: the stages are, as if they were large.

@@ -221,13 +221,6 @@ pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     found
 }
 
-/// The reference cases that can be emitted: no measure of theirs is differentiated by an input or parameter.
-pub fn emitted_cases() -> Vec<PathBuf> {
-    let mut paths = files("tests/cases", "mech");
-    paths.retain(|path| stem(path) != "sensitivities");
-    paths
-}
-
 /// `name` of `folder/name.mech`.
 pub fn stem(path: &Path) -> String {
     path.file_stem().expect("a file").to_string_lossy().into_owned()

@@ -40,10 +40,15 @@ pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<
 
 /// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
 /// shift of it, along the branch that the state is on.
+//# if left_out
+/// Where an input alone cannot change, because an equation that was left out would cease to hold, its
+/// derivatives are `NAN`.
+//# end
 ///
 /// # Errors
 /// The equations cannot be solved with the inputs as signals.
 pub fn influence(state: &State) -> Result<[Q; INPUTS], Error> {
+//# if !left_out
     let by_signal = if state.is_led {
         state.led.at().by_signal
     } else {
@@ -51,6 +56,20 @@ pub fn influence(state: &State) -> Result<[Q; INPUTS], Error> {
         led.begin(state.q(), state.t())?;
         led.at().by_signal
     };
+//# end
+//# if left_out
+    let mut led = state.led.clone();
+    if !state.is_led {
+        led = Led::new(state.params());
+        led.begin(state.q(), state.t())?;
+    }
+    let at = led.at();
+    let mut by_signal = at.by_signal;
+//# if sides
+    let sides = &at.sides;
+//# end
+    hold_apart_by_signal(&mut by_signal, &at.q, at.t, &led.model.way$sides);
+//# end
     let mut by_input = [[0.0; N]; INPUTS];
     by_input.iter_mut().zip(by_signal).for_each(|(to, from)| *to = from);
     Ok(by_input)
@@ -300,6 +319,11 @@ impl Led {
         if at.is_negative != from.is_negative || steepest > STEEPEST {
             return Err(Fault::Singular);
         }
+//# if varied
+        if steepest > STEEP {
+            at.measures.leave_varied_out();
+        }
+//# end
         if is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY {
             return Err(Fault::Singular);
         }

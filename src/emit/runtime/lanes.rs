@@ -426,6 +426,10 @@ pub mod lanes {
         rates: [Each; RATES],
         accelerations: [Each; ACCELERATIONS],
 //# end
+//# if joined
+        /// What only measures need.
+        joined: [Each; JOINED],
+//# end
         /// By block: what has the sign of its determinant.
         signs: [[u64; LANES]; TURNS],
         /// Multipliers, residuals and angles beside what is bearable: 1 at most.
@@ -448,6 +452,9 @@ pub mod lanes {
             values: [[0.0; LANES]; MEASURES],
             rates: [[0.0; LANES]; RATES],
             accelerations: [[0.0; LANES]; ACCELERATIONS],
+//# end
+//# if joined
+            joined: [[0.0; LANES]; JOINED],
 //# end
             signs: [[0; LANES]; TURNS],
             strain: [0.0; LANES],

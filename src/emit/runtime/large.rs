@@ -35,7 +35,7 @@ impl Solution {
 //# if measures
     fn lists(&self) -> [&[f64]; $lists] {
         let [values, rates, accelerations] = self.measures.lists();
-        [&self.q, values, &self.qd, rates, &self.qdd, accelerations$by_signal]
+        [&self.q, values, &self.qd, rates, &self.qdd, accelerations$by_signal$joined]
     }
 //# end
 //# if !measures
@@ -57,6 +57,9 @@ impl Solution {
             &mut of.accelerations,
 //# if led
             self.by_signal.as_flattened_mut(),
+//# end
+//# if joined
+            &mut self.joined,
 //# end
         ];
 //# end
@@ -91,7 +94,7 @@ fn solve(guess: &[f64; TEARS], t: f64, $m: &Model$sides_argument, at: &mut Solut
 //# if !params
     let params = [];
 //# end
-    let inputs: Inputs<'_> = [&params, $known, $given_sides, &$time, &[], &[], &[], &[]];
+    let inputs: Inputs<'_> = [&params, $known, $given_sides, &$time, &[], &[], &[], &[]$varied];
     let mut v = [0.0; REGISTERS];
     for segment in &SEGMENTS {
         let code = SOLVE.get(segment.code[0]..segment.code[1]).unwrap_or(&[]);

@@ -7,6 +7,11 @@
 /// As [`super::sensitivity`], where inputs have led: they stay what they are.
 //# end
 ///
+//# if left_out
+/// Where a parameter alone cannot change, because an equation that was left out would cease to hold,
+/// its derivatives are `NAN`.
+///
+//# end
 /// # Errors
 /// Why there are none: with these parameters there is no such position.
 pub fn sensitivity(params: &Params, state: &State) -> Result<[Q; PARAMS], Error> {
@@ -53,6 +58,9 @@ fn by_params(m: &Model, from: &Solution) -> Result<[Q; PARAMS], Error> {
 //# end
     }
     if by.iter().flatten().all(|value| value.is_finite()) {
+//# if left_out
+        hold_apart_by_param(&mut by, &at.q, from.t, &m.params$sides);
+//# end
         Ok(by)
     } else {
         Err(Error::NotANumber)

@@ -320,6 +320,11 @@ fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
     if at.is_negative != from.is_negative || steepest > STEEPEST {
         return Err(Fault::Singular);
     }
+//# if varied
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+//# end
     if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
         return Err(Fault::Singular);
     }
@@ -589,6 +594,10 @@ struct Solution {
 //# if measures
     measures: Measures,
 //# end
+//# if joined
+    /// What only measures need.
+    joined: [f64; JOINED],
+//# end
 //# if sides
     /// The branches of formulas.
     sides: Sides,
@@ -621,6 +630,9 @@ impl Solution {
 //# end
 //# if measures
         measures: Measures::ZERO,
+//# end
+//# if joined
+        joined: [0.0; JOINED],
 //# end
 //# if sides
         sides: [0.0; SIDES],
@@ -774,8 +786,11 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     }
 //# end
     (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
+//# if varied
+    let varied = vary(&mut elimination, &slopes, [&at.q, &qd, &qdd], t, p$sides);
+//# end
 //# if measures
-    at.measures = measures(&at.q, &qd, &qdd$qddd, t, p);
+    at.measures = measures(&at.q, &qd, &qdd$qddd$varied, t, p);
 //# end
     let values = $phi(&at.q, t, p$sides);
     at.holds = is_next_to_nothing(&values, &slopes, &at.q);
@@ -788,6 +803,37 @@ fn solve_with_pivoting(q: &Q, t: f64, m: &Model$sides_argument) -> Result<Soluti
     if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
 
+//# if varied
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters:
+/// those by one before those by two, each order from those before.
+#[rustfmt::skip]
+fn vary(
+    elimination: &mut Elimination,
+    slopes: &[f64; ENTRIES],
+    [q, qd, qdd]: [&Q; 3],
+    t: f64,
+    p: &Params$sides_argument,
+) -> [f64; VARIED] {
+    let mut varied = [0.0; VARIED];
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = $varied_right(q, qd, qdd, &varied, t, p$sides);
+            for (number, _) in IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * N;
+                let right = core::array::from_fn(|k| rights.get(first + k).copied().unwrap_or(f64::NAN));
+                let (x, _) = elimination.solve(slopes, &right);
+                for (k, x) in x.into_iter().enumerate() {
+                    if let Some(place) = varied.get_mut(first + k) {
+                        *place = x;
+                    }
+                }
+            }
+        }
+    }
+    varied
+}
+
+//# end
 /// The work of solving linear equations in blocks.
 struct Elimination {
     work: [f64; WORK],

@@ -3,10 +3,11 @@
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
-use super::{RUN, SOLVER, Writer, equations};
+use super::{SOLVER, Writer, equations, run};
 use crate::emit::Following;
 use crate::emit::equations::{Equations, Given, Wanted};
 use crate::emit::names::{Case, Names};
+use crate::emit::params::Params;
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
 use crate::emit::text::{chosen, indented, one_line};
@@ -26,7 +27,7 @@ pub(super) fn module(following: &Following<'_>) -> String {
     let Some(motion) = &unit.motion else {
         return String::new();
     };
-    let (names, tables) = (Names::new(unit.system), Tables::new(unit.program));
+    let (names, tables) = (Names::new(unit.system, Params::new(unit.system).paths), Tables::new(unit.program));
     let equations = equations(unit, &names, &tables, true);
     let writer = Writer { unit, names: &names, equations: &equations };
     let solution = Solution::new(unit, motion, &equations);
@@ -94,6 +95,7 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables) -> String 
         is_public: false,
         orders: 0,
         has_time: true,
+        varied: false,
         outputs: &outputs,
         length: "3 * SIGNALS",
         negated: false,
@@ -124,7 +126,7 @@ impl Module<'_> {
         text += &match &equations.book {
             Some(book) => {
                 let template = writer.large(solution, &wanted);
-                RUN.replace("Inputs<'", "Arrays<'")
+                run(equations).replace("Inputs<'", "Arrays<'")
                     + "\n"
                     + &solution.as_numbers(&template.replace("Inputs<'", "Arrays<'"), &mut book.borrow_mut())
             }
@@ -156,6 +158,11 @@ impl Module<'_> {
             }
         }
         text += "];\n\n";
+        if self.writer.equations.has_varied() {
+            let count = 3 * system.variations().len() * system.coordinates.len();
+            text += &format!("const VARIED: usize = {count};\n\n");
+            text += &self.writer.is_by_two();
+        }
         if !system.checks.is_empty() {
             text += &format!("const LEFT_OUT: usize = {};\n\n", system.checks.len());
         }
@@ -174,6 +181,7 @@ impl Module<'_> {
             is_public: false,
             orders: 0,
             has_time: false,
+            varied: false,
             outputs: &registers,
             length: "KNOWN",
             negated: false,
@@ -206,15 +214,18 @@ impl Module<'_> {
                 is_public: false,
                 orders,
                 has_time: true,
+                varied: false,
                 outputs,
                 length,
                 negated: false,
                 given: Given::All,
             });
         }
+        text += &writer.held_apart("signal", &outputs.check_slopes.by_signal, "SIGNALS");
         if has_pivoting {
             text += &writer.rights("signal", &outputs.by_signal, "SIGNALS");
             text += &of_led(&writer.measures().replace("pub fn measures", "fn measures"));
+            text += &writer.varied(Given::All);
         }
         text
     }
