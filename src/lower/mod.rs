@@ -11,6 +11,7 @@ mod joints;
 mod parts;
 mod quantities;
 mod results;
+mod scopes;
 mod size;
 mod uses;
 mod variations;
@@ -51,16 +52,19 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         watches: Vec::new(),
         fits: Vec::new(),
         variations: variations::variables(model),
+        over_leaves: scopes::OverLeaves::default(),
     };
     lowering.tables();
+    lowering.open_scopes();
     lowering.named_up_to(model.named_before_results);
     lowering.body_coordinates();
     lowering.joint_rows();
     lowering.equation_rows();
+    lowering.rows_of_scopes();
     lowering.conditions();
     let points = lowering.points();
     let measures = lowering.measures();
-    let parts = lowering.part_starts();
+    let (parts, asking_parts) = (lowering.part_starts(), lowering.asking_parts());
     lowering.append_derivatives(&measures);
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
@@ -108,6 +112,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         rims: Vec::new(),
         fits: std::mem::take(&mut lowering.fits),
         parts,
+        asking_parts,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
@@ -153,6 +158,8 @@ struct Lowering<'m> {
     fits: Vec<Fit>,
     /// Where derivatives are taken by something else than time.
     variations: Option<Variations>,
+    /// Where parts may hold their inputs.
+    over_leaves: scopes::OverLeaves,
 }
 
 /// A formula of the model in another graph.
@@ -197,10 +204,8 @@ impl Lowering<'_> {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
                 }
-                Named::By(inner, variable) => {
-                    let inner = self.formula(inner);
-                    self.derivative_by(inner, variable)
-                }
+                Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
+                Named::Held(part, bound) => self.held(part, bound),
                 Named::Reduction(k) => self.reduced(k),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),

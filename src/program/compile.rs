@@ -33,6 +33,10 @@ impl Program {
         (outputs.by_signal, outputs.by_param) = (rights(&system.by_signal), rights(&system.by_param));
         outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
         outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        for scope in system.scopes() {
+            let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
+            outputs.scopes.push(layout.place(Stage::Variation, entries));
+        }
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
             outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
