@@ -81,7 +81,9 @@ impl OwnLu {
             }
             let norm = line.iter().map(|x| x * x).sum::<f64>().sqrt();
             self.inverse_norms[row] = 1.0 / norm;
-            line.iter_mut().for_each(|x| *x /= norm);
+            for x in line {
+                *x /= norm;
+            }
         }
         factor_dense(&mut self.a, &mut self.pivots, n);
         self.is_trusted = 1.0 / self.norm_of_inverse() >= limit;

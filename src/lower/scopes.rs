@@ -4,7 +4,6 @@ use super::Lowering;
 use crate::expr::{ExprId, Graph};
 use crate::ir::{AskingPart, ConstraintSystem, LEAF_ORDERS, Leaf, Scope, SparseRows, leaf};
 use crate::model::{EquationForm, Mechanism, Named, PartId};
-use crate::source::Span;
 use rustc_hash::FxHashMap;
 
 /// Formulas in which the inputs that parts may hold are leaves.
@@ -193,7 +192,7 @@ impl Lowering<'_> {
     fn asking_part(&mut self, part: PartId) -> AskingPart {
         let model = self.model;
         let asked = model.asked_in_parts.iter().filter(|(asking, _)| *asking == part);
-        let mut places: Vec<Span> = asked.map(|(_, span)| *span).collect();
+        let mut places: Vec<_> = asked.map(|(_, span)| *span).collect();
         places.dedup();
         let around = std::iter::successors(Some(part), |&part| model[part].within);
         let used_at = around.map(|part| (model[part].declared.name.clone(), model[part].declared.span)).collect();

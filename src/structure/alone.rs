@@ -24,7 +24,7 @@ impl Determined {
             match self.counts_alone(part) {
                 Some([rows, columns]) => said.push(errors::not_determined_alone(part, rows, columns)),
                 None if is_coupled && !self.system.checks.is_empty() => {
-                    said.push(errors::coupled_without_equations(part))
+                    said.push(errors::coupled_without_equations(part));
                 }
                 None if is_coupled => coupled.push(part.name.clone()),
                 None => {}
