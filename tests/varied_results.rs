@@ -1,6 +1,6 @@
 //! Results over derivatives by inputs and parameters, against closed forms and against rows.
 
-#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
@@ -313,6 +313,15 @@ fn over_a_pole_there_is_no_number() {
     for (value, wanted) in found.values[2..].iter().zip(wanted) {
         assert!((value.expect("a number") - wanted).abs() < 1e-9, "{value:?} instead of {wanted}");
     }
+    // in a part it is told whose it is
+    let whole = format!("mechanism whole {{\n    part p: m() at (0, 0, 0)\n}}\n{PARALLELOGRAM}");
+    let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
+    let checked = Parsed::of("m.mech", &whole).check(&choice, &Memory::default());
+    let in_part = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
+    let notes = answers_of(&in_part, [2.0, 0.1], &options).notes;
+    assert_eq!(notes.len(), 2);
+    let used = |note: &mechc::Diagnostic| note.labels.iter().any(|label| label.text == "in part `p`, used here");
+    assert!(notes.iter().all(used), "{notes:?}");
     // short of it there is one
     let short = answers_of(&compiled, [1.4, 0.1], &options);
     assert!((short.values[0].expect("a number") - cot(0.1 * FRAC_PI_2)).abs() < 1e-8, "{:?}", short.values);

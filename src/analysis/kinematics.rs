@@ -2,6 +2,7 @@
 
 use super::aslant;
 use super::linear::{BlockLu, Factored, Singular};
+use super::scoped::ScopedLu;
 use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
 use crate::expr::ExprId;
@@ -92,12 +93,15 @@ struct Varied {
     solution: Vec<f64>,
     /// By column of a row, whether it is such a derivative.
     columns: Vec<bool>,
+    /// Those by the equations of a part alone.
+    scoped: ScopedLu,
 }
 
 impl Varied {
     fn new(system: &ConstraintSystem) -> Varied {
+        let scoped = ScopedLu::new(system);
         if system.variations.is_none() {
-            return Varied { solution: Vec::new(), columns: Vec::new() };
+            return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
         let n = system.coordinates.len();
         let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
@@ -108,7 +112,7 @@ impl Varied {
             columns.extend(system.measures.iter().filter_map(derivative).map(is_varied));
         }
         columns.extend(system.appended().iter().map(|_| true));
-        Varied { solution: vec![0.0; n], columns }
+        Varied { solution: vec![0.0; n], columns, scoped }
     }
 }
 
@@ -492,6 +496,10 @@ impl Kinematics {
 
     /// What solves for rows, in orders that suit the position that was factored; none where it would be too large.
     pub fn solver(&self) -> Option<Solver> {
+        // it solves the equations of the whole
+        if self.system().variations().iter().any(|variation| variation.scope.is_some()) {
+            return None;
+        }
         Solver::new(&self.determined, &self.program, self)
     }
 
@@ -770,8 +778,8 @@ impl Kinematics {
             self.leave_variations_out();
             return;
         }
-        let (linear, solution) = (&mut self.linear, &mut self.variations.solution);
-        vary(&self.determined, &self.program, &mut self.registers, solution, |registers, right, x| {
+        let (linear, varied) = (&mut self.linear, &mut self.variations);
+        vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
             linear.solve(|row| registers.get(right[row]), x);
         });
     }
@@ -827,8 +835,8 @@ impl Kinematics {
         let is_finite = self.all_finite(state).is_ok();
         if is_finite {
             self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
-            let solution = &mut self.variations.solution;
-            vary(&self.determined, &self.program, &mut self.registers, solution, |registers, right, x| {
+            let varied = &mut self.variations;
+            vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
                 pivoting.solve(|row| registers.get(right[row]), x);
             });
             self.write_columns(state, row);
@@ -961,7 +969,7 @@ fn vary(
     determined: &Determined,
     program: &Program,
     registers: &mut Registers,
-    solution: &mut [f64],
+    Varied { solution, scoped, .. }: &mut Varied,
     mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
 ) {
     let variations = determined.system().variations();
@@ -972,8 +980,15 @@ fn vary(
                 break;
             }
             program.run(Stage::Variation, registers);
+            if order == 0 && !by_two {
+                scoped.factor(program, registers, TRUSTED);
+            }
             for k in of_kind() {
-                solve(registers, &program.outputs.variations[k][order], solution);
+                let right = &program.outputs.variations[k][order];
+                match variations[k].scope {
+                    None => solve(registers, right, solution),
+                    Some(scope) => scoped.solve(scope, registers, right, solution),
+                }
                 registers.set_all(program.inputs.varied(k as u32, order as u32), solution);
             }
         }

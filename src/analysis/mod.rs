@@ -34,6 +34,7 @@ mod redundancy;
 mod results;
 mod rims;
 mod rows;
+mod scoped;
 mod search;
 mod signals;
 mod singular;

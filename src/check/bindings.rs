@@ -203,7 +203,10 @@ impl<'a> Checker<'a> {
                 let value = self.input_bound(part, k, binding);
                 self.in_part(part, |child| {
                     let declared = child.declared(&binding.name);
-                    child.inputs[k].value = value.map(|value| child.with_shift(&declared, value));
+                    child.inputs[k].value = value.map(|value| {
+                        let held = child.held(value);
+                        child.with_shift(&declared, held)
+                    });
                 });
             }
             self.tell_inputs(part);

@@ -96,6 +96,8 @@ pub struct Surroundings {
     pub by: Vec<String>,
     /// Whether inputs stay signals in the model, rather than being replaced by what they are.
     pub has_signals: bool,
+    /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
+    pub coupled: Vec<String>,
 }
 
 /// A parameter's value from outside the file: `--set crank_length=60mm`.
@@ -270,6 +272,7 @@ struct Checker<'a> {
     given: &'a Given,
     lead: Option<&'a Lead>,
     by: &'a [String],
+    coupled: &'a [String],
     sources: &'a Sources,
     diagnostics: Diagnostics,
     model: Mechanism,
@@ -366,6 +369,7 @@ impl<'a> Checker<'a> {
             given: &surroundings.given,
             lead: surroundings.lead.as_ref(),
             by: &surroundings.by,
+            coupled: &surroundings.coupled,
             sources,
             diagnostics: Diagnostics::default(),
             model: Mechanism {
@@ -529,7 +533,7 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let (mut measures, mut results) = (Vec::new(), Vec::new());
+        let (mut measures, mut results, mut parts) = (Vec::new(), Vec::new(), Vec::new());
         for at in self.ordered(&uses) {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -547,7 +551,10 @@ impl<'a> Checker<'a> {
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
                 Entity::Input(k) => self.input(k),
-                Entity::Part(k) if k < self.parts.len() => self.definitions_of_part(k),
+                Entity::Part(k) if k < self.parts.len() => {
+                    self.definitions_of_part(k);
+                    parts.push(k);
+                }
                 Entity::Measure(k) => {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
@@ -558,6 +565,10 @@ impl<'a> Checker<'a> {
                 }
                 _ => {}
             }
+        }
+        // a part in a circle is broken, and has its own definitions all the same
+        for part in (0..self.parts.len()).filter(|part| !parts.contains(part)) {
+            self.definitions_of_part(part);
         }
         (self.measure_order, self.result_order) = (measures, results);
     }
@@ -595,6 +606,11 @@ impl<'a> Checker<'a> {
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
+                            // where a body is asks for nothing of the part that its input is bound to
+                            let is_place = matches!(entity, Some(Entity::Body(_) | Entity::Joint(_)));
+                            if is_place && matches!(entities[k], Entity::Part(_)) {
+                                return;
+                            }
                             // what is in a part is known when the part is
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
                             let entity = part.or(entity);

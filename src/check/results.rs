@@ -177,7 +177,7 @@ impl Checker<'_> {
                 let Symbol::Named(k) = symbol else { continue };
                 match self.model.named.get(k as usize) {
                     Some(Named::Reduction(_)) => return true,
-                    Some(Named::Derivative(inner) | Named::By(inner, _)) => open.push(*inner),
+                    Some(Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner)) => open.push(*inner),
                     _ => {}
                 }
             }

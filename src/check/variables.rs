@@ -143,9 +143,24 @@ impl Checker<'_> {
             return None;
         }
         let dim = Dim::Of(inner.dim.settled().over(self.model.variables[variable as usize].dimension));
-        let id = self.name_symbol(Named::By(inner.id, variable), rates);
+        let within = self.part.filter(|_| self.is_coupled());
+        self.model.asked_in_parts.extend(self.part.map(|part| (part, e.span)));
+        let id = self.name_symbol(Named::By(inner.id, variable, within), rates);
         self.variables.orders.insert(id, (times + 1, rates));
         Some(Value { id, dim })
+    }
+
+    /// Whether derivatives in this text are by its own equations alone, though it moves together with what is around it.
+    fn is_coupled(&self) -> bool {
+        let path = self.path.trim_end_matches('.');
+        self.coupled.iter().any(|coupled| coupled == path)
+    }
+
+    /// What an input of this part is bound to, which is held where derivatives are taken by the part's own equations.
+    pub(super) fn held(&mut self, value: Value) -> Value {
+        let Some(part) = self.part.filter(|_| self.is_coupled()) else { return value };
+        let order = self.derivative_order(value.id);
+        Value { id: self.name_symbol(Named::Held(part, value.id), order), ..value }
     }
 
     /// Notes that a formula is the time derivative of another one; says whether that may be.

@@ -111,6 +111,7 @@ catalogue! {
         E0504 Error "a start in a singular position"
         E0506 Error "equations that are redundant"
         E0507 Error "equations that conflict"
+        E0508 Error "a derivative in a part that is not determined alone"
         W0501 Warning "gears or racks that do not fit their radii"
         W0502 Warning "redundant equations that are left out"
     }

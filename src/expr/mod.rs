@@ -425,6 +425,22 @@ impl Graph {
         }
     }
 
+    /// Formulas with other formulas of this graph in the place of some symbols.
+    pub fn substituted(&mut self, roots: &[ExprId], with: impl Fn(Symbol) -> Option<ExprId>) -> Vec<ExprId> {
+        let mut known: FxHashMap<ExprId, ExprId> = FxHashMap::default();
+        // children come before their parents
+        for id in self.reachable(roots) {
+            let node = self.node(id);
+            let found = match node {
+                Node::Symbol(symbol) => with(symbol).unwrap_or(id),
+                _ if node.children().as_slice().iter().all(|child| known.get(child) == Some(child)) => id,
+                _ => self.rebuild(node, |child| known[&child]),
+            };
+            known.insert(id, found);
+        }
+        roots.iter().map(|root| known[root]).collect()
+    }
+
     fn intern(&mut self, node: Node) -> ExprId {
         if let Some(&id) = self.ids.get(&node) {
             return id;

@@ -23,11 +23,13 @@
 mod print;
 mod results;
 mod rims;
+mod scopes;
 mod signals;
 mod variations;
 
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
+pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
 pub use signals::CheckSlopes;
 pub use variations::{Appended, Variable, Variation, Variations};
 
@@ -92,6 +94,8 @@ pub struct ConstraintSystem {
     pub fits: Vec<Fit>,
     /// The parts of the mechanism, as far as their start asks for it.
     pub parts: Vec<PartStart>,
+    /// Parts whose texts ask for derivatives by their own equations.
+    pub asking_parts: Vec<AskingPart>,
     /// Characteristic length L (m): the size of the largest body.
     pub length: f64,
     /// The file's analysis: first time, last time, step (s).

@@ -8,6 +8,7 @@
 //! All have the matrix of the position. Source: E. J. Haug, K. K. Choi, V. Komkov, *Design Sensitivity Analysis of Structural
 //! Systems*, 1986, by direct differentiation.
 
+use super::scopes::{Leaf, Scope, as_leaf, without_leaves};
 use super::{Check, CheckSlopes, ConstraintSystem};
 use crate::expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use crate::source::Span;
@@ -21,6 +22,12 @@ pub struct Variations {
     /// Each behind those that it needs.
     list: Vec<Variation>,
     numbers: FxHashMap<(u32, Option<u32>), u32>,
+    /// So many have their right sides.
+    written: usize,
+    /// Parts whose own equations derivatives are taken by, and what these hold.
+    pub scopes: Vec<Scope>,
+    /// Inputs of these parts, by the number of their leaf.
+    pub leaves: Vec<Leaf>,
     /// Columns of derivatives, behind all others of the table.
     pub appended: Vec<Appended>,
 }
@@ -36,14 +43,19 @@ pub struct Variable {
     pub unit: String,
     /// The place of its declaration.
     pub span: Span,
+    /// The part whose equations alone it is by, by its number among the scopes.
+    pub scope: Option<u32>,
 }
 
-/// How all coordinates change by one variable, or by two.
+/// How all coordinates, or those of a part, change by one variable, or by two.
 #[derive(Clone, Debug)]
 pub struct Variation {
     /// By what, and by what again.
     pub by: (u32, Option<u32>),
-    /// The right sides for `q`, `q̇` and `q̈`, one entry per row [unit of the row, per time, per unit of the variables].
+    /// The part whose equations alone it follows, by its number among the scopes: that of the first variable.
+    pub scope: Option<u32>,
+    /// The right sides for `q`, `q̇` and `q̈`, one entry per row, of the part if it is of one [unit of the row, per time, per unit of the
+    /// variables].
     pub rights: [Vec<ExprId>; 3],
 }
 
@@ -73,7 +85,27 @@ impl Variations {
     ///
     /// The formulas hold no third derivative of a coordinate, and nothing that has been differentiated by two variables.
     pub fn derivatives(&mut self, graph: &mut Graph, roots: &[ExprId], variable: u32) -> Vec<ExprId> {
-        self.along(graph, roots, variable, |_| false)
+        self.along(graph, roots, variable, &|_| false)
+    }
+
+    /// A formula with what leaves are bound to in their places.
+    pub fn without_leaves(&self, graph: &mut Graph, root: ExprId) -> ExprId {
+        without_leaves(graph, &self.leaves, &[root])[0]
+    }
+
+    /// The number of a variable within a part whose equations alone it is by.
+    pub fn within(&mut self, variable: u32, scope: u32) -> u32 {
+        let of = self.variables[variable as usize].clone();
+        let is_it = |known: &Variable| known.symbol == of.symbol && known.scope == Some(scope);
+        let known = self.variables.iter().position(is_it);
+        known.unwrap_or_else(|| {
+            self.variables.push(Variable { scope: Some(scope), ..of });
+            self.variables.len() - 1
+        }) as u32
+    }
+
+    fn scope_of(&self, variable: u32) -> Option<u32> {
+        self.variables[variable as usize].scope
     }
 
     /// The same, as if some symbols did not change.
@@ -82,12 +114,25 @@ impl Variations {
         graph: &mut Graph,
         roots: &[ExprId],
         variable: u32,
-        stays: impl Fn(Symbol) -> bool,
+        stays: &dyn Fn(Symbol) -> bool,
     ) -> Vec<ExprId> {
         let own = self.variables[variable as usize].symbol;
+        let scope = self.scope_of(variable);
         graph.variations(roots, |graph, symbol| match symbol {
             _ if stays(symbol) => None,
             _ if symbol == own => Some(graph.constant(1.0)),
+            Symbol::Coordinate { index, .. }
+                if scope.is_some_and(|scope| !self.scopes[scope as usize].varies(index)) =>
+            {
+                None
+            }
+            Symbol::Signal { .. } => {
+                let (number, order) = as_leaf(symbol)?;
+                let leaf = &self.leaves[number];
+                let is_held = scope == Some(leaf.scope);
+                let bound = leaf.over_leaves[order];
+                (!is_held).then(|| self.along(graph, &[bound], variable, &|_| false)[0])
+            }
             Symbol::Coordinate { index, order } => {
                 let variation = self.number(variable, None);
                 Some(graph.symbol(Symbol::Varied { index, order, variation }))
@@ -103,7 +148,11 @@ impl Variations {
 
     /// The number of a variation, which is asked for.
     fn number(&mut self, first: u32, second: Option<u32>) -> u32 {
-        let by = second.map_or((first, None), |second| (first.min(second), Some(first.max(second))));
+        // by one set of equations it means nothing which comes first
+        let by = match second {
+            Some(second) if second < first && self.scope_of(first) == self.scope_of(second) => (second, Some(first)),
+            _ => (first, second),
+        };
         if let Some(&known) = self.numbers.get(&by) {
             return known;
         }
@@ -112,7 +161,7 @@ impl Variations {
             self.number(b, None);
         }
         let number = self.list.len() as u32;
-        self.list.push(Variation { by, rights: Default::default() });
+        self.list.push(Variation { by, scope: self.scope_of(by.0), rights: Default::default() });
         self.numbers.insert(by, number);
         number
     }
@@ -132,16 +181,23 @@ impl Variations {
 
     /// The right sides of all variations that have none yet, for rows of `Φ`.
     fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
-        let first_open = self.list.iter().position(|variation| variation.rights[0].len() < phi.len());
-        let Some(first_open) = first_open else { return };
-        let orders = with_rates(graph, phi);
+        for scope in &mut self.scopes {
+            scope.derive(graph, &self.leaves);
+        }
+        let first_open = std::mem::replace(&mut self.written, self.list.len());
+        if first_open == self.list.len() {
+            return;
+        }
+        let of_whole = with_rates(graph, phi);
+        let of_scopes: Vec<[Vec<ExprId>; 3]> = self.scopes.iter().map(|scope| with_rates(graph, &scope.phi)).collect();
         let mut whole: FxHashMap<(u32, usize), Vec<ExprId>> = FxHashMap::default();
         for number in first_open..self.list.len() {
             let (first, second) = self.list[number].by;
+            let orders = self.list[number].scope.map_or(&of_whole, |scope| &of_scopes[scope as usize]);
             for (order, roots) in orders.iter().enumerate() {
                 let top = order as u8;
                 let slopes = match second {
-                    None => self.along(graph, roots, first, |symbol| is_coordinate(symbol, top)),
+                    None => self.along(graph, roots, first, &|symbol| is_coordinate(symbol, top)),
                     Some(second) => {
                         let inner = self.number(first, None);
                         let roots =
@@ -151,11 +207,12 @@ impl Variations {
                             Symbol::Varied { order, variation, .. } => order == top && variation == inner,
                             _ => false,
                         };
-                        let slopes = self.along(graph, &roots, second, is_solved_for);
+                        let slopes = self.along(graph, &roots, second, &is_solved_for);
                         whole.insert((first, order), roots);
                         slopes
                     }
                 };
+                let slopes = without_leaves(graph, &self.leaves, &slopes);
                 self.list[number].rights[order] = slopes.into_iter().map(|slope| graph.neg(slope)).collect();
             }
         }
@@ -165,7 +222,8 @@ impl Variations {
 impl Variations {
     /// Only the right sides of some rows are left.
     fn keep(&mut self, kept: &[usize]) {
-        for rights in self.list.iter_mut().flat_map(|variation| &mut variation.rights) {
+        let of_whole = self.list.iter_mut().filter(|variation| variation.scope.is_none());
+        for rights in of_whole.flat_map(|variation| &mut variation.rights) {
             *rights = kept.iter().map(|&row| rights[row]).collect();
         }
     }
@@ -193,6 +251,12 @@ impl ConstraintSystem {
     #[must_use]
     pub fn variations(&self) -> &[Variation] {
         self.variations.as_ref().map_or(&[], |variations| &variations.list)
+    }
+
+    /// The parts by whose own equations there are variations.
+    #[must_use]
+    pub fn scopes(&self) -> &[Scope] {
+        self.variations.as_ref().map_or(&[], |variations| &variations.scopes)
     }
 
     /// Columns of derivatives, behind all others of the table.

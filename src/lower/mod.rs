@@ -11,6 +11,7 @@ mod joints;
 mod parts;
 mod quantities;
 mod results;
+mod scopes;
 mod size;
 mod uses;
 mod variations;
@@ -52,16 +53,19 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         watches: Vec::new(),
         fits: Vec::new(),
         variations: variations::variables(model),
+        over_leaves: scopes::OverLeaves::default(),
     };
     lowering.tables();
+    lowering.open_scopes();
     lowering.named_up_to(model.named_before_results);
     lowering.body_coordinates();
     lowering.joint_rows();
     lowering.equation_rows();
+    lowering.rows_of_scopes();
     lowering.conditions();
     let points = lowering.points();
     let measures = lowering.measures();
-    let parts = lowering.part_starts();
+    let (parts, asking_parts) = (lowering.part_starts(), lowering.asking_parts());
     lowering.append_derivatives(&measures);
     let needs_jerk = measures.iter().any(|measure| {
         [Some(measure.value), measure.first, measure.second]
@@ -69,25 +73,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
             .flatten()
             .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
     }) || model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
-    let parts_by_name: FxHashSet<&str> = model.parts.iter().map(|part| part.declared.name.as_str()).collect();
-    let path = |name: &str| {
-        let ends = name.rmatch_indices('.').map(|(at, _)| at);
-        ends.into_iter().find(|&at| parts_by_name.contains(&name[..at])).map_or(0, |at| at + 1)
-    };
     let mut system = ConstraintSystem {
         name: model.declared.name.clone(),
         span: model.declared.span,
-        params: model
-            .params
-            .iter()
-            .map(|p| Param {
-                name: p.declared.name.clone(),
-                part: path(&p.declared.name),
-                value: p.value,
-                unit: p.dimension.unit(),
-                span: p.declared.span,
-            })
-            .collect(),
+        params: params(model),
         inputs: Vec::new(),
         has_signals: model.has_signals,
         by_signal: Vec::new(),
@@ -116,6 +105,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         rims: Vec::new(),
         fits: std::mem::take(&mut lowering.fits),
         parts,
+        asking_parts,
         length: lowering.largest_size,
         analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
     };
@@ -134,6 +124,23 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         system.derive_variations_of_results();
     }
     system
+}
+
+/// The parameters; of each, how much of its name says in which part it is.
+fn params(model: &Mechanism) -> Vec<Param> {
+    let parts: FxHashSet<&str> = model.parts.iter().map(|part| part.declared.name.as_str()).collect();
+    let path = |name: &str| {
+        let mut ends = name.rmatch_indices('.').map(|(at, _)| at);
+        ends.find(|&at| parts.contains(&name[..at])).map_or(0, |at| at + 1)
+    };
+    let param = |param: &crate::model::Param| Param {
+        name: param.declared.name.clone(),
+        part: path(&param.declared.name),
+        value: param.value,
+        unit: param.dimension.unit(),
+        span: param.declared.span,
+    };
+    model.params.iter().map(param).collect()
 }
 
 struct Lowering<'m> {
@@ -162,6 +169,8 @@ struct Lowering<'m> {
     fits: Vec<Fit>,
     /// Where derivatives are taken by something else than time.
     variations: Option<Variations>,
+    /// Where parts may hold their inputs.
+    over_leaves: scopes::OverLeaves,
 }
 
 /// A formula of the model in another graph.
@@ -206,10 +215,8 @@ impl Lowering<'_> {
                     let inner = self.formula(inner);
                     ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
                 }
-                Named::By(inner, variable) => {
-                    let inner = self.formula(inner);
-                    self.derivative_by(inner, variable)
-                }
+                Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
+                Named::Held(part, bound) => self.held(part, bound),
                 Named::Reduction(k) => self.reduced(k),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),

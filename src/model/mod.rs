@@ -98,6 +98,8 @@ pub struct Mechanism {
     /// In order of declaration, those of a part where it is declared.
     /// What derivatives are taken by, by their number.
     pub variables: Vec<Variable>,
+    /// Where parts ask for such derivatives in their own texts.
+    pub asked_in_parts: Vec<(PartId, Span)>,
     /// The numbers of those that all columns are differentiated by, in the order of the columns.
     pub by: Vec<u32>,
     /// Whether formulas hold inputs as signals, rather than what these are.
@@ -144,6 +146,7 @@ impl Mechanism {
             led: Vec::new(),
             parts: Vec::new(),
             variables: Vec::new(),
+            asked_in_parts: Vec::new(),
             by: Vec::new(),
             has_signals: false,
             bodies: Vec::new(),
@@ -571,7 +574,10 @@ pub enum Named {
     /// The time derivative of a formula, along the motion.
     Derivative(ExprId),
     /// The derivative of a formula by a variable, by its number, at fixed time.
-    By(ExprId, u32),
+    /// Inside a part that moves together with what is around it, by the equations of that part.
+    By(ExprId, u32, Option<PartId>),
+    /// An input of such a part, which is held where these derivatives are taken: what it is bound to.
+    Held(PartId, ExprId),
     /// Above zero where a quantity of measures exists.
     Exists(Option<PartId>, Quantity),
     /// A number for the whole analysis, by its place among the reductions.

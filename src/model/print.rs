@@ -90,7 +90,8 @@ impl Text<'_> {
                 Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
                 Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
-                Named::By(inner, variable) => {
+                Named::Held(_, inner) => self.formula_text(inner),
+                Named::By(inner, variable, _) => {
                     let by = &self.model.variables[variable as usize].declared.name;
                     format!("der({}, {by})", self.formula_text(inner))
                 }
@@ -208,7 +209,7 @@ impl Mechanism {
         list.extend(self.outcomes.iter().map(|outcome| outcome.value));
         list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
-            Named::Derivative(inner) | Named::By(inner, _) => Some(*inner),
+            Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => Some(*inner),
             Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list

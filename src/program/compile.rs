@@ -41,6 +41,10 @@ impl Program {
             by_signal: slopes.by_signal.iter().map(|list| varied(list)).collect(),
             by_param: slopes.by_param.iter().map(|list| varied(list)).collect(),
         };
+        for scope in system.scopes() {
+            let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
+            outputs.scopes.push(layout.place(Stage::Variation, entries));
+        }
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
             outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));

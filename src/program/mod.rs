@@ -368,6 +368,8 @@ pub struct Outputs {
     pub jerk: Vec<Register>,
     /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
     pub variations: Vec<[Vec<Register>; 3]>,
+    /// By part of whose own equations there are variations: the entries of its matrix, row by row.
+    pub scopes: Vec<Vec<Register>>,
     /// Derivatives that stand behind all other columns.
     pub appended: Vec<Register>,
     /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.

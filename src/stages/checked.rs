@@ -213,12 +213,45 @@ impl Checked {
         match &self.model {
             None => (None, Diagnostics::default()),
             Some(model) => {
-                let system = lower::lower(model);
-                let leading = self.leading.clone();
-                let (compiled, said) = Compiled::of(self.sources().clone(), system, redundant, leading, cancel);
+                let (compiled, said) = self.compiled(model, redundant, cancel);
+                let coupled = compiled.as_ref().map_or(Ok(Vec::new()), Compiled::coupled_parts);
+                let (compiled, said) = match coupled {
+                    Ok(coupled) if coupled.is_empty() => (compiled, said),
+                    Ok(coupled) => match self.model_with_coupled(coupled) {
+                        Some(model) => by_own_equations(self.compiled(&model, redundant, cancel)),
+                        None => (None, said),
+                    },
+                    Err(more) => {
+                        let mut said = said;
+                        said.extend(more);
+                        (None, said)
+                    }
+                };
                 (compiled.map(|compiled| compiled.with_signals(self.with_signals())), said)
             }
         }
+    }
+
+    fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
+        Compiled::of(self.sources().clone(), lower::lower(model), redundant, self.leading.clone(), cancel)
+    }
+
+    /// The model in which some parts ask for derivatives by their own equations though they move together with what is around them.
+    fn model_with_coupled(&self, coupled: Vec<String>) -> Option<Mechanism> {
+        let tree = &self.parsed.tree().mechanisms[self.number?];
+        let surroundings = Surroundings { coupled, ..(*self.surroundings).clone() };
+        check::check(tree, &surroundings, self.sources()).0
+    }
+}
+
+/// A mechanism whose parts are held to their own equations, unless these do not determine them.
+fn by_own_equations((compiled, mut said): (Option<Compiled>, Diagnostics)) -> (Option<Compiled>, Diagnostics) {
+    match compiled.as_ref().map(Compiled::coupled_parts) {
+        Some(Err(more)) => {
+            said.extend(more);
+            (None, said)
+        }
+        _ => (compiled, said),
     }
 }
 

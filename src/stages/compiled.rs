@@ -204,6 +204,14 @@ impl Compiled {
         &self.used_at
     }
 
+    /// The parts that ask for derivatives by their own equations and move together with what is around them.
+    ///
+    /// # Errors
+    /// Those that are not determined alone.
+    pub(super) fn coupled_parts(&self) -> Result<Vec<String>, Diagnostics> {
+        self.determined.coupled_parts()
+    }
+
     pub(crate) fn system(&self) -> &ConstraintSystem {
         self.determined.system()
     }

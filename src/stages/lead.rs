@@ -284,7 +284,9 @@ impl<'s> Starts<'s> {
         let given = Given::default();
         let by = Vec::new();
         let (lead, has_signals) = (None, false);
-        let surroundings = Surroundings { settings, library, files, given, by, bound: params, lead, has_signals };
+        let coupled = Vec::new();
+        let surroundings =
+            Surroundings { settings, library, files, given, by, bound: params, lead, has_signals, coupled };
         let alone = self.text_of(start).and_then(|tree| self.assembled(tree, surroundings)).map(Rc::new);
         if let Some(alone) = &alone {
             self.said.extend(alone.remarks.clone());

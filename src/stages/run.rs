@@ -188,7 +188,9 @@ impl Run {
         if self.has_stopped {
             return Some(Answers { values: vec![None; self.results], notes: Vec::new() });
         }
-        Some(asked.answer())
+        let Answers { values, notes } = asked.answer();
+        let notes = notes.into_iter().map(|note| self.used_at.tell(note)).collect();
+        Some(Answers { values, notes })
     }
 
     /// What there is to say beside the rows so far, each thing once.

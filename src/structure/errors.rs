@@ -3,7 +3,7 @@
 use super::Part;
 use super::count::table;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
+use crate::ir::{AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
 use rustc_hash::FxHashMap;
 
 /// Names that one message lists before it stops.
@@ -160,4 +160,39 @@ fn with_data(
         .datum("ndof", system.ndof())
         .datum("redundant", redundant)
         .datum("free", free)
+}
+
+/// A part whose text asks for derivatives by its own equations, which do not determine it.
+pub fn not_determined_alone(part: &AskingPart, rows: usize, columns: usize) -> Diagnostic {
+    let message =
+        format!("there is no derivative by the own equations of part `{}`, which is not determined alone", part.name);
+    let counts = format!("with its inputs held it has {columns} coordinates and {rows} equations of its own");
+    at_places(Diagnostic::new(Code::E0508, message), part)
+        .note(counts)
+        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
+        .datum("coordinates", columns)
+        .datum("equations", rows)
+}
+
+/// The same of a part that moves together with what is around it, where equations were left out.
+pub fn coupled_without_equations(part: &AskingPart) -> Diagnostic {
+    let message = format!(
+        "there is no derivative by the own equations of part `{}`, which moves together with what is around it",
+        part.name
+    );
+    at_places(Diagnostic::new(Code::E0508, message), part)
+        .note("equations were left out, and it cannot be told which of them the part would need alone")
+        .help(format!("take the derivative where the part is used: `der({}.…, NAME)`", part.name))
+}
+
+/// A message at the places where a part asks for derivatives, and where it is used.
+fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
+    for (k, place) in part.places.iter().take(LISTED).enumerate() {
+        let text = "by the equations of this mechanism alone";
+        diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
+    }
+    for (name, span) in &part.used_at {
+        diagnostic = diagnostic.also(*span, format!("in part `{name}`, used here"));
+    }
+    diagnostic
 }
