@@ -125,7 +125,7 @@ pub(super) struct Input {
     pub signals: Vec<String>,
 
     /// Samples of inputs: a CSV file with a column `t` and one for each input, units in brackets (`turn [deg]`), joined by natural
-    /// cubic splines
+    /// cubic splines; `-` is standard input
     #[arg(long, value_name = "FILE.csv")]
     pub samples: Option<PathBuf>,
 

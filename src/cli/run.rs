@@ -27,8 +27,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
-    let output = Output::open(&arguments.output, &reporter.sources)?;
-    let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.sources)?;
+    let output = Output::open(&arguments.output, &reporter.spared())?;
+    let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.spared())?;
     if format == TableFormat::Parquet && output.is_terminal() {
         return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
     }
