@@ -101,14 +101,20 @@ pub(crate) fn text_of(world: &dyn World, path: &Path, sources: &mut Sources) -> 
     take_in(&shown, &contents.bytes, sources)
 }
 
-/// Takes the text of what is named outside of texts in.
+/// Takes the rows of what is named outside of texts in.
 ///
 /// # Errors
 /// It cannot be read, or is no text.
-pub(crate) fn text_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+pub(crate) fn rows_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
     let shown = world.shown(path);
     let contents = world.given(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
-    take_in(&shown, &contents.bytes, sources)
+    take_in(&shown, &with_line_feeds(&contents.bytes), sources)
+}
+
+/// Lines that end in a carriage return alone, as some loggers and spreadsheets write them, end in a line feed then; no place is moved.
+fn with_line_feeds(bytes: &[u8]) -> Vec<u8> {
+    let is_alone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    (0..bytes.len()).map(|at| if is_alone(at) { b'\n' } else { bytes[at] }).collect()
 }
 
 /// Takes bytes in as a text, under a name.

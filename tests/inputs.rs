@@ -91,6 +91,44 @@ fn samples_are_joined_by_the_splines_of_tables() {
 }
 
 #[test]
+fn lines_may_end_in_carriage_returns() {
+    let of = |end: &str| {
+        let (choice, world) = told(&[], Some(&["t,turn", "0,0.5", "2,1.5", ""].join(end)));
+        rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world)
+    };
+    let wanted = of("\n").expect("rows");
+    assert!(of("\r") == Ok(wanted.clone()) && of("\r\n") == Ok(wanted));
+    // where the fault is, is told by lines as an editor shows them
+    let (choice, world) = told(&[], Some("t,turn\r0,0.5\r2,x\r"));
+    let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+    let fault = checked.diagnostics().iter().next().expect("a fault");
+    let span = fault.labels.first().expect("a place").span;
+    assert_eq!(checked.sources().get(span.file).position(span.start), (3, 3));
+}
+
+#[test]
+fn headers_of_samples_say_what_is_missing() {
+    let of = |header: &str| {
+        // a column that is none of an input's may hold anything
+        let (choice, world) = told(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
+        let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+        let told: Vec<String> = checked
+            .diagnostics()
+            .iter()
+            .map(|fault| format!("{} {}; {}", fault.code, fault.message, fault.help.join("; ")))
+            .collect();
+        told.join(" | ")
+    };
+    let no_input = |shown: &str, help: &str| format!("E0703 mechanism `machine` has no input `{shown}`; {help}");
+    assert_eq!(of("t,turn[deg]"), no_input("turn[deg]", "a unit stands behind a space: `turn [deg]`"));
+    assert_eq!(of("t,turn [deg"), no_input("turn [deg", "a unit stands between brackets: `turn [deg]`"));
+    assert_eq!(of("t,turn [deg] [rad]"), no_input("turn [deg] [rad]", "a column has one unit: `turn [deg]`"));
+    assert_eq!(of("t,note"), no_input("note", "its inputs are turn, feed"));
+    let no_times = "E0416 the samples have no column `t`; a unit stands behind a space: `t [ms]`";
+    assert_eq!(of("t[ms],turn"), no_times);
+}
+
+#[test]
 fn what_cannot_be_is_told() {
     let of = |inputs: &[&str], samples: Option<&str>| {
         let (choice, world) = told(inputs, samples);

@@ -398,7 +398,6 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     }
 }
 
-/// An input that the mechanism does not have, with the one meant.
 /// A param or input that is told from outside.
 pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], meant: Option<&str>) -> Diagnostic {
     let listed = match known {
@@ -407,6 +406,13 @@ pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], mea
     };
     Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
         .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
+}
+
+/// A column of samples whose header is no input, and was meant to be one with a unit.
+pub fn column_of_no_input(mechanism: &str, header: &str, span: Span, meant: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{header}`"))
+        .at(span, "the header of a column")
+        .help(meant)
 }
 
 pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {

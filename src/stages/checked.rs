@@ -317,7 +317,7 @@ fn given(choice: &Choice, world: &dyn World, sources: &mut Sources) -> Result<Gi
     let formulas = option.read(&choice.inputs, sources)?;
     let samples = match &choice.samples {
         None => None,
-        Some(path) => Some(world::text_given(world, path, sources).map_err(|why| *why)?),
+        Some(path) => Some(world::rows_given(world, path, sources).map_err(|why| *why)?),
     };
     Ok(Given { formulas, samples })
 }
