@@ -129,6 +129,23 @@ fn headers_of_samples_say_what_is_missing() {
 }
 
 #[test]
+fn a_formula_from_outside_names_no_part() {
+    let text = "mechanism r { input own = t / 1 s part a[k in 0..2]: lever() part b: lever(turn = own) }
+        mechanism lever { input turn = t / 1 s ground { point O = (0, 0) } body b { point O = (0, 0) }
+            joint j: revolute(ground.O, b.O) driver d: rotation(j) = turn }";
+    let of = |input: &str| {
+        let checked = Parsed::of("r.mech", text).check(&told(&[input], None).0, &Memory::default());
+        checked.diagnostics().iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join(" | ")
+    };
+    assert_eq!(of("own=2 * t / 1 s"), "");
+    assert_eq!(of("own=a[0]"), "expected a number, found a part");
+    assert_eq!(of("own=a[1].turn"), "expected a number, found something in a part");
+    assert_eq!(of("own=nobody[0]"), "nothing is repeated in this mechanism");
+    // what is told of a part's input is told by its path
+    assert_eq!(of("a[1].turn=3 mm"), "the input `a[1].turn` must be a pure number, found a length");
+}
+
+#[test]
 fn what_cannot_be_is_told() {
     let of = |inputs: &[&str], samples: Option<&str>| {
         let (choice, world) = told(inputs, samples);

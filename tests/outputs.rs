@@ -305,7 +305,7 @@ fn samples_come_from_standard_input_and_pipes() {
         let (code, out, said) = shell(path, command);
         assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {said}");
     }
-    let (code, _, said) = shell(path, "echo t,turm | mechc run a.mech --samples -");
+    let (code, _, said) = shell(path, "echo 't;turn' | mechc run a.mech --samples -");
     assert!(code == 1 && said.contains("<stdin>:1:1"), "{said}");
     let (code, _, said) = shell(path, "mechc run - --samples - < a.mech");
     assert!(code == 2 && said.contains("cannot be both the mechanism and the samples"), "{said}");
@@ -356,6 +356,8 @@ fn an_ending_says_the_form_or_is_refused() {
         let text = refused(path, &["emit", "a.mech", "-o", out], None);
         assert!(text.contains("`.rs`, `.tex` and `.json`"), "{text}");
     }
+    let text = refused(path, &["run", "a.mech", "--results", "x.txt"], None);
+    assert!(text.contains("as JSON alone") && !text.contains("--format"), "{text}");
     // whatever is wrong with the file, the ending is told first
     refused(path, &["run", "missing.mech", "-o", "x.xlsx"], None);
     let written = |arguments: &[&str], out: &str| {

@@ -190,7 +190,7 @@ impl Checker<'_> {
             && !wanted.is(found)
         {
             let part = Part { span: formula.span, dimension: found };
-            let place = format!("the input `{}`", name.text);
+            let place = format!("the input `{}{}`", self.path, name.text);
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
             return None;
         }
