@@ -9,6 +9,15 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
+/// No text is larger (bytes): places are counted in 32 bits, and what has no end, as `/dev/zero`, must be seen to have none.
+pub const LARGEST: usize = 1 << 30;
+
+/// Why a text beyond [`LARGEST`] is not read.
+#[must_use]
+pub fn too_large() -> io::Error {
+    io::Error::other(format!("it is larger than {} GiB", LARGEST >> 30))
+}
+
 /// What a file holds, as of a version.
 #[derive(Clone, Debug)]
 pub struct Contents {
@@ -25,6 +34,19 @@ pub trait World: Send + Sync {
     /// # Errors
     /// It is not there, or cannot be read.
     fn read(&self, path: &Path) -> io::Result<Contents>;
+
+    /// The contents of what is named outside of texts, by an option say, where more than files may be meant: standard input, a pipe.
+    ///
+    /// # Errors
+    /// It is not there, or cannot be read.
+    fn given(&self, path: &Path) -> io::Result<Contents> {
+        self.read(path)
+    }
+
+    /// What messages call that.
+    fn shown(&self, path: &Path) -> String {
+        path.to_string_lossy().into_owned()
+    }
 
     /// The names of the files in a folder, for a message that says what was probably meant; nothing where nobody can tell.
     fn names_in(&self, folder: &Path) -> Vec<String> {
@@ -79,13 +101,29 @@ pub(crate) fn text_of(world: &dyn World, path: &Path, sources: &mut Sources) -> 
     take_in(&shown, &contents.bytes, sources)
 }
 
+/// Takes the rows of what is named outside of texts in.
+///
+/// # Errors
+/// It cannot be read, or is no text.
+pub(crate) fn rows_given(world: &dyn World, path: &Path, sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
+    let shown = world.shown(path);
+    let contents = world.given(path).map_err(|error| Box::new(cannot_read(&shown, &error)))?;
+    take_in(&shown, &with_line_feeds(&contents.bytes), sources)
+}
+
+/// Lines that end in a carriage return alone, as some loggers and spreadsheets write them, end in a line feed then; no place is moved.
+fn with_line_feeds(bytes: &[u8]) -> Vec<u8> {
+    let is_alone = |at: usize| bytes[at] == b'\r' && bytes.get(at + 1) != Some(&b'\n');
+    (0..bytes.len()).map(|at| if is_alone(at) { b'\n' } else { bytes[at] }).collect()
+}
+
 /// Takes bytes in as a text, under a name.
 ///
 /// # Errors
 /// They are too many, or not UTF-8.
 pub(crate) fn take_in(shown: &str, bytes: &[u8], sources: &mut Sources) -> Result<FileId, Box<Diagnostic>> {
-    if bytes.len() > u32::MAX as usize {
-        return Err(Box::new(cannot_read(shown, &io::Error::other("it is larger than 4 GB"))));
+    if bytes.len() > LARGEST {
+        return Err(Box::new(cannot_read(shown, &too_large())));
     }
     match std::str::from_utf8(bytes) {
         Ok(text) => Ok(sources.add(shown, text)),
@@ -117,6 +155,9 @@ pub fn normalised(path: &Path) -> PathBuf {
 }
 
 pub(crate) fn cannot_read(name: &str, error: &io::Error) -> Diagnostic {
+    if name.is_empty() {
+        return Diagnostic::new(Code::E0701, "cannot read a file without a name");
+    }
     Diagnostic::new(Code::E0701, format!("cannot read `{name}`: {}", reason(error)))
 }
 

@@ -217,6 +217,7 @@ fn settings_are_checked() {
     assert!(failure(&["run", SLIDER_CRANK, "--set", "rod_length=60"], 2).contains("E0402"));
     assert!(failure(&["run", SLIDER_CRANK, "--mechanism", "slyder"], 2).contains("E0704"));
     assert!(failure(&["run", SLIDER_CRANK, "--every", "0"], 2).contains("E0706"));
+    assert!(failure(&["run", SLIDER_CRANK, "--every", "0", "--at", "0.1"], 2).contains("must be positive"));
     assert!(failure(&["run", SLIDER_CRANK, "--every", "1 mm"], 2).contains("E0402"));
     assert!(failure(&["run", SLIDER_CRANK, "--from", "1", "--to", "0.5"], 2).contains("before its start"));
     assert!(failure(&["run", SLIDER_CRANK, "--at=-1"], 2).contains("before the start"));

@@ -262,6 +262,9 @@ fn tables_are_beside_the_file_that_names_them() {
         ("b.mech", mechanism("b")),
     ];
     assert_eq!(said(&files), [""; 0]);
+    let named = checked(&files).named_files();
+    let named: Vec<_> = named.iter().map(|path| path.to_string_lossy()).collect();
+    assert_eq!(named, ["dir/../b.mech", "dir/way.csv"]);
 }
 
 // ---- names

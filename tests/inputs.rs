@@ -91,6 +91,61 @@ fn samples_are_joined_by_the_splines_of_tables() {
 }
 
 #[test]
+fn lines_may_end_in_carriage_returns() {
+    let of = |end: &str| {
+        let (choice, world) = told(&[], Some(&["t,turn", "0,0.5", "2,1.5", ""].join(end)));
+        rows(&machine(INPUTS, ["turn", "feed"]), &choice, &world)
+    };
+    let wanted = of("\n").expect("rows");
+    assert!(of("\r") == Ok(wanted.clone()) && of("\r\n") == Ok(wanted));
+    // where the fault is, is told by lines as an editor shows them
+    let (choice, world) = told(&[], Some("t,turn\r0,0.5\r2,x\r"));
+    let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+    let fault = checked.diagnostics().iter().next().expect("a fault");
+    let span = fault.labels.first().expect("a place").span;
+    assert_eq!(checked.sources().get(span.file).position(span.start), (3, 3));
+}
+
+#[test]
+fn headers_of_samples_say_what_is_missing() {
+    let of = |header: &str| {
+        // a column that is none of an input's may hold anything
+        let (choice, world) = told(&[], Some(&format!("{header}\n0,zero\n1,one\n")));
+        let checked = Parsed::of("machine.mech", &machine(INPUTS, ["turn", "feed"])).check(&choice, &world);
+        let told: Vec<String> = checked
+            .diagnostics()
+            .iter()
+            .map(|fault| format!("{} {}; {}", fault.code, fault.message, fault.help.join("; ")))
+            .collect();
+        told.join(" | ")
+    };
+    let no_input = |shown: &str, help: &str| format!("E0703 mechanism `machine` has no input `{shown}`; {help}");
+    assert_eq!(of("t,turn[deg]"), no_input("turn[deg]", "a unit stands behind a space: `turn [deg]`"));
+    assert_eq!(of("t,turn [deg"), no_input("turn [deg", "a unit stands between brackets: `turn [deg]`"));
+    assert_eq!(of("t,turn [deg] [rad]"), no_input("turn [deg] [rad]", "a column has one unit: `turn [deg]`"));
+    assert_eq!(of("t,note"), no_input("note", "its inputs are turn, feed"));
+    let no_times = "E0416 the samples have no column `t`; a unit stands behind a space: `t [ms]`";
+    assert_eq!(of("t[ms],turn"), no_times);
+}
+
+#[test]
+fn a_formula_from_outside_names_no_part() {
+    let text = "mechanism r { input own = t / 1 s part a[k in 0..2]: lever() part b: lever(turn = own) }
+        mechanism lever { input turn = t / 1 s ground { point O = (0, 0) } body b { point O = (0, 0) }
+            joint j: revolute(ground.O, b.O) driver d: rotation(j) = turn }";
+    let of = |input: &str| {
+        let checked = Parsed::of("r.mech", text).check(&told(&[input], None).0, &Memory::default());
+        checked.diagnostics().iter().map(|fault| fault.message.clone()).collect::<Vec<_>>().join(" | ")
+    };
+    assert_eq!(of("own=2 * t / 1 s"), "");
+    assert_eq!(of("own=a[0]"), "expected a number, found a part");
+    assert_eq!(of("own=a[1].turn"), "expected a number, found something in a part");
+    assert_eq!(of("own=nobody[0]"), "nothing is repeated in this mechanism");
+    // what is told of a part's input is told by its path
+    assert_eq!(of("a[1].turn=3 mm"), "the input `a[1].turn` must be a pure number, found a length");
+}
+
+#[test]
 fn what_cannot_be_is_told() {
     let of = |inputs: &[&str], samples: Option<&str>| {
         let (choice, world) = told(inputs, samples);

@@ -188,6 +188,159 @@ fn what_was_read_is_not_written_over() {
     assert!(fs::read_to_string(path.join("copy.csv")).unwrap().starts_with("t,"));
 }
 
+const LEVER: &str = "mechanism lever {
+    input turn = 60 rpm * t
+    ground { point O = (0, 0) }
+    body b { point O = (0, 0) }
+    joint j: revolute(ground.O, b.O)
+    driver d: rotation(j) = turn
+    result top = last(angle(b))
+    analysis from 0 s to 1 s every 0.5 s
+}
+";
+
+#[test]
+fn what_a_text_names_is_not_written_over() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::create_dir(path.join("below")).unwrap();
+    fs::write(path.join("lever.mech"), format!("use \"below/far.mech\"\n{LEVER}")).unwrap();
+    fs::write(path.join("below/far.mech"), "mechanism far { table way = spline \"far.csv\" }").unwrap();
+    for table in ["near.csv", "other.csv", "samples.csv", "below/far.csv"] {
+        fs::write(path.join(table), "t,turn\n0,0\n1,1\n2,4\n").unwrap();
+    }
+    let tables = "table near = spline \"near.csv\"";
+    let user = format!(
+        "use \"lever.mech\" as legs\nmechanism o {{ {tables} part a: legs.lever(turn = near(1) * t / 1 s) result top = a.top \
+         input more = t analysis from 0 s to 1 s every 0.5 s }}\n\
+         mechanism other {{ table other = spline \"other.csv\" table gone = spline \"gone.csv\" }}\n"
+    );
+    fs::write(path.join("o.mech"), user).unwrap();
+    std::os::unix::fs::symlink("near.csv", path.join("soft.csv")).unwrap();
+    // one that is not there yet is named all the same, and so is one of a mechanism that is not asked for
+    let named =
+        ["lever.mech", "near.csv", "soft.csv", "other.csv", "gone.csv", "below/far.mech", "below/../below/far.csv"];
+    for out in named {
+        let chosen = ["o.mech", "--mechanism", "o", "-o", out];
+        for command in [
+            &["run", "--format", "csv"][..],
+            &["run", "--format", "parquet"],
+            &["run", "--results", "r.json", "--format", "json"],
+            &["emit", "--format", "rust"],
+            &["emit", "--format", "latex"],
+            &["emit", "--format", "json"],
+            &["dump", "--stage", "ast"],
+            &["dump", "--stage", "model"],
+            &["dump", "--stage", "ir"],
+        ] {
+            refused(path, &[command, &chosen[..]].concat(), None);
+        }
+    }
+    // results have an ending of their own
+    fs::copy(path.join("near.csv"), path.join("near.json")).unwrap();
+    fs::write(path.join("j.mech"), LEVER.replacen('{', "{ table near = spline \"near.json\"", 1)).unwrap();
+    refused(path, &["run", "j.mech", "--results", "near.json", "-o", "new.csv"], None);
+    // samples that the command does not need
+    let samples = ["--samples", "samples.csv", "-o", "samples.csv"];
+    refused(path, &[&["dump", "lever.mech", "--stage", "ast"], &samples[..]].concat(), None);
+    refused(path, &[&["run", "lever.mech"], &samples[..]].concat(), None);
+    let written = mechc(path).args(["dump", "o.mech", "--stage", "ast", "-o", "new.mech"]).output().expect("it runs");
+    assert_eq!(written.status.code(), Some(0), "{}", String::from_utf8_lossy(&written.stderr));
+}
+
+// ---- pipes and devices
+
+/// A command of the shell, with what it says; one that takes too long is ended.
+fn shell(folder: &Path, command: &str) -> (i32, String, String) {
+    let mechc = env!("CARGO_BIN_EXE_mechc");
+    let limited = format!("mechc() {{ timeout 60 {mechc} \"$@\"; }}\n{command}");
+    let output = Command::new("bash").args(["-c", &limited]).current_dir(folder).output().expect("it runs");
+    let text = |bytes| String::from_utf8(bytes).expect("text");
+    (output.status.code().expect("it ends"), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn pipes_and_devices_are_written_as_it_comes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::write(path.join("a.mech"), LEVER).unwrap();
+    let (_, table, _) = shell(path, "mechc run a.mech");
+    assert!(table.starts_with("t,b.x,") && table.lines().count() == 4, "{table}");
+    for command in [
+        "mechc run a.mech -o /dev/stdout --format csv | cat",
+        "mechc run a.mech -o /dev/stdout",
+        "mechc run a.mech -o >(cat); sleep 0.3",
+        "mechc run a.mech -o /dev/fd/3 3>&1",
+        "mechc run a.mech -o /dev/stdout > f; cat f",
+        "mechc run a.mech -o /dev/fd/3 3> f; cat f",
+    ] {
+        let (code, out, said) = shell(path, command);
+        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {said}");
+    }
+    // what stands in a file already stays there
+    let (code, out, said) = shell(path, "{ echo before; mechc run a.mech -o /dev/stdout; echo behind; } > f; cat f");
+    assert_eq!((code, out), (0, format!("before\n{table}behind\n")), "{said}");
+    let (code, out, said) = shell(path, "mechc run a.mech -o t.csv --results /dev/stdout | cat");
+    assert_eq!((code, out.as_str()), (0, "{\"top\": 6.283185307179586}\n"), "{said}");
+    assert_eq!(fs::read_to_string(path.join("t.csv")).expect("a table"), table);
+    let (code, _, said) = shell(path, "mechc run a.mech --results /dev/stdout");
+    assert!(code == 2 && said.contains("would both go to standard output"), "{said}");
+}
+
+#[test]
+fn samples_come_from_standard_input_and_pipes() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    fs::write(path.join("a.mech"), LEVER).unwrap();
+    fs::write(path.join("s.csv"), "t,turn\n0,0\n1,1\n2,4\n").unwrap();
+    let (code, table, said) = shell(path, "mechc run a.mech --samples s.csv");
+    assert_eq!(code, 0, "{said}");
+    for command in [
+        "mechc run a.mech --samples - < s.csv",
+        "cat s.csv | mechc run a.mech --samples -",
+        "mechc run a.mech --samples <(cat s.csv)",
+        "mechc run - --samples s.csv < a.mech",
+        "mechc run <(cat a.mech) --samples s.csv",
+    ] {
+        let (code, out, said) = shell(path, command);
+        assert_eq!((code, out.as_str()), (0, table.as_str()), "{command}: {said}");
+    }
+    let (code, _, said) = shell(path, "echo 't;turn' | mechc run a.mech --samples -");
+    assert!(code == 1 && said.contains("<stdin>:1:1"), "{said}");
+    let (code, _, said) = shell(path, "mechc run - --samples - < a.mech");
+    assert!(code == 2 && said.contains("cannot be both the mechanism and the samples"), "{said}");
+}
+
+#[test]
+fn what_a_text_names_is_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path();
+    assert!(Command::new("mkfifo").arg(path.join("pipe")).status().expect("it runs").success());
+    for (named, why) in [
+        ("/dev/zero", "it is a pipe or a device, no file"),
+        ("pipe", "it is a pipe or a device, no file"),
+        (".", "is a directory"),
+    ] {
+        fs::write(path.join("use.mech"), format!("use \"{named}\"\n{LEVER}")).unwrap();
+        let table = format!("{{ table way = spline \"{named}\"");
+        fs::write(path.join("table.mech"), LEVER.replacen('{', &table, 1)).unwrap();
+        for (text, place) in [("use.mech", "use.mech:1:5"), ("table.mech", "table.mech:1:38")] {
+            let (code, _, said) = shell(path, &format!("mechc check {text}"));
+            let message = format!("cannot read `{named}`: {why}");
+            assert!(code == 1 && said.contains(&message) && said.contains(place), "{named} {text}: {code} {said}");
+        }
+    }
+    // what has no end is not read to its end
+    fs::write(path.join("a.mech"), LEVER).unwrap();
+    for command in ["mechc check /dev/zero", "mechc run a.mech --samples /dev/zero"] {
+        let (code, _, said) = shell(path, command);
+        assert!(
+            code == 4 && said.contains("cannot read `/dev/zero`: it is larger than 1 GiB"),
+            "{command}: {code} {said}"
+        );
+    }
+}
+
 // ---- endings
 
 #[test]
@@ -203,6 +356,8 @@ fn an_ending_says_the_form_or_is_refused() {
         let text = refused(path, &["emit", "a.mech", "-o", out], None);
         assert!(text.contains("`.rs`, `.tex` and `.json`"), "{text}");
     }
+    let text = refused(path, &["run", "a.mech", "--results", "x.txt"], None);
+    assert!(text.contains("as JSON alone") && !text.contains("--format"), "{text}");
     // whatever is wrong with the file, the ending is told first
     refused(path, &["run", "missing.mech", "-o", "x.xlsx"], None);
     let written = |arguments: &[&str], out: &str| {

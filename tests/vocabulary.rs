@@ -133,6 +133,33 @@ fn pages_are_text_of_one_form() {
 }
 
 #[test]
+fn pages_on_more_than_words_have_one_form_and_examples_that_run() {
+    let all: Vec<&str> = vocabulary::topics().collect();
+    assert!(["parts", "inputs", "samples", "files", "repetition", "by", "names"].iter().all(|name| all.contains(name)));
+    assert_eq!(vocabulary::page("range"), vocabulary::page("repetition"));
+    for name in all {
+        assert!(
+            vocabulary::words().all(|word| word.name != name) && !OVERVIEWS.contains(&name),
+            "{name} is a word too"
+        );
+        let page = vocabulary::page(name).expect("a page");
+        assert!(page.starts_with("# ") && page.ends_with('\n') && !page.contains("\n\n\n"), "{page}");
+        assert!(page.contains("\n## An example\n") && page.contains("\n## What to look at\n"), "{page}");
+        for line in page.lines() {
+            assert!(line.trim_end() == line && line.chars().count() <= 130, "{name}: {line:?}");
+        }
+        // what it speaks of besides has a page as well
+        for other in page.split("`mechc explain ").skip(1).filter_map(|rest| rest.split('`').next()) {
+            assert!(vocabulary::page(other).is_some() || other.starts_with('E'), "{name} speaks of {other}");
+        }
+        for block in page.split("```mech\n").skip(1).filter_map(|rest| rest.split("```").next()) {
+            let outcome = run("block.mech", block, Span::default()).expect_success();
+            assert!(!outcome.rows.is_empty(), "no rows of:\n{block}");
+        }
+    }
+}
+
+#[test]
 fn every_word_stands_in_the_list_of_its_kind() {
     let lists: String = OVERVIEWS.iter().map(|name| vocabulary::page(name).expect("a page")).collect();
     for word in vocabulary::words() {

@@ -47,9 +47,22 @@ pub fn unknown_number(what: &str, name: &Name, known: &[&str]) -> Diagnostic {
         return diagnostic.instead(Fix::meant(name.span, only));
     }
     match Synonym::of(Place::Unit, &name.text).filter(|_| name.text.len() > 1 && diagnostic.help.is_empty()) {
-        Some(synonym) => diagnostic.help(synonym.say(&[])),
+        Some(synonym) => match synonym.means {
+            // `turn` is rather an input that was forgotten than a unit
+            [unit @ "rev"] => diagnostic
+                .help(format!("the unit is `{unit}`; a number of that name is declared: `param {} = …`", name.text)),
+            _ => diagnostic.help(synonym.say(&[])),
+        },
         None => diagnostic,
     }
+}
+
+/// `--input turn=leg[0]`: a path in a formula from outside.
+pub fn path_from_outside(span: Span, owner: &str, noun: &str, is_whole: bool) -> Diagnostic {
+    let found = if is_whole { noun.to_owned() } else { format!("something in {noun}") };
+    wrong_kind(span, "a number", &found).help(format!(
+        "a formula from outside is of time and of params, functions and tables of the mechanism, not of `{owner}`"
+    ))
 }
 
 /// A name in the value of an option.
@@ -398,15 +411,21 @@ pub fn input_in(place: &str, name: &Name, in_an_input: bool) -> Diagnostic {
     }
 }
 
-/// An input that the mechanism does not have, with the one meant.
 /// A param or input that is told from outside.
 pub fn no_such_name(noun: &str, mechanism: &str, name: &str, known: &[&str], meant: Option<&str>) -> Diagnostic {
     let listed = match known {
         [] => format!("it has no {noun}s"),
-        _ => format!("its {noun}s are {}", known.join(", ")),
+        _ => format!("its {noun}s are {}", some_of(known)),
     };
     Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no {noun} `{name}`"))
         .help(meant.map_or(listed, |name| format!("was `{name}` meant?")))
+}
+
+/// A column of samples whose header is no input, and was meant to be one with a unit.
+pub fn column_of_no_input(mechanism: &str, header: &str, span: Span, meant: &str) -> Diagnostic {
+    Diagnostic::new(Code::E0703, format!("mechanism `{mechanism}` has no input `{header}`"))
+        .at(span, "the header of a column")
+        .help(meant)
 }
 
 pub fn input_told_twice(name: &str, places: [Span; 2]) -> Diagnostic {
@@ -928,6 +947,15 @@ pub fn empty(name: &Name) -> Diagnostic {
     Diagnostic::new(Code::E0501, format!("mechanism `{}` has no body that could move", name.text))
         .at(name.span, "empty")
         .help("declare a body: `body crank at (0, 0, 0) { … }`")
+}
+
+/// As many names as a message has room for.
+fn some_of(names: &[&str]) -> String {
+    const MOST: usize = 24;
+    match names.get(..MOST) {
+        Some(first) if names.len() > MOST => format!("{}, … ({} in all)", first.join(", "), names.len()),
+        _ => names.join(", "),
+    }
 }
 
 /// `a`, `b` and `c`.

@@ -238,7 +238,13 @@ impl Checker<'_> {
                 None
             }
             ExprKind::Path(segments) => {
-                self.report(errors::path_of_nothing(e.span, segments));
+                let text: String = self.sources.text(e.span).chars().filter(|c| !c.is_whitespace()).collect();
+                // those of the text have been written out; this one comes from outside
+                let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
+                self.report(match self.space.get(&owner) {
+                    Some(entity) => errors::path_from_outside(e.span, &owner, entity.noun(), owner == text),
+                    None => errors::path_of_nothing(e.span, segments),
+                });
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {

@@ -3,10 +3,10 @@
 use super::formula::{Context, Dim, Value};
 use super::lead::Needs;
 use super::rates::Part;
-use super::samples::{self, Column, Samples};
+use super::samples::{self, Column, Head, Samples};
 use super::told::is_told_by;
 use super::{Checker, errors};
-use crate::diag::nearest;
+use crate::diag::{Diagnostic, nearest};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Condition, ConditionKind, Input};
 use crate::source::{FileId, Span};
@@ -93,30 +93,38 @@ impl Checker<'_> {
     /// The samples given, if they can be used.
     pub(super) fn samples_given(&mut self) -> Option<Samples> {
         let file = self.given.samples?;
-        match samples::read(self.sources.get(file), file) {
-            Ok(samples) => {
-                let inputs = self.all_inputs();
-                for column in &samples.columns {
-                    self.has_an_input(column, &inputs);
-                }
-                Some(samples)
-            }
-            Err(faults) => {
-                for fault in faults {
-                    self.report(fault);
-                }
-                None
-            }
+        let sources = self.sources;
+        let headed = self.or_reported(samples::header(sources.get(file), file))?;
+        let inputs = self.all_inputs();
+        let faulty = headed.columns().filter(|head| !self.has_an_input(head, &inputs)).count();
+        match headed.rows() {
+            // a column of something else may well hold no numbers
+            Err(_) if faulty > 0 => None,
+            rows => self.or_reported(rows),
         }
     }
 
-    fn has_an_input(&mut self, column: &Column, inputs: &[(String, Option<Span>)]) {
-        if !self.look_over_name(Settable::Column, &column.name, column.span, inputs, |full| full == column.name) {
-            return;
+    /// What there is, or its faults reported.
+    fn or_reported<T>(&mut self, found: Result<T, Vec<Diagnostic>>) -> Option<T> {
+        found.map_err(|faults| faults.into_iter().for_each(|fault| self.report(fault))).ok()
+    }
+
+    /// Whether a column is of an input that can be told so.
+    fn has_an_input(&mut self, head: &Head<'_>, inputs: &[(String, Option<Span>)]) -> bool {
+        let path = head.path();
+        if let Some(meant) = head.meant().filter(|_| !inputs.iter().any(|(full, _)| *full == path)) {
+            let written = self.sources.text(head.span).trim_matches('"');
+            self.report(errors::column_of_no_input(&self.tree.name.text, written, head.span, &meant));
+            return false;
         }
-        if let Some((_, formula)) = self.given.formulas.iter().find(|(told, _)| is_told_by(&column.name, told)) {
-            self.report(errors::input_told_twice(&column.name, [column.span, formula.span]));
+        if !self.look_over_name(Settable::Column, &path, head.span, inputs, |full| full == path) {
+            return false;
         }
+        let twice = self.given.formulas.iter().find(|(told, _)| is_told_by(&path, told));
+        if let Some((_, formula)) = twice {
+            self.report(errors::input_told_twice(&path, [head.span, formula.span]));
+        }
+        twice.is_none()
     }
 
     /// What an input is; of a part whose user says what it is, its own formula gives its dimension.
@@ -184,7 +192,7 @@ impl Checker<'_> {
             && !wanted.is(found)
         {
             let part = Part { span: formula.span, dimension: found };
-            let place = format!("the input `{}`", name.text);
+            let place = format!("the input `{}{}`", self.path, name.text);
             self.report(errors::wrong_dimension(&place, wanted, part, self.sources.text(formula.span)));
             return None;
         }

@@ -643,7 +643,7 @@ impl<'a> Checker<'a> {
                 let given = self.param_value(&setting.value, Context { names: false, ..context })?;
                 match (in_file.dim, given.dim) {
                     (Dim::Of(wanted), Dim::Of(found)) if !wanted.is(found) => {
-                        let place = format!("the parameter `{}`", name.text);
+                        let place = format!("the parameter `{}{}`", self.path, name.text);
                         let part = rates::Part { span: setting.value.span, dimension: found };
                         self.report(errors::wrong_dimension(
                             &place,

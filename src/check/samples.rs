@@ -32,9 +32,11 @@ struct Cell<'a> {
 }
 
 /// What a header says of a column.
-struct Head<'a> {
-    name: &'a str,
-    span: Span,
+pub(super) struct Head<'a> {
+    /// As it is written.
+    pub name: &'a str,
+    /// Of its cell.
+    pub span: Span,
     unit: Option<CompoundUnit>,
 }
 
@@ -56,60 +58,159 @@ fn unit_named(text: &str) -> Option<CompoundUnit> {
     }
 }
 
-/// Reads samples; blank lines are passed over.
+/// The first line of samples, with what follows it.
+pub(super) struct Headed<'a> {
+    source: &'a Source,
+    file: FileId,
+    heads: Vec<Head<'a>>,
+    /// The number of the column of times.
+    at: usize,
+}
+
+/// Reads the first line of samples.
 ///
 /// # Errors
-/// What is wrong with them, each kind of fault once.
-pub(super) fn read(source: &Source, file: FileId) -> Result<Samples, Vec<Diagnostic>> {
-    let mut lines = lines(source, file);
-    let Some(header) = lines.next() else {
+/// What is wrong with it.
+pub(super) fn header(source: &Source, file: FileId) -> Result<Headed<'_>, Vec<Diagnostic>> {
+    let Some(line) = lines(source, file).next() else {
         let nothing = Span { file, start: 0, end: 0 };
         return Err(vec![fault(Code::E0413, "the samples are empty", nothing, "two rows are needed at least")]);
     };
-    let heads = header.iter().map(head).collect::<Result<Vec<_>, _>>().map_err(|fault| vec![*fault])?;
-    let at = time_column(&heads, &header)?;
-    let mut columns: Vec<Vec<f64>> = vec![Vec::new(); heads.len()];
-    let mut rows: Vec<Span> = Vec::new();
-    for cells in lines {
-        let row = row_of(&cells, &heads)?;
-        for (column, (value, head)) in columns.iter_mut().zip(row.into_iter().zip(&heads)) {
-            column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
-        }
-        rows.push(cells[at].span);
+    let one = |fault: Box<Diagnostic>| vec![*fault];
+    line.has_commas().map_err(one)?;
+    let cells = line.cells().map_err(one)?;
+    let heads = cells.iter().map(head).collect::<Result<Vec<_>, _>>().map_err(one)?;
+    let at = time_column(&heads, line.span)?;
+    if heads.len() == 1 {
+        let help = "each input that is told has a column of its own, behind a comma: `t,turn [deg]`";
+        return Err(vec![fault(Code::E0416, "the samples are of no input", line.span, "times alone").help(help)]);
     }
-    let times = columns.remove(at);
-    rising(&times, &rows, heads[at].span)?;
-    let others = heads.iter().enumerate().filter(|(k, _)| *k != at).map(|(_, head)| head);
-    let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
-        // the numbers of a copy may be written with spaces
-        name: super::normalized(head.name).chars().filter(|c| !c.is_whitespace()).collect(),
-        span: head.span,
-        dimension: head.unit.as_ref().map(CompoundUnit::dimension),
-        values,
-    };
-    Ok(Samples { times, columns: others.zip(columns).map(column).collect() })
+    Ok(Headed { source, file, heads, at })
 }
 
-/// The cells of the lines that hold something.
-fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Vec<Cell<'_>>> {
+impl<'a> Headed<'a> {
+    /// The columns but for that of the times.
+    pub fn columns(&self) -> impl Iterator<Item = &Head<'a>> {
+        self.heads.iter().enumerate().filter(|(k, _)| *k != self.at).map(|(_, head)| head)
+    }
+
+    /// Reads the rows; blank lines are passed over.
+    ///
+    /// # Errors
+    /// What is wrong with them.
+    pub fn rows(&self) -> Result<Samples, Vec<Diagnostic>> {
+        let mut values: Vec<Vec<f64>> = vec![Vec::new(); self.heads.len()];
+        let mut rows: Vec<Span> = Vec::new();
+        for line in lines(self.source, self.file).skip(1) {
+            let cells = line.cells().map_err(|fault| vec![*fault])?;
+            let row = row_of(&line, &cells, &self.heads)?;
+            for (column, (value, head)) in values.iter_mut().zip(row.into_iter().zip(&self.heads)) {
+                column.push(head.unit.as_ref().map_or(value, |unit| unit.to_si(value)));
+            }
+            rows.push(cells[self.at].span);
+        }
+        let times = values.remove(self.at);
+        rising(&times, &rows, self.heads[self.at].span)?;
+        let column = |(head, values): (&Head<'_>, Vec<f64>)| Column {
+            name: head.path(),
+            span: head.span,
+            dimension: head.unit.as_ref().map(CompoundUnit::dimension),
+            values,
+        };
+        Ok(Samples { times, columns: self.columns().zip(values).map(column).collect() })
+    }
+}
+
+impl Head<'_> {
+    /// The input that it is of; the numbers of a copy may be written with spaces.
+    pub fn path(&self) -> String {
+        super::normalized(self.name).chars().filter(|c| !c.is_whitespace()).collect()
+    }
+
+    /// What is to be written, where its brackets are not as a unit's.
+    pub fn meant(&self) -> Option<String> {
+        let (name, rest) = self.name.rsplit_once('[')?;
+        let text = rest.strip_suffix(']').unwrap_or(rest).trim();
+        unit_named(text)?;
+        let why = match (&self.unit, rest.ends_with(']')) {
+            (Some(_), _) => "a column has one unit",
+            (None, true) => "a unit stands behind a space",
+            (None, false) => "a unit stands between brackets",
+        };
+        Some(format!("{why}: `{} [{text}]`", name.trim()))
+    }
+}
+
+/// A line that holds something, without the white space around it.
+struct Line<'a> {
+    text: &'a str,
+    span: Span,
+}
+
+/// The lines that hold something.
+fn lines(source: &Source, file: FileId) -> impl Iterator<Item = Line<'_>> {
     let mut at = 0;
     source.text.split('\n').filter_map(move |line| {
-        let start = at;
+        let start = at + (line.len() - line.trim_start().len());
         at += line.len() + 1;
-        (!line.trim().is_empty()).then(|| cells(line, start, file))
+        let text = line.trim();
+        let span = Span { file, start: start as u32, end: (start + text.len()) as u32 };
+        (!text.is_empty()).then_some(Line { text, span })
     })
 }
 
-fn cells(line: &str, start: usize, file: FileId) -> Vec<Cell<'_>> {
-    let (mut from, mut cells) = (start, Vec::new());
-    for part in between_commas(line) {
-        let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
-        let span = Span { file, start: begin as u32, end: (begin + text.len()) as u32 };
-        cells.push(Cell { text: text.trim_matches('"'), span });
-        from += part.len() + 1;
+impl<'a> Line<'a> {
+    /// What stands between its commas.
+    ///
+    /// # Errors
+    /// A quote is not closed.
+    fn cells(&self) -> Result<Vec<Cell<'a>>, Box<Diagnostic>> {
+        let (mut from, mut cells) = (self.span.start as usize, Vec::new());
+        for part in between_commas(self.text) {
+            let (begin, text) = (from + (part.len() - part.trim_start().len()), part.trim());
+            let span = Span { start: begin as u32, end: (begin + text.len()) as u32, ..self.span };
+            if text.matches('"').count() % 2 == 1 {
+                let help = "a cell in quotes ends with a quote in its line";
+                return Err(Box::new(
+                    fault(Code::E0416, "a quote of the samples is not closed", span, "opened here").help(help),
+                ));
+            }
+            cells.push(Cell { text: text.trim_matches('"'), span });
+            from += part.len() + 1;
+        }
+        Ok(cells)
     }
-    cells
+
+    /// Whether something else than commas parts its cells.
+    fn other_separator(&self) -> Option<&'static str> {
+        const OTHERS: [(char, &str); 2] = [(';', "semicolons"), ('\t', "tabs")];
+        let found = OTHERS.iter().find(|(separator, _)| self.text.contains(*separator));
+        let is_spaced = || {
+            !self.text.contains(',') && self.text.split(' ').skip(1).any(|word| word == "t")
+                || self.text.strip_prefix("t ").is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic()))
+        };
+        found.map(|(_, name)| *name).or_else(|| is_spaced().then_some("spaces"))
+    }
+
+    /// Looks at the first line for columns.
+    ///
+    /// # Errors
+    /// Something else than commas is between them.
+    fn has_commas(&self) -> Result<(), Box<Diagnostic>> {
+        match self.other_separator().filter(|_| !self.text.contains(',')) {
+            Some(found) => Err(Box::new(self.separated_by(found))),
+            None => Ok(()),
+        }
+    }
+
+    fn separated_by(&self, found: &str) -> Diagnostic {
+        let message = format!("the samples are separated by {found}");
+        fault(Code::E0416, &message, self.span, &format!("{found}, and no commas")).help(SEPARATORS)
+    }
 }
+
+/// How columns and numbers are written.
+const SEPARATORS: &str = "columns are separated by commas, and decimals written with a point";
 
 /// `NAME` or `NAME [UNIT]`
 fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
@@ -125,7 +226,7 @@ fn head<'a>(cell: &Cell<'a>) -> Result<Head<'a>, Box<Diagnostic>> {
 }
 
 /// The number of the column of times.
-fn time_column(heads: &[Head<'_>], header: &[Cell<'_>]) -> Result<usize, Vec<Diagnostic>> {
+fn time_column(heads: &[Head<'_>], line: Span) -> Result<usize, Vec<Diagnostic>> {
     for (k, head) in heads.iter().enumerate() {
         if let Some(first) = heads[..k].iter().find(|other| other.name == head.name) {
             let message = format!("column `{}` stands there twice", head.name);
@@ -133,10 +234,10 @@ fn time_column(heads: &[Head<'_>], header: &[Cell<'_>]) -> Result<usize, Vec<Dia
         }
     }
     let Some(at) = heads.iter().position(|head| head.name == "t") else {
-        let whole = header.first().zip(header.last()).map(|(first, last)| first.span.to(last.span));
-        let whole = whole.unwrap_or(Span { file: heads[0].span.file, start: 0, end: 0 });
-        let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs";
-        return Err(vec![fault(Code::E0416, "the samples have no column `t`", whole, "the first line").help(help)]);
+        let help = "the first line names the columns: `t` or `t [ms]` for the times, and the inputs".to_owned();
+        let is_time = |head: &&Head<'_>| head.name.split('[').next().is_some_and(|name| name.trim() == "t");
+        let help = heads.iter().find(is_time).and_then(Head::meant).unwrap_or(help);
+        return Err(vec![fault(Code::E0416, "the samples have no column `t`", line, "the first line").help(help)]);
     };
     match heads[at].unit.as_ref().map(CompoundUnit::dimension) {
         Some(dimension) if !dimension.is(Dimension::TIME) => {
@@ -148,13 +249,14 @@ fn time_column(heads: &[Head<'_>], header: &[Cell<'_>]) -> Result<usize, Vec<Dia
 }
 
 /// The numbers of a line.
-fn row_of(cells: &[Cell<'_>], heads: &[Head<'_>]) -> Result<Vec<f64>, Vec<Diagnostic>> {
-    if let (Some(first), Some(last)) = (cells.first(), cells.last())
-        && cells.len() != heads.len()
-    {
-        let message = format!("a row of samples has {} cells, and the first line {}", cells.len(), heads.len());
-        let help = "columns are separated by commas, and decimals written with a point";
-        return Err(vec![fault(Code::E0416, &message, first.span.to(last.span), "this row").help(help)]);
+fn row_of(line: &Line<'_>, cells: &[Cell<'_>], heads: &[Head<'_>]) -> Result<Vec<f64>, Vec<Diagnostic>> {
+    if cells.len() != heads.len() {
+        if let Some(found) = line.other_separator().filter(|_| cells.len() == 1) {
+            return Err(vec![line.separated_by(found)]);
+        }
+        let count = if cells.len() == 1 { "1 cell".to_owned() } else { format!("{} cells", cells.len()) };
+        let message = format!("a row of samples has {count}, and the first line {}", heads.len());
+        return Err(vec![fault(Code::E0416, &message, line.span, "this row").help(SEPARATORS)]);
     }
     let value = |(cell, head): (&Cell<'_>, &Head<'_>)| {
         number(cell.text).ok_or_else(|| {
@@ -187,13 +289,13 @@ fn fault(code: Code, message: &str, span: Span, label: &str) -> Diagnostic {
 
 #[cfg(test)]
 mod tests {
-    use super::{Samples, read};
+    use super::{Samples, header};
     use crate::source::Sources;
 
     fn of(text: &str) -> Result<Samples, String> {
         let mut sources = Sources::default();
         let file = sources.add("samples.csv", text);
-        read(sources.get(file), file).map_err(|faults| faults[0].message.clone())
+        header(sources.get(file), file).and_then(|headed| headed.rows()).map_err(|faults| faults[0].message.clone())
     }
 
     #[test]
@@ -220,5 +322,14 @@ mod tests {
         assert_eq!(fault("t [mm],turn\n0,1\n1,2\n"), "the times of samples are a time, found a length");
         assert_eq!(fault("t,turn [degs]\n0,1\n1,2\n"), "`degs` is not a unit");
         assert_eq!(fault("t,turn,turn\n0,1,2\n"), "column `turn` stands there twice");
+        assert_eq!(fault("t\n0\n1\n"), "the samples are of no input");
+        for quotes in ["t,\"turn\n0,1\n1,2\n", "t,turn\n0,1\n1,\"2\n"] {
+            assert_eq!(fault(quotes), "a quote of the samples is not closed");
+        }
+        assert_eq!(fault("t;turn [deg]\n0;0,5\n1;2\n"), "the samples are separated by semicolons");
+        assert_eq!(fault("t\tturn\n0\t1\n1\t2\n"), "the samples are separated by tabs");
+        assert_eq!(fault("t turn\n0 1\n1 2\n"), "the samples are separated by spaces");
+        assert_eq!(fault("turn [deg] t\n0 1\n1 2\n"), "the samples are separated by spaces");
+        assert_eq!(fault("t,turn\n0;1\n1;2\n"), "the samples are separated by semicolons");
     }
 }

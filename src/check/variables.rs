@@ -12,7 +12,7 @@ use crate::diag::nearest;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Declared, Named, Variable};
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
+use crate::syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How many variables a formula may be differentiated by, one after the other, and how often by time then.
@@ -275,17 +275,26 @@ impl Checker<'_> {
 
     fn no_column_by(&mut self, told: &str) {
         let whole = told.rsplit_once('.').map_or(told, |(point, _)| point);
-        let known = || self.space.names(|entity| matches!(entity, Entity::Param(_) | Entity::Input(_)));
+        let free = self.settable_names(|item| match item {
+            ItemKind::Param { name, .. } | ItemKind::Input { name, .. } => Some(name),
+            _ => None,
+        });
+        let known: Vec<&str> = free
+            .iter()
+            .filter(|(_, binding)| binding.is_none())
+            .map(|(name, _)| name.as_str())
+            .filter(|name| !self.deciding.contains(*name))
+            .collect();
         let diagnostic = match self.space.get(told).or_else(|| self.space.get(whole)) {
             Some(Entity::Param(_)) if self.deciding.contains(whole) => errors::column_by_deciding(told),
             Some(Entity::Param(_) | Entity::Input(_)) if self.diagnostics.has_errors() => return,
             Some(Entity::Param(_) | Entity::Input(_)) => {
-                errors::no_column_by(&self.tree.name.text, told, None, Some(whole))
+                errors::no_column_by(&self.tree.name.text, told, None, Some(whole), &known)
             }
-            Some(entity) => errors::no_column_by(&self.tree.name.text, told, Some(entity.noun()), None),
+            Some(entity) => errors::no_column_by(&self.tree.name.text, told, Some(entity.noun()), None, &known),
             None => {
-                let meant = nearest(told, known());
-                errors::no_column_by(&self.tree.name.text, told, None, meant)
+                let meant = nearest(told, known.iter().copied());
+                errors::no_column_by(&self.tree.name.text, told, None, meant, &known)
             }
         };
         self.report(diagnostic);

@@ -98,7 +98,7 @@ pub(super) enum Command {
         that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.\n\n\
         The page of a word says how it is written, what it means (a joint's equations, a unit's value in SI), shows a mechanism \
         with it, and says what others call it. `functions`, `motions`, `quantities`, `joints`, `units`, `keywords` and `constants` \
-        list them.",
+        list them; `parts`, `inputs`, `samples`, `files`, `repetition`, `by` and `names` are pages on more than a word.",
         after_help = "Examples:\n  mechc explain E0203\n  mechc explain step5\n  mechc explain joints | less\n  mechc explain"
     )]
     Explain(ExplainArguments),
@@ -125,7 +125,7 @@ pub(super) struct Input {
     pub signals: Vec<String>,
 
     /// Samples of inputs: a CSV file with a column `t` and one for each input, units in brackets (`turn [deg]`), joined by natural
-    /// cubic splines
+    /// cubic splines; `-` is standard input
     #[arg(long, value_name = "FILE.csv")]
     pub samples: Option<PathBuf>,
 

@@ -2,7 +2,7 @@
 
 use super::arguments::{DumpArguments, Stage};
 use super::failure::Failure;
-use super::files::Output;
+use super::files::{Disk, Output};
 use super::input;
 use super::report::Reporter;
 
@@ -10,11 +10,12 @@ pub(super) fn dump(arguments: &DumpArguments, reporter: &mut Reporter) -> Result
     let text = match arguments.stage {
         Stage::Ast => {
             let parsed = input::parsed(&arguments.input, reporter)?;
+            reporter.named.extend(parsed.named_files(&Disk));
             parsed.formatted().ok_or_else(|| parsed.faults().clone())?
         }
         Stage::Model => input::model(&arguments.input, reporter)?.model_text().unwrap_or_default(),
         // the equations can be looked at even where they are too many or too few
         Stage::Ir => input::model(&arguments.input, reporter)?.equations_text().unwrap_or_default(),
     };
-    Output::write(&arguments.output, &text, &reporter.sources)
+    Output::write(&arguments.output, &text, &reporter.spared())
 }

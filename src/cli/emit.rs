@@ -49,7 +49,7 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
         EmitFormat::Latex => compiled.latex(&file),
         EmitFormat::Json => compiled.json(&file),
     };
-    Output::write(&arguments.output, &text, &reporter.sources)
+    Output::write(&arguments.output, &text, &reporter.spared())
 }
 
 /// A crate: where the motion stops on its way, it is written with what there is, as a table is.
@@ -60,7 +60,7 @@ fn package(compiled: &Compiled, folder: &str, options: &RustOptions, reporter: &
         return Err(said.into());
     };
     let texts = crate_files.iter().map(|file| (file.path, file.text.as_str()));
-    files::write_all(folder, texts, MARK, &reporter.sources)?;
+    files::write_all(folder, texts, MARK, &reporter.spared())?;
     if said.has_errors() {
         return Err(said.into());
     }

@@ -4,7 +4,7 @@ use super::arguments::ExplainArguments;
 use super::failure::Failure;
 use super::files;
 use crate::diag::{Code, Diagnostic, nearest};
-use crate::vocabulary::{self, OVERVIEWS, Synonym};
+use crate::vocabulary::{self, OVERVIEWS, Synonym, topics};
 
 pub(super) fn explain(arguments: &ExplainArguments) -> Result<(), Failure> {
     match &arguments.name {
@@ -40,7 +40,7 @@ fn unknown(name: &str) -> Diagnostic {
             diagnostic.help(if pages.is_empty() { say } else { format!("{say}{end} see {}", pages.join(" and ")) })
         });
     }
-    let words = vocabulary::words().map(|word| word.name).chain(OVERVIEWS.iter().copied());
+    let words = vocabulary::words().map(|word| word.name).chain(OVERVIEWS.iter().copied()).chain(topics());
     let code = nearest(&name.to_uppercase(), Code::ALL.iter().map(|code| code.as_str()));
     if ["comment", "comments", "//", "///", "#"].contains(&name) {
         return diagnostic
@@ -50,7 +50,9 @@ fn unknown(name: &str) -> Diagnostic {
     let near = |meant: &&str| name.chars().count() > 5 || name.chars().next() == meant.chars().next();
     match code.or_else(|| nearest(name, words).filter(near)) {
         Some(meant) => diagnostic.help(format!("was `{meant}` meant? `mechc explain` lists all codes")),
-        None => diagnostic.help(format!("`mechc explain` lists all codes; the words are listed by {}", overviews())),
+        None => diagnostic
+            .help(format!("`mechc explain` lists all codes; the words are listed by {}", overviews()))
+            .help(format!("there are pages on {}", topics().collect::<Vec<_>>().join(", "))),
     }
 }
 

@@ -2,15 +2,13 @@
 
 use super::failure::Failure;
 use super::interrupts;
+use super::spared::{STANDARD_INPUT, Spared};
 use crate::diag::{Code, Diagnostic};
 use crate::source::{FileId, Sources};
 use crate::world::{self, Contents, World};
-use std::fs::{self, File};
+use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
-
-/// What standard input is called in messages.
-const STANDARD_INPUT: &str = "<stdin>";
 
 /// The text of a file, or of standard input for `-`.
 pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure> {
@@ -19,15 +17,34 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
 
 /// As [`read`], and whether the text begins with a byte-order mark.
 pub(super) fn read_with_mark(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
-    let (shown, bytes) = if name == "-" {
-        let mut bytes = Vec::new();
-        (STANDARD_INPUT, io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes))
-    } else {
-        (name, fs::read(name))
-    };
-    let bytes = bytes.map_err(|error| world::cannot_read(shown, &error))?;
+    let (path, shown) = (Path::new(name), Disk.shown(Path::new(name)));
+    let bytes = given(path).map_err(|error| world::cannot_read(&shown, &error))?;
     let has_mark = bytes.starts_with("\u{feff}".as_bytes());
-    world::take_in(shown, &bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
+    world::take_in(&shown, &bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
+}
+
+/// The bytes of what the user named: of standard input for `-`, of a file, a pipe or a device.
+fn given(path: &Path) -> io::Result<Vec<u8>> {
+    if path == Path::new("-") { up_to_the_largest(io::stdin().lock()) } else { up_to_the_largest(File::open(path)?) }
+}
+
+/// The bytes of what a text names: of a file, for what is none may have no end, or wait for somebody to write.
+fn named(path: &Path) -> io::Result<Vec<u8>> {
+    let found = fs::metadata(path)?;
+    if found.is_dir() {
+        return Err(io::ErrorKind::IsADirectory.into());
+    }
+    if !found.is_file() {
+        return Err(io::Error::other("it is a pipe or a device, no file"));
+    }
+    up_to_the_largest(File::open(path)?)
+}
+
+/// All bytes that come, unless they are more than any text has.
+fn up_to_the_largest(from: impl Read) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    from.take(world::LARGEST as u64 + 1).read_to_end(&mut bytes)?;
+    if bytes.len() > world::LARGEST { Err(world::too_large()) } else { Ok(bytes) }
 }
 
 /// The files of this machine.
@@ -35,7 +52,15 @@ pub(super) struct Disk;
 
 impl World for Disk {
     fn read(&self, path: &Path) -> io::Result<Contents> {
-        Ok(Contents { bytes: fs::read(path)?.into(), version: 0 })
+        Ok(Contents { bytes: named(path)?.into(), version: 0 })
+    }
+
+    fn given(&self, path: &Path) -> io::Result<Contents> {
+        Ok(Contents { bytes: given(path)?.into(), version: 0 })
+    }
+
+    fn shown(&self, path: &Path) -> String {
+        if path == Path::new("-") { STANDARD_INPUT.to_owned() } else { path.to_string_lossy().into_owned() }
     }
 
     fn names_in(&self, folder: &Path) -> Vec<String> {
@@ -59,7 +84,7 @@ fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
 /// Where results go: standard output, or a file that is replaced whole at the end.
 pub(super) enum Destination {
     Standard(io::Stdout),
-    /// Something that is no file, `/dev/null` say: written as it comes.
+    /// A device or a pipe, `/dev/null` say: written as it comes.
     Device(File),
     File {
         temporary: tempfile::NamedTempFile,
@@ -93,24 +118,22 @@ impl Write for Destination {
 
 /// Prints a text to standard output.
 pub(super) fn print(text: &str) -> Result<(), Failure> {
-    Output::write("-", text, &Sources::default())
+    Output::write("-", text, &Spared::default())
 }
 
 impl Output {
-    /// Opens it, unless it is one of the files that were read; a file's place is tried at once, so that no work is done for
+    /// Opens it, unless it is one of the files that are to stay; a file's place is tried at once, so that no work is done for
     /// nothing.
-    pub fn open(name: &str, sources: &Sources) -> Result<Output, Failure> {
-        spare_inputs(name, sources)?;
-        let destination =
-            if name == "-" { Ok(Destination::Standard(io::stdout())) } else { Destination::beside(Path::new(name)) };
-        let destination = destination.map_err(|error| cannot_write(name, &error))?;
+    pub fn open(name: &str, spared: &Spared<'_>) -> Result<Output, Failure> {
+        spared.refuse(name)?;
+        let destination = Destination::of(name).map_err(|error| cannot_write(name, &error))?;
         let name = if name == "-" { "standard output" } else { name };
         Ok(Output { name: name.to_owned(), writer: BufWriter::with_capacity(1 << 16, destination) })
     }
 
     /// Writes a whole text.
-    pub fn write(name: &str, text: &str, sources: &Sources) -> Result<(), Failure> {
-        let mut output = Output::open(name, sources)?;
+    pub fn write(name: &str, text: &str, spared: &Spared<'_>) -> Result<(), Failure> {
+        let mut output = Output::open(name, spared)?;
         if let Err(error) = output.writer.write_all(text.as_bytes()) {
             return Err(output.failure(&error));
         }
@@ -119,7 +142,7 @@ impl Output {
 
     /// Writes a whole text in the place of the one that was read there.
     pub fn replace(name: &str, text: &str) -> Result<(), Failure> {
-        Output::write(name, text, &Sources::default())
+        Output::write(name, text, &Spared::default())
     }
 
     /// Whether it is standard output, and that a terminal.
@@ -186,43 +209,13 @@ fn put_in_place(files: impl IntoIterator<Item = Written>) -> Result<(), Failure>
     Ok(())
 }
 
-/// Refuses to write over a file that was read, by whatever path or link.
-fn spare_inputs(name: &str, sources: &Sources) -> Result<(), Failure> {
-    let Some(own) = identity(Path::new(name)) else {
-        return Ok(());
-    };
-    let read = sources.iter().filter(|source| !source.is_option);
-    let path = |shown: &str| if shown == STANDARD_INPUT { "/dev/stdin".to_owned() } else { shown.to_owned() };
-    let found =
-        read.map(|source| source.name.as_str()).find(|shown| identity(Path::new(&path(shown))).as_ref() == Some(&own));
-    let Some(shown) = found else {
-        return Ok(());
-    };
-    let same = if shown == name { String::new() } else { format!(": it is `{shown}`") };
-    Err(Diagnostic::new(Code::E0706, format!("`{name}` would be written over, and was read{same}"))
-        .help("name another output; nothing was touched")
-        .into())
-}
-
-/// What tells a file from all others, whichever links lead to it; what is no file has none.
-#[cfg(unix)]
-fn identity(path: &Path) -> Option<(u64, u64)> {
-    use std::os::unix::fs::MetadataExt;
-    path.metadata().ok().filter(fs::Metadata::is_file).map(|found| (found.dev(), found.ino()))
-}
-
-#[cfg(not(unix))]
-fn identity(path: &Path) -> Option<PathBuf> {
-    path.canonicalize().ok().filter(|path| path.is_file())
-}
-
 /// Writes files into a folder, which is made if it is not there: all of them or none. A file that is there already is replaced only
 /// if it holds the mark.
 pub(super) fn write_all<'f>(
     folder: &str,
     files: impl Iterator<Item = (&'f str, &'f str)>,
     mark: &str,
-    sources: &Sources,
+    spared: &Spared<'_>,
 ) -> Result<(), Failure> {
     let files: Vec<(PathBuf, &str)> = files.map(|(path, text)| (Path::new(folder).join(path), text)).collect();
     for (path, _) in &files {
@@ -243,7 +236,7 @@ pub(super) fn write_all<'f>(
     for (path, text) in &files {
         let name = path.to_string_lossy();
         path.parent().map_or(Ok(()), make_folder).map_err(|error| cannot_write(&name, &error))?;
-        let mut output = Output::open(&name, sources)?;
+        let mut output = Output::open(&name, spared)?;
         output.writer.write_all(text.as_bytes()).map_err(|error| output.failure(&error))?;
         outputs.extend(output.written()?);
     }
@@ -271,15 +264,35 @@ fn make_folder(path: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// Whether a name means standard output.
+pub(super) fn is_standard_output(name: &str) -> bool {
+    ["-", "/dev/stdout", "/dev/fd/1", "/proc/self/fd/1"].contains(&name)
+}
+
+/// Whether a path means what the process has open, whatever that is: it is no place in a folder, where a file could be replaced.
+fn is_open_already(path: &Path) -> bool {
+    path == Path::new("/dev/stderr") || ["/dev/fd", "/proc/self/fd"].iter().any(|folder| path.starts_with(folder))
+}
+
 impl Destination {
+    fn of(name: &str) -> io::Result<Destination> {
+        let path = Path::new(name);
+        if is_standard_output(name) {
+            return Ok(Destination::Standard(io::stdout()));
+        }
+        // asked of the path itself: the links of what is open already lead nowhere
+        let is_special = fs::metadata(path).is_ok_and(|found| !found.is_file() && !found.is_dir());
+        if is_special || is_open_already(path) {
+            return OpenOptions::new().append(true).open(path).map(Destination::Device);
+        }
+        Destination::beside(path)
+    }
+
     fn beside(path: &Path) -> io::Result<Destination> {
         let path = behind_links(path)?;
         if let Ok(found) = fs::metadata(&path) {
             if found.is_dir() {
                 return Err(io::Error::other("it is a folder"));
-            }
-            if !found.is_file() {
-                return File::create(&path).map(Destination::Device);
             }
             if found.permissions().readonly() {
                 return Err(io::ErrorKind::PermissionDenied.into());

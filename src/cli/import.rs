@@ -17,5 +17,5 @@ pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Re
     let settings = arguments.acf.as_ref().map(|acf| files::read(acf, &mut reporter.sources)).transpose()?;
     let (text, said) = stages::imported(model, settings, &reporter.sources);
     let text = reporter.settle(text, said)?;
-    Output::write(&arguments.output, &text, &reporter.sources)
+    Output::write(&arguments.output, &text, &reporter.spared())
 }

@@ -6,6 +6,7 @@ use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::cancel::Cancel;
+use crate::diag::{Code, Diagnostic};
 use crate::source::Sources;
 use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
 use std::mem::ManuallyDrop;
@@ -48,7 +49,13 @@ pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, F
 
 /// Reads the file of a command.
 pub(super) fn parsed(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Failure> {
+    if input.file == "-" && input.samples.as_deref() == Some(Path::new("-")) {
+        return Err(Diagnostic::new(Code::E0706, "standard input cannot be both the mechanism and the samples")
+            .help("give one of them as a file")
+            .into());
+    }
     let file = files::read(&input.file, &mut reporter.sources)?;
+    reporter.named.extend(input.samples.clone().filter(|path| path != Path::new("-")));
     Ok(Parsed::of_source(reporter.sources.clone(), file, path(input)))
 }
 
@@ -67,6 +74,7 @@ fn checked(parsed: &Parsed, input: &Input, by: &[String], reporter: &mut Reporte
     };
     let checked = parsed.check(&choice, &Disk);
     reporter.sources = checked.sources().clone();
+    reporter.named.extend(checked.named_files());
     let said = checked.diagnostics().clone();
     reporter.settle(checked.is_sound().then_some(checked), said)
 }

@@ -19,6 +19,7 @@ mod progress;
 mod report;
 mod results;
 mod run;
+mod spared;
 mod timings;
 mod usage;
 

@@ -2,14 +2,18 @@
 
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
+use super::spared::Spared;
 use crate::diag::{Code, Color, Diagnostics, Fix, Format, Severity, render, render_made};
 use crate::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
 
 /// Prints diagnostics as the user wants them, and knows the texts that they speak of.
 pub(super) struct Reporter {
     pub sources: Sources,
+    /// The files that they, and the options of the command, name.
+    pub named: Vec<PathBuf>,
     format: Format,
     color: Color,
     /// The exit code of a command that did its work, and had to say that not all is as it should be.
@@ -33,7 +37,12 @@ impl Reporter {
             }
         };
         let color = if colored { Color::Always } else { Color::Never };
-        Reporter { sources: Sources::default(), format, color, exit: Cell::new(0) }
+        Reporter { sources: Sources::default(), named: Vec::new(), format, color, exit: Cell::new(0) }
+    }
+
+    /// What no output may be.
+    pub fn spared(&self) -> Spared<'_> {
+        Spared { read: Some(&self.sources), named: &self.named }
     }
 
     /// Whether what is said is read by other programs.

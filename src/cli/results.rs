@@ -2,27 +2,39 @@
 
 use super::endings;
 use super::failure::Failure;
-use super::files::Output;
+use super::files::{Output, is_standard_output};
+use super::spared::Spared;
 use crate::analysis::{Answers, ColumnUnit};
 use crate::diag::{Code, Diagnostic, readable};
-use crate::source::Sources;
 use std::io::Write;
+use std::path::Path;
 
 /// The one form that results are written in.
 const FORMS: [(&str, ()); 1] = [("json", ())];
 
 /// Opens the output of `--results`, which is not that of the table.
-pub(super) fn open(name: Option<&str>, table: &str, sources: &Sources) -> Result<Option<Output>, Failure> {
+pub(super) fn open(name: Option<&str>, table: &str, spared: &Spared<'_>) -> Result<Option<Output>, Failure> {
     let Some(name) = name else { return Ok(None) };
-    endings::form(None, name, &FORMS, ())?;
-    let is_same = || std::path::absolute(name).ok() == std::path::absolute(table).ok();
-    if name == table || table != "-" && name != "-" && is_same() {
-        let place = if name == "-" { "standard output".to_owned() } else { format!("`{name}`") };
+    endings::form(None, name, &FORMS, ()).map_err(|_| not_json(name))?;
+    let are_files = !is_standard_output(name) && !is_standard_output(table);
+    let is_same = if are_files {
+        std::path::absolute(name).ok() == std::path::absolute(table).ok()
+    } else {
+        is_standard_output(name) && is_standard_output(table)
+    };
+    if is_same {
+        let place = if is_standard_output(name) { "standard output".to_owned() } else { format!("`{name}`") };
         return Err(Diagnostic::new(Code::E0706, format!("the table and the results would both go to {place}"))
             .help("name another file: `--results OUT.json`")
             .into());
     }
-    Output::open(name, sources).map(Some)
+    Output::open(name, spared).map(Some)
+}
+
+fn not_json(name: &str) -> Diagnostic {
+    let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
+    Diagnostic::new(Code::E0706, format!("`{name}` ends in `.{ending}`, and results are written as JSON alone"))
+        .help("name a file that ends in `.json`, or one without an ending")
 }
 
 /// Writes one flat object, name to number in SI.

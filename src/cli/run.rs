@@ -27,8 +27,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
-    let output = Output::open(&arguments.output, &reporter.sources)?;
-    let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.sources)?;
+    let output = Output::open(&arguments.output, &reporter.spared())?;
+    let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.spared())?;
     if format == TableFormat::Parquet && output.is_terminal() {
         return Err(unusable("a Parquet table is not for a terminal".to_owned()).help("name a file with `-o`").into());
     }
@@ -161,6 +161,9 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
     let from = given("--from", &arguments.from)?.or(analysis.map(|[from, ..]| from));
     let to = given("--to", &arguments.to)?.or(analysis.map(|[_, to, _]| to));
     let every = given("--every", &arguments.every)?.or(analysis.map(|[.., every]| every));
+    if let Some(step) = every.filter(|step| *step <= 0.0) {
+        return Err(unusable(format!("the step must be positive, it is {} s", readable(step))).into());
+    }
     let listed =
         arguments.at.iter().map(|text| input::time("--at", text, sources)).collect::<Result<Vec<f64>, Failure>>()?;
     let earliest = listed.iter().copied().reduce(f64::min);
@@ -183,9 +186,6 @@ fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sou
             .into());
     };
     let [first, last, step] = [from, to, every].map(readable);
-    if every <= 0.0 {
-        return Err(unusable(format!("the step must be positive, it is {step} s")).into());
-    }
     if to < from {
         return Err(unusable(format!("the analysis would end at {last} s, before its start at {first} s")).into());
     }

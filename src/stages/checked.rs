@@ -194,6 +194,13 @@ impl Checked {
         own.filter_map(|(used, number)| Some((used.path.as_ref()?.span, files[(*number)?].id)))
     }
 
+    /// The files that its text names, and those that these name, whether or not its mechanism needs them: texts that are used, and
+    /// tables.
+    #[must_use]
+    pub fn named_files(&self) -> Vec<PathBuf> {
+        used::named_files(&self.library)
+    }
+
     /// The mechanism with its names resolved, as a text; nothing where it is not sound.
     #[must_use]
     pub fn model_text(&self) -> Option<String> {
@@ -343,7 +350,7 @@ fn given(choice: &Choice, world: &dyn World, sources: &mut Sources) -> Result<Gi
     let formulas = option.read(&choice.inputs, sources)?;
     let samples = match &choice.samples {
         None => None,
-        Some(path) => Some(world::text_of(world, path, sources).map_err(|why| *why)?),
+        Some(path) => Some(world::rows_given(world, path, sources).map_err(|why| *why)?),
     };
     Ok(Given { formulas, samples })
 }

@@ -41,6 +41,33 @@ pub(super) fn read(parsed: &Parsed, world: &dyn World) -> Used {
     Used { sources, library, said }
 }
 
+impl Parsed {
+    /// The files that its text names, and those that these name: texts that are used, and tables. Of a file that cannot be read its
+    /// name is all there is.
+    #[must_use]
+    pub fn named_files(&self, world: &dyn World) -> Vec<PathBuf> {
+        named_files(&read(self, world).library)
+    }
+}
+
+/// The paths of all files that texts name: texts that they use, and tables of all their mechanisms.
+pub(super) fn named_files(library: &Library) -> Vec<PathBuf> {
+    let of = |file: &KnownFile| {
+        let user = file.path.to_string_lossy().into_owned();
+        names_of_files(&file.read.tree).map(|name| world::beside(&user, &name.text)).collect::<Vec<_>>()
+    };
+    library.files().iter().flat_map(of).collect()
+}
+
+/// The paths as a text writes them.
+fn names_of_files(tree: &ast::File) -> impl Iterator<Item = &ast::Name> {
+    let tables = tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items).filter_map(|item| match &item.kind {
+        ast::ItemKind::Table { rows: ast::TableRows::File { path, .. }, .. } => Some(path),
+        _ => None,
+    });
+    tree.uses.iter().filter_map(|used| used.path.as_ref()).chain(tables)
+}
+
 struct Reading<'w> {
     world: &'w dyn World,
     sources: Sources,
@@ -61,6 +88,8 @@ impl Reading<'_> {
     /// The number of the file that a text names, which is read if it is not here yet.
     fn number(&mut self, beside: &str, named: &ast::Name) -> Option<usize> {
         let path = world::normalised(&world::beside(beside, &named.text));
+        // what leads back to the current folder has no parts left, and is it all the same
+        let path = if path.as_os_str().is_empty() && !named.text.is_empty() { PathBuf::from(".") } else { path };
         let identity = self.world.identity(&path);
         if !self.numbers.contains_key(&identity) {
             let number = self.take_in(&path);

@@ -2,6 +2,7 @@
 
 mod brackets;
 mod characters;
+mod mounts;
 mod semicolons;
 mod separators;
 mod uses;
@@ -93,7 +94,11 @@ impl Fault<'_> {
     pub fn mend(&self, expected: &str) -> Option<Mend> {
         let of_words = || self.of_a_keyword().or_else(|| self.of_a_word());
         let missing = || self.closing().or_else(|| self.separator(expected)).map(Mend::Fix);
-        self.of_a_use().or_else(|| self.of_a_character()).or_else(of_words).or_else(missing)
+        self.of_a_use()
+            .or_else(|| self.of_a_mount())
+            .or_else(|| self.of_a_character())
+            .or_else(of_words)
+            .or_else(missing)
     }
 
     fn of_a_keyword(&self) -> Option<Mend> {
@@ -123,6 +128,8 @@ impl Fault<'_> {
             return Some(Mend::words("inside an operator an `if` needs parentheses"));
         }
         let connecting = self.connecting_words();
+        // who writes one means it, though not here
+        let is_a_keyword = Keyword::named(self.found).is_some();
         let declarations = KEYWORDS.iter().filter(|word| word.begins_declaration()).map(|word| word.word.name);
         // `1 evry 0.1`: the word before was taken for a unit
         let end = self.before().len();
@@ -130,7 +137,7 @@ impl Fault<'_> {
         let meant = nearest(self.found, connecting.iter().copied())
             .map(|word| (self.here(), word))
             .or_else(|| nearest(self.word_before(), connecting.iter().copied()).map(|word| (word_before, word)))
-            .or_else(|| nearest(self.found, declarations).map(|word| (self.here(), word)));
+            .or_else(|| nearest(self.found, declarations).filter(|_| !is_a_keyword).map(|word| (self.here(), word)));
         if let Some((place, word)) = meant {
             return Some(Mend::Fix(Fix::meant(self.span(place), word)));
         }

@@ -152,7 +152,9 @@ impl Reading<'_> {
         };
         self.tell(fault);
         self.at = next;
-        let path = self.outline.string_behind(first);
+        // one that is not closed may hold anything
+        let is_closed = |text: &str| text.len() > 1 && text.ends_with('"');
+        let path = self.outline.string_behind(first).filter(|token| is_closed(token.text));
         let path = path.map(|token| Name {
             text: token.text.trim_matches('"').to_owned(),
             span: self.span(token.start..token.end()),

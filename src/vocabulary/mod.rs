@@ -13,6 +13,7 @@ mod page;
 mod quantities;
 mod reductions;
 mod synonyms;
+mod topics;
 mod units;
 
 pub use constants::{CONSTANTS, Constant, StandsFor};
@@ -25,6 +26,7 @@ pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};
 pub use reductions::{REDUCTIONS, ReductionWord};
 pub use synonyms::{Place, SYNONYMS, Synonym, is_ground};
+pub use topics::{topic, topics};
 pub use units::{CompoundUnit, UNITS, Unit};
 
 /// A word, as a reader is told of it.

@@ -4,7 +4,7 @@ use super::functions::OF_MOTIONS;
 use super::joints::NOTATION;
 use super::{
     Category, Example, FUNCTIONS, Function, JOINTS, JointWord, KEYWORDS, Keyword, QUANTITIES, QuantityWord, REDUCTIONS,
-    Role, Synonym, UNITS, Unit, Word, words,
+    Role, Synonym, UNITS, Unit, Word, topic, words,
 };
 
 /// Lines of prose are not longer (in characters).
@@ -14,11 +14,13 @@ const WIDTH: usize = 100;
 pub const OVERVIEWS: &[&str] =
     &["functions", "motions", "quantities", "reductions", "joints", "units", "keywords", "constants"];
 
-/// The page of a word, or of a kind of words; where a name stands for several words, their pages one behind the other.
+/// The page of a word, of a kind of words, or of what is more than a word; where a name stands for several words, their pages one behind the other.
 #[must_use]
 pub fn page(name: &str) -> Option<String> {
     let pages = || words().filter(|word| word.name == name).map(of_word).collect::<Vec<String>>();
-    overview(name).or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
+    overview(name)
+        .or_else(|| topic(name).map(str::to_owned))
+        .or_else(|| Some(pages()).filter(|pages| !pages.is_empty()).map(|pages| pages.join("\n")))
 }
 
 impl Category {

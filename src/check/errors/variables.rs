@@ -43,15 +43,24 @@ pub fn column_by_deciding(name: &str) -> Diagnostic {
         .help("run it with another value: `--set`")
 }
 
-/// `--by` names nothing that derivatives are taken by: `found` is what it is, `meant` what it may mean.
-pub fn no_column_by(mechanism: &str, name: &str, found: Option<&str>, meant: Option<&str>) -> Diagnostic {
+/// `--by` names nothing that derivatives are taken by: `found` is what it is, `meant` what it may mean, `known` what there is.
+pub fn no_column_by(
+    mechanism: &str,
+    name: &str,
+    found: Option<&str>,
+    meant: Option<&str>,
+    known: &[&str],
+) -> Diagnostic {
     let message = match found {
         None => format!("mechanism `{mechanism}` has no input or parameter `{name}`"),
         Some(found) => format!("`{name}` is {found} of mechanism `{mechanism}`, and no input or parameter"),
     };
     let help = meant.map(|name| format!("was `{name}` meant?"));
-    Diagnostic::new(Code::E0703, message)
-        .help(help.unwrap_or_else(|| "derivatives are taken by these alone".to_owned()))
+    let listed = || match known {
+        [] => "derivatives are taken by inputs and parameters, and there are none".to_owned(),
+        _ => format!("derivatives are taken by {}", super::some_of(known)),
+    };
+    Diagnostic::new(Code::E0703, message).help(help.unwrap_or_else(listed))
 }
 
 /// `der(e, front.reach)`, where `front: lever(reach = …)`.

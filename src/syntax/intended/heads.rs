@@ -128,6 +128,9 @@ impl Intent<'_> {
         }
         let words = std::iter::once(name.text).chain(parts.iter().map(|token| token.text)).filter(|word| *word != ".");
         let written = words.collect::<Vec<_>>().join("_");
+        if !crate::syntax::is_name(&written) {
+            return None;
+        }
         let edit = self.edit(name.start..last, &written);
         Some(Intent::change(format!("a name is one word: write `{written}`"), vec![edit]))
     }

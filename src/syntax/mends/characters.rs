@@ -51,6 +51,9 @@ impl Fault<'_> {
             "√" => Mend::words("a square root is written `sqrt(a)`"),
             "|" => Mend::words("an absolute value is written `abs(a)`"),
             "°" => self.of_degrees(),
+            "²" | "³" if self.expects(Rule::equals) && !self.expects(Rule::infix) => {
+                Mend::words("a name is made of letters, digits and `_`")
+            }
             "²" if behind.trim_start().starts_with('(') => Mend::words("the square of a function is `f(x)^2`"),
             "²" => self.replaced(self.here(), "^2", "a square is written `^2`", Applies::Always),
             "³" => self.replaced(self.here(), "^3", "a cube is written `^3`", Applies::Always),

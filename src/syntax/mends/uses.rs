@@ -3,12 +3,20 @@
 use super::{Fault, Mend};
 use crate::diag::Applies;
 use crate::syntax::grammar::Rule;
+use crate::syntax::tokens::tokens;
 
 /// What others write for `use`.
 const OTHER_WORDS: [&str; 4] = ["import", "include", "require", "from"];
 
 impl Fault<'_> {
     pub(super) fn of_a_use(&self) -> Option<Mend> {
+        let is_at_the_next = self.found.is_empty() || self.is_on_new_line();
+        let is_prefix = self.expects(Rule::use_prefix) || self.expects(Rule::name);
+        // comments may stand between
+        let last = || tokens(&self.text[..self.at]).last().map(|token| token.text);
+        if is_prefix && is_at_the_next && last() == Some("as") {
+            return Some(Mend::words("a name stands behind `as`: `use \"FILE.mech\" as legs`"));
+        }
         let is_before_a_string = self.behind().trim_start_matches([' ', '\t']).starts_with('"');
         if self.expects(Rule::string) && self.word_before() == "use" {
             return self.of_an_unquoted_path();

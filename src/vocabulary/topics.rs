@@ -1,0 +1,28 @@
+//! The pages of `mechc explain` on what is more than a word: what it is, an example, what to look at.
+
+/// A page, by the names under which it is asked for.
+struct Topic {
+    names: &'static [&'static str],
+    page: &'static str,
+}
+
+const PAGES: [Topic; 7] = [
+    Topic { names: &["parts"], page: include_str!("topics/parts.md") },
+    Topic { names: &["inputs"], page: include_str!("topics/inputs.md") },
+    Topic { names: &["samples"], page: include_str!("topics/samples.md") },
+    Topic { names: &["files"], page: include_str!("topics/files.md") },
+    Topic { names: &["repetition", "range", "ranges"], page: include_str!("topics/repetition.md") },
+    Topic { names: &["by"], page: include_str!("topics/by.md") },
+    Topic { names: &["names"], page: include_str!("topics/names.md") },
+];
+
+/// What has a page, each by its first name.
+pub fn topics() -> impl Iterator<Item = &'static str> {
+    PAGES.iter().filter_map(|topic| topic.names.first().copied())
+}
+
+/// The page of a name.
+#[must_use]
+pub fn topic(name: &str) -> Option<&'static str> {
+    PAGES.iter().find(|topic| topic.names.contains(&name)).map(|topic| topic.page)
+}
