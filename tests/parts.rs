@@ -278,3 +278,71 @@ fn of_parts_on_one_line_each_says_that_it_does_not_arrive() {
     // where the rod and the rocker are in line, at acos(9/24)
     assert_eq!(place(not_led[0]).as_deref(), Some("1.186399552"));
 }
+
+/// A carrier that turns, an arm that is turned over, and a part of one text somewhere.
+fn placed(place: &str, measures: &str) -> Vec<Vec<f64>> {
+    let text = format!(
+        "mechanism whole {{
+    param A = (7 mm, 8 mm)
+    ground {{ point G = (100 mm, 50 mm) }}
+    body f at (10 mm, 20 mm, 90 deg) {{ point O = (0, 0)  point P = (30 mm, 5 mm) }}
+    joint j: revolute((10 mm, 20 mm), f.O)
+    driver d: rotation(j) = 90 deg + 1 rad/s * t
+    part k: arm() on f at (A, 20 deg) mirrored
+    part p: arm() {place}
+    {measures}
+    analysis from 0 s to 1 s every 0.5 s
+}}
+mechanism arm {{
+    ground {{ point O = (0, 0)  point B = (3 mm, 4 mm) }}
+    body arm at (0, 0, 10 deg) {{ point O = (0, 0)  point P = (80 mm, 9 mm) }}
+    joint pivot: revolute(ground.O, arm.O)
+    driver motor: rotation(pivot) = 10 deg + 2 rad/s * t
+}}"
+    );
+    let (told, rows) = said(&text);
+    assert!(told.is_empty() && rows.len() == 3, "{place}: {told:?}");
+    rows
+}
+
+#[test]
+fn a_part_stands_where_the_point_of_its_place_is_drawn() {
+    // A stands on f, which is turned by a quarter: at (2, 27) mm; and k is turned over there
+    for (by_point, by_numbers) in [
+        ("at (ground.G, 30 deg)", "at (100 mm, 50 mm, 30 deg)"),
+        ("at (f.P, 0)", "at (5 mm, 50 mm, 0)"),
+        ("at (f.P + (1 mm, 0), 0) mirrored", "at (6 mm, 50 mm, 0) mirrored"),
+        ("at (mid(f.P, f.O), -1 deg)", "at (7.5 mm, 35 mm, -1 deg)"),
+        ("at (length(f.O, f.P), 0, direction(f.O, f.P))", "at (hypot(30 mm, 5 mm), 0, 90 deg + atan2(5, 30))"),
+        ("on f at (f.P, 30 deg)", "on f at (30 mm, 5 mm, 30 deg)"),
+        ("on f at (f.P + (1 mm, 0), 0)", "on f at (31 mm, 5 mm, 0)"),
+        ("on f at (ground.G, 30 deg) mirrored", "on f at (30 mm, -90 mm, 30 deg) mirrored"),
+        ("on f at (0, 0, direction(f.O, f.P))", "on f at (0, 0, atan2(5, 30))"),
+        ("at (k.ground.O, 0)", "at (2 mm, 27 mm, 0)"),
+        ("on f at (k.ground.O, 0)", "on f at (A, 0)"),
+        ("on f at (k.ground.B, 0)", "on f at (A + polar(3 mm, 20 deg) + polar(4 mm, -70 deg), 0)"),
+        ("on k.ground at (k.ground.B, 0)", "on k.ground at (3 mm, -4 mm, 0)"),
+        ("on k.arm at (k.arm.P, 5 deg)", "on k.arm at (80 mm, -9 mm, 5 deg)"),
+        ("on k.arm at (f.O, 0)", "on k.arm at (-polar(7 mm, -10 deg) - polar(8 mm, 80 deg), 0)"),
+        ("on k.arm at (k.ground.B, 0)", "on k.arm at (polar(3 mm, 10 deg) + polar(4 mm, -80 deg), 0)"),
+    ] {
+        for (point, number) in
+            placed(by_point, "").into_iter().flatten().zip(placed(by_numbers, "").into_iter().flatten())
+        {
+            assert!((point - number).abs() <= 1e-12 * number.abs().max(1.0), "{by_point}: {point}, not {number}");
+        }
+    }
+}
+
+#[test]
+fn a_part_on_a_body_stays_at_the_point_that_its_place_names() {
+    for (on, point) in [("f", "f.P"), ("k.arm", "k.arm.P"), ("f", "k.ground.B"), ("k.ground", "k.ground.B")] {
+        let measures = format!("measure dx = x(p.ground.O) - x({point})  measure dy = y(p.ground.O) - y({point})");
+        for row in placed(&format!("on {on} at ({point}, 30 deg)"), &measures) {
+            // positions, velocities and accelerations, the two measures last in each
+            for group in row[1..].chunks((row.len() - 1) / 3) {
+                assert!(group[group.len() - 2..].iter().all(|difference| difference.abs() < 1e-12), "{point}: {row:?}");
+            }
+        }
+    }
+}

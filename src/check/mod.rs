@@ -26,6 +26,7 @@ mod meaning;
 mod meant;
 mod mends;
 mod mentions;
+mod mounts;
 mod named_points;
 mod names;
 mod parts;

@@ -81,9 +81,19 @@ pub fn number_for_point(binding: &Binding) -> Diagnostic {
         .help("a point is written `(x, y)`")
 }
 
-pub fn carries_itself(part: &Name, on: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", part.text))
-        .at(on, "this stands on its own ground")
+/// Parts that stand on each other, or one on itself: each with the place of its `on`, and whether that names a ground.
+pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
+    let Some((&(first, on, is_ground), rest)) = parts.split_first() else {
+        return Diagnostic::new(Code::E0209, "parts are carried by themselves");
+    };
+    if rest.is_empty() {
+        let label = if is_ground { "this stands on its own ground" } else { "this is a body of the part itself" };
+        return Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", first.text)).at(on, label);
+    }
+    let way: Vec<String> = rest.iter().chain([&parts[0]]).map(|(part, ..)| format!("`{}`", part.text)).collect();
+    let message = format!("parts carry each other: `{}` stands on {}", first.text, way.join(", which stands on "));
+    let diagnostic = Diagnostic::new(Code::E0209, message).at(on, "on the circle");
+    rest.iter().fold(diagnostic, |diagnostic, (_, on, _)| diagnostic.also(*on, "on the circle"))
 }
 
 /// `--set front.reach=…`, where `front: lever(reach = …)`.
