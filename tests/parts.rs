@@ -201,9 +201,10 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
     assert!(faults.is_empty(), "{} of {compared}:\n{}", faults.len(), faults.join("\n"));
 }
 
-/// What is said of the first mechanism of a text, and its rows.
+/// What is said of the mechanism `whole` of a text, and its rows.
 fn said(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
-    let checked = Parsed::of("text", text).check(&Choice::default(), &Disk::default());
+    let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
+    let checked = Parsed::of("text", text).check(&choice, &Disk::default());
     let (compiled, of_proof) = checked.compile(Redundant::Refused, &Cancel::default());
     let mut all: Vec<String> = checked.diagnostics().iter().chain(of_proof.iter()).map(|d| d.message.clone()).collect();
     let Some(compiled) = compiled else { return (all, Vec::new()) };
@@ -344,5 +345,100 @@ fn a_part_on_a_body_stays_at_the_point_that_its_place_names() {
                 assert!(group[group.len() - 2..].iter().all(|difference| difference.abs() < 1e-12), "{point}: {row:?}");
             }
         }
+    }
+}
+
+/// The last row of parts of a text with two inputs, as they are used.
+fn last_row(parts: &str) -> Vec<f64> {
+    let text = format!(
+        "mechanism whole {{
+    {parts}
+    analysis from 0 s to 1 s every 0.5 s
+}}
+mechanism pair {{
+    input feed = 0
+    part first: two(u = second.v)
+    part second: two(v = feed)
+}}
+mechanism two {{
+    param length = 80 mm
+    param A = (1 mm, 2 mm)
+    input u = 0.3 * sin(t / 1 s)
+    input v = 0.2 * t / 1 s
+    ground {{ point O = A  point P = (1 m, 0) }}
+    body p {{ point O = (0, 0)  point tip = (length, 0) }}
+    body q at (1 m, 0, 0) {{ point O = (0, 0) }}
+    joint jp: revolute(ground.O, p.O)
+    joint jq: revolute(ground.P, q.O)
+    driver dp: rotation(jp) = u
+    driver dq: rotation(jq) = v
+}}"
+    );
+    let (told, rows) = said(&text);
+    assert!(told.is_empty(), "{parts}: {told:?}");
+    rows.last().expect("rows").clone()
+}
+
+fn are_the_same(one: &str, other: &str) {
+    let (found, wanted) = (last_row(one), last_row(other));
+    assert_eq!(found.len(), wanted.len(), "{one}");
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found - wanted).abs() <= 1e-12 * wanted.abs().max(1.0), "{one}: {found}, not {wanted}");
+    }
+}
+
+#[test]
+fn bindings_of_inputs_may_name_parts_in_any_order() {
+    let (sine, rising) = ("0.3 * sin(t / 1 s)", "1 rad/s * t");
+    for (written, meant) in [
+        ("part a: two(u = b.u) part b: two(u = T)", "part a: two(u = T) part b: two(u = T)"),
+        ("part a: two(v = a.u)", "part a: two(v = S)"),
+        ("part a: two(v = 2 * angle(a.p))", "part a: two(v = 2 * S)"),
+        (
+            "part a: two(v = angle(b.p)) part b: two(v = angle(a.p), u = T)",
+            "part a: two(v = T) part b: two(v = S, u = T)",
+        ),
+        ("part a: two(v = b.u) part b: two(v = a.u, u = T)", "part a: two(v = T) part b: two(v = S, u = T)"),
+        (
+            "part a: two(u = g(2)) part b: two(u = T) fn f(x) = b.u fn g(x) = x * f(x)",
+            "part a: two(u = 2 * T) part b: two(u = T)",
+        ),
+        ("part a: two(u = a.length / 1 m)", "part a: two(u = 0.08)"),
+        ("part a: two(v = c.first.u) part c: pair(feed = T)", "part a: two(v = T) part c: pair(feed = T)"),
+        ("part c: pair(feed = a.u) part a: two(u = T)", "part c: pair(feed = T) part a: two(u = T)"),
+    ] {
+        let filled = |text: &str| text.replace('S', sine).replace('T', rising);
+        are_the_same(&filled(written), &filled(meant));
+    }
+}
+
+#[test]
+fn params_of_parts_stand_wherever_constants_do() {
+    for (written, meant) in [
+        (
+            "param n = 2 * a.length part a: two(length = 30 mm) measure m1 = n",
+            "part a: two(length = 30 mm) measure m1 = 60 mm",
+        ),
+        ("fn f(u) = u * b.length part b: two() measure m1 = f(3)", "part b: two() measure m1 = 240 mm"),
+        (
+            "part a: two(length = 2 * b.length) part b: two(length = 1 mm)",
+            "part a: two(length = 2 mm) part b: two(length = 1 mm)",
+        ),
+        ("part a: two(A = b.A + (b.length, 0)) part b: two()", "part a: two(A = (81 mm, 2 mm)) part b: two()"),
+        ("param n = c.first.length part c: pair() measure m1 = n", "part c: pair() measure m1 = 80 mm"),
+        (
+            "param n = d[1].length part d[k in 0..2]: two(length = k * 1 m) measure m1 = n",
+            "part d[k in 0..2]: two(length = k * 1 m) measure m1 = 1 m",
+        ),
+        (
+            "table c = spline [(0, a.length), (1, 1 m)] part a: two() measure m1 = c(0.5)",
+            "table c = spline [(0, 80 mm), (1, 1 m)] part a: two() measure m1 = c(0.5)",
+        ),
+        (
+            "part a: two() ground { point G = (a.length, 0) } body b at (0, 0, a.length / 1 m) { point O = (0, 0) } joint j: weld(ground.G, b.O, 0)",
+            "part a: two() ground { point G = (80 mm, 0) } body b at (0, 0, 0.08) { point O = (0, 0) } joint j: weld(ground.G, b.O, 0)",
+        ),
+    ] {
+        are_the_same(written, meant);
     }
 }

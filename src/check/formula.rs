@@ -654,16 +654,14 @@ impl Checker<'_> {
         false
     }
 
-    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
-    /// The value of a formula of constants, of whatever dimension; of one that is broken nothing is said here.
+    /// The value of a formula of constants, of whatever dimension.
     pub(super) fn any_constant(&mut self, e: &Expr) -> Option<f64> {
-        let said = self.diagnostics.len();
         let judged = self.is_dimensional(e);
-        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") });
-        self.diagnostics.truncate(said);
-        self.constant_value(value?.id)
+        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") })?;
+        self.constant_value(value.id)
     }
 
+    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
     pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
         self.constant_in(e, place, wanted, judged)

@@ -6,6 +6,7 @@
 
 mod arguments;
 mod bindings;
+mod bound_inputs;
 mod builtins;
 mod calls;
 mod elements;
@@ -522,7 +523,8 @@ impl<'a> Checker<'a> {
                 ItemKind::Part(part) => {
                     let k = entities.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
                     entities.push(Entity::Part(k));
-                    definitions.push((&part.name, part.bindings.iter().map(|binding| &binding.value).collect()));
+                    let bindings = part.bindings.iter().filter(|binding| self.binds_definition(k, binding));
+                    definitions.push((&part.name, bindings.map(|binding| &binding.value).collect()));
                 }
                 _ => continue,
             }
@@ -531,7 +533,9 @@ impl<'a> Checker<'a> {
         self.import_params();
         let uses = self.uses(&definitions, &entities);
         let (mut measures, mut results) = (Vec::new(), Vec::new());
-        for at in self.ordered(&uses) {
+        let order = self.ordered(&uses);
+        self.define_parts_on_circles(&order, &entities);
+        for at in order {
             let (name, formulas) = &definitions[at];
             match entities[at] {
                 Entity::Param(k) => {
@@ -561,6 +565,22 @@ impl<'a> Checker<'a> {
             }
         }
         (self.measure_order, self.result_order) = (measures, results);
+    }
+
+    /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
+    fn define_parts_on_circles(&mut self, order: &[usize], entities: &[Entity]) {
+        let mut is_ordered = vec![false; entities.len()];
+        for &at in order {
+            is_ordered[at] = true;
+        }
+        for (entity, is_ordered) in entities.iter().zip(is_ordered) {
+            if let Entity::Part(k) = *entity
+                && !is_ordered
+                && k < self.parts.len()
+            {
+                self.definitions_of_part_alone(k);
+            }
+        }
     }
 
     fn uses<'d>(
@@ -596,9 +616,12 @@ impl<'a> Checker<'a> {
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
-                            // what is in a part is known when the part is
+                            // what is in a part is known when the part is, but for what nothing here asks the number of
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
-                            let entity = part.or(entity);
+                            let entity = match entity {
+                                Some(Entity::Body(_) | Entity::Joint(_) | Entity::Ground) => None,
+                                entity => part.or(entity),
+                            };
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }

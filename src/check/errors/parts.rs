@@ -30,6 +30,15 @@ pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str])
         .fix_if(meant(name, known))
 }
 
+/// A bound of a range is made of a param of a part: its path as it is written, and where.
+pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0208, format!("{place} cannot be made of `{path}`, which is in a part"));
+    let diagnostic = diagnostic.at(span, "decides which declarations there are");
+    let is_inside = span.file == written.file && span.start <= written.start && written.end <= span.end;
+    let diagnostic = if is_inside { diagnostic } else { diagnostic.also(written, "comes in here") };
+    diagnostic.help("parts are there when all ranges are known: make both of a param, and bind that of the part to it")
+}
+
 pub fn path_goes_on(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0208, "a path ends with a body and a feature of it, or with another declaration of a part")
         .at(span, "goes on")
