@@ -9,6 +9,7 @@ mod bindings;
 mod bound_inputs;
 mod builtins;
 mod calls;
+mod columns_by;
 mod elements;
 mod errors;
 mod features;

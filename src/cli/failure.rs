@@ -54,7 +54,7 @@ pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
         // a file that a text names is a part of the text
         Code::E0701 if !first.labels.is_empty() => INPUT,
         Code::E0701 | Code::E0702 => FILES,
-        Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 => USAGE,
+        Code::E0703 | Code::E0704 | Code::E0705 | Code::E0706 | Code::E0708 => USAGE,
         _ => INPUT,
     }
 }
