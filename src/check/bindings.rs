@@ -129,8 +129,9 @@ impl<'a> Checker<'a> {
         let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
+        // a number without a unit is a pure number, as one that is set from outside
         let fits = match (in_file.dim, value.dim) {
-            (Dim::Of(wanted), Dim::Of(found)) if judged => wanted.is(found),
+            (Dim::Of(wanted), Dim::Of(found)) => wanted.is(found) || !judged && wanted.is(Dimension::PURE),
             _ => true,
         };
         if let (false, Dim::Of(wanted), Dim::Of(found), Some(span)) = (fits, in_file.dim, value.dim, span) {
@@ -162,9 +163,20 @@ impl<'a> Checker<'a> {
                 continue;
             }
             match bound {
-                Bound::Point(bound) => point = bound,
+                Bound::Point(bound) => {
+                    let is_zero = bound.at.iter().all(|&id| self.constant_value(id) == Some(0.0));
+                    if let Some(span) = span.filter(|_| point.dimensional && !bound.dimensional && !is_zero) {
+                        let plain = rates::Part { span, dimension: Dimension::PURE };
+                        let place = format!("the point `{}`", name.text);
+                        let text = self.sources.text(span);
+                        self.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
+                        return None;
+                    }
+                    point = bound;
+                }
                 Bound::Coordinate(axis, value, judged) => {
                     let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][axis]);
+                    let judged = judged || point.dimensional;
                     let context = Context { judged, ..Context::constant("a binding of a param") };
                     let span = span.unwrap_or(name.span);
                     self.demand(&place, Dimension::LENGTH, span, value.dim, &context)?;

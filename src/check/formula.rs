@@ -12,7 +12,7 @@ use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, ItemKind, Name, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// The dimension of a formula.
@@ -228,6 +228,10 @@ impl Checker<'_> {
                 if let Ok(coordinate) = self.coordinate_of(e, context) {
                     return coordinate;
                 }
+                if let Some(Entity::Trace) = self.entity(owner) {
+                    self.trace_in_a_formula(e.span, "a number", owner);
+                    return None;
+                }
                 let what = self.describe_member(owner, feature);
                 let diagnostic = errors::wrong_kind(e.span, "a number", &what);
                 self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
@@ -238,7 +242,11 @@ impl Checker<'_> {
                 None
             }
             ExprKind::Path(segments) => {
-                self.report(errors::path_of_nothing(e.span, segments));
+                let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
+                self.report(match unknown.filter(|first| first.name.text != "ground" && segments.len() > 2) {
+                    Some(first) => errors::unknown_owner(&first.name, self.tree),
+                    None => errors::path_of_nothing(e.span, segments),
+                });
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
@@ -349,6 +357,10 @@ impl Checker<'_> {
                 );
                 None
             }
+            Some(Entity::Trace) => {
+                self.trace_in_a_formula(name.span, "a number", name);
+                None
+            }
             Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
                 let help = format!("call it: `{}(…)`", name.text);
                 self.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
@@ -364,6 +376,16 @@ impl Checker<'_> {
                 None
             }
         }
+    }
+
+    /// Says that a trace is no number and no point.
+    pub(super) fn trace_in_a_formula(&mut self, span: Span, wanted: &str, name: &Name) {
+        let point = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Trace { name: own, point, .. } if own.text == name.text => Some(self.sources.text(point.span)),
+            _ => None,
+        });
+        let diagnostic = errors::trace_in_a_formula(span, wanted, name, point);
+        self.report(diagnostic);
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {

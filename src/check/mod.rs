@@ -623,6 +623,9 @@ impl<'a> Checker<'a> {
                                 Some(Entity::Body(_) | Entity::Joint(_) | Entity::Ground) => None,
                                 entity => part.or(entity),
                             };
+                            // no input may stand in what an option says of one, which is told there
+                            let is_told = self.sources.get(used.span.file).is_option;
+                            let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }

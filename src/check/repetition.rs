@@ -174,8 +174,9 @@ impl<'t, 'c> Writer<'t, 'c> {
             for numbers in copies {
                 let [from, to] = self.bounds(range, &numbers)?;
                 let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
-                if self.count.saturating_add(longer.len()).saturating_add(more) > MOST {
-                    self.tell(errors::too_many_declarations(range.index.span, MOST));
+                let count = self.count.saturating_add(longer.len()).saturating_add(more);
+                if count > MOST {
+                    self.tell(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
                     self.is_too_large = true;
                     return None;
                 }
@@ -435,7 +436,12 @@ impl<'t, 'c> Writer<'t, 'c> {
             [] => Ok(ExprKind::Name(owner)),
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
             _ => {
-                self.tell(errors::path_of_nothing(span, segments));
+                let diagnostic = if self.names.contains(first.name.text.as_str()) || first.name.text == "ground" {
+                    errors::path_of_nothing(span, segments)
+                } else {
+                    errors::unknown_owner(&first.name, self.tree)
+                };
+                self.tell(diagnostic);
                 Err(Unwritten)
             }
         }
@@ -521,6 +527,8 @@ impl<'t, 'c> Writer<'t, 'c> {
                 let text = self.one_of(&copies, segment, numbers)?;
                 Ok(Name { text, span: name.span })
             }
+            // of what could not be repeated that has been said
+            None if self.is_repeated(name) => Err(Unwritten),
             None if self.names.contains(name.text.as_str()) => {
                 self.tell(errors::not_repeated(name));
                 Err(Unwritten)
@@ -528,6 +536,11 @@ impl<'t, 'c> Writer<'t, 'c> {
             // nothing of that name is told by whoever asks for it
             None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
         }
+    }
+
+    fn is_repeated(&self, name: &Name) -> bool {
+        let is_it = |item: &Item| name_of(item).is_some_and(|own| own.text == name.text);
+        self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
     }
 
     fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {

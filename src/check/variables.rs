@@ -10,7 +10,6 @@ use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Declared, Named, Variable};
-use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 

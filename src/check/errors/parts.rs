@@ -3,7 +3,7 @@
 use super::meant;
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Binding, MechanismName, Name};
+use crate::syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
 
 /// Of a fault in the text of a part: which part it is.
 pub fn in_part(path: &str) -> String {
@@ -37,6 +37,33 @@ pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> 
     let is_inside = span.file == written.file && span.start <= written.start && written.end <= span.end;
     let diagnostic = if is_inside { diagnostic } else { diagnostic.also(written, "comes in here") };
     diagnostic.help("parts are there when all ranges are known: make both of a param, and bind that of the part to it")
+}
+
+/// `b.arm.tip`, where nothing is called `b`.
+pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
+    let known: Vec<&str> = tree
+        .items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Part(part) => Some(part.name.text.as_str()),
+            ItemKind::Body { name, .. } => Some(name.text.as_str()),
+            _ => None,
+        })
+        .collect();
+    super::unknown("part or body", name, &known)
+}
+
+/// A trace in the place of a number or point; `point` is what it is of, as it is written.
+pub fn trace_in_a_formula(span: Span, wanted: &str, name: &Name, point: Option<&str>) -> Diagnostic {
+    let diagnostic = super::wrong_kind(span, wanted, "a trace");
+    match (wanted, point) {
+        ("a number", Some(point)) => diagnostic.help(format!(
+            "`{0}.x` and `{0}.y` are columns; in a formula the place of the point is `x({point})` and `y({point})`",
+            name.text
+        )),
+        (_, Some(point)) => diagnostic.help(format!("name the point: `{point}`")),
+        _ => diagnostic.help("name the point that it is of"),
+    }
 }
 
 pub fn path_goes_on(span: Span) -> Diagnostic {
