@@ -201,9 +201,10 @@ fn a_part_is_what_it_is_alone_seen_from_its_own_ground() {
     assert!(faults.is_empty(), "{} of {compared}:\n{}", faults.len(), faults.join("\n"));
 }
 
-/// What is said of the first mechanism of a text, and its rows.
+/// What is said of the mechanism `whole` of a text, and its rows.
 fn said(text: &str) -> (Vec<String>, Vec<Vec<f64>>) {
-    let checked = Parsed::of("text", text).check(&Choice::default(), &Disk::default());
+    let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
+    let checked = Parsed::of("text", text).check(&choice, &Disk::default());
     let (compiled, of_proof) = checked.compile(Redundant::Refused, &Cancel::default());
     let mut all: Vec<String> = checked.diagnostics().iter().chain(of_proof.iter()).map(|d| d.message.clone()).collect();
     let Some(compiled) = compiled else { return (all, Vec::new()) };
@@ -311,5 +312,168 @@ fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
         let (told, rows) = said(&text);
         assert!(told.is_empty(), "{distance}: {told:?}");
         assert_eq!(rows.len(), alone.len(), "{distance}");
+    }
+}
+
+/// A carrier that turns, an arm that is turned over, and a part of one text somewhere.
+fn placed(place: &str, measures: &str) -> Vec<Vec<f64>> {
+    let text = format!(
+        "mechanism whole {{
+    param A = (7 mm, 8 mm)
+    ground {{ point G = (100 mm, 50 mm) }}
+    body f at (10 mm, 20 mm, 90 deg) {{ point O = (0, 0)  point P = (30 mm, 5 mm) }}
+    joint j: revolute((10 mm, 20 mm), f.O)
+    driver d: rotation(j) = 90 deg + 1 rad/s * t
+    part k: arm() on f at (A, 20 deg) mirrored
+    part p: arm() {place}
+    {measures}
+    analysis from 0 s to 1 s every 0.5 s
+}}
+mechanism arm {{
+    ground {{ point O = (0, 0)  point B = (3 mm, 4 mm) }}
+    body arm at (0, 0, 10 deg) {{ point O = (0, 0)  point P = (80 mm, 9 mm) }}
+    joint pivot: revolute(ground.O, arm.O)
+    driver motor: rotation(pivot) = 10 deg + 2 rad/s * t
+}}"
+    );
+    let (told, rows) = said(&text);
+    assert!(told.is_empty() && rows.len() == 3, "{place}: {told:?}");
+    rows
+}
+
+#[test]
+fn a_part_stands_where_the_point_of_its_place_is_drawn() {
+    // A stands on f, which is turned by a quarter: at (2, 27) mm; and k is turned over there
+    for (by_point, by_numbers) in [
+        ("at (ground.G, 30 deg)", "at (100 mm, 50 mm, 30 deg)"),
+        ("at (f.P, 0)", "at (5 mm, 50 mm, 0)"),
+        ("at (f.P + (1 mm, 0), 0) mirrored", "at (6 mm, 50 mm, 0) mirrored"),
+        ("at (mid(f.P, f.O), -1 deg)", "at (7.5 mm, 35 mm, -1 deg)"),
+        ("at (length(f.O, f.P), 0, direction(f.O, f.P))", "at (hypot(30 mm, 5 mm), 0, 90 deg + atan2(5, 30))"),
+        ("on f at (f.P, 30 deg)", "on f at (30 mm, 5 mm, 30 deg)"),
+        ("on f at (f.P + (1 mm, 0), 0)", "on f at (31 mm, 5 mm, 0)"),
+        ("on f at (ground.G, 30 deg) mirrored", "on f at (30 mm, -90 mm, 30 deg) mirrored"),
+        ("on f at (0, 0, direction(f.O, f.P))", "on f at (0, 0, atan2(5, 30))"),
+        ("at (k.ground.O, 0)", "at (2 mm, 27 mm, 0)"),
+        ("on f at (k.ground.O, 0)", "on f at (A, 0)"),
+        ("on f at (k.ground.B, 0)", "on f at (A + polar(3 mm, 20 deg) + polar(4 mm, -70 deg), 0)"),
+        ("on k.ground at (k.ground.B, 0)", "on k.ground at (3 mm, -4 mm, 0)"),
+        ("on k.arm at (k.arm.P, 5 deg)", "on k.arm at (80 mm, -9 mm, 5 deg)"),
+        ("on k.arm at (f.O, 0)", "on k.arm at (-polar(7 mm, -10 deg) - polar(8 mm, 80 deg), 0)"),
+        ("on k.arm at (k.ground.B, 0)", "on k.arm at (polar(3 mm, 10 deg) + polar(4 mm, -80 deg), 0)"),
+    ] {
+        for (point, number) in
+            placed(by_point, "").into_iter().flatten().zip(placed(by_numbers, "").into_iter().flatten())
+        {
+            assert!((point - number).abs() <= 1e-12 * number.abs().max(1.0), "{by_point}: {point}, not {number}");
+        }
+    }
+}
+
+#[test]
+fn a_part_on_a_body_stays_at_the_point_that_its_place_names() {
+    for (on, point) in [("f", "f.P"), ("k.arm", "k.arm.P"), ("f", "k.ground.B"), ("k.ground", "k.ground.B")] {
+        let measures = format!("measure dx = x(p.ground.O) - x({point})  measure dy = y(p.ground.O) - y({point})");
+        for row in placed(&format!("on {on} at ({point}, 30 deg)"), &measures) {
+            // positions, velocities and accelerations, the two measures last in each
+            for group in row[1..].chunks((row.len() - 1) / 3) {
+                assert!(group[group.len() - 2..].iter().all(|difference| difference.abs() < 1e-12), "{point}: {row:?}");
+            }
+        }
+    }
+}
+
+/// The last row of parts of a text with two inputs, as they are used.
+fn last_row(parts: &str) -> Vec<f64> {
+    let text = format!(
+        "mechanism whole {{
+    {parts}
+    analysis from 0 s to 1 s every 0.5 s
+}}
+mechanism pair {{
+    input feed = 0
+    part first: two(u = second.v)
+    part second: two(v = feed)
+}}
+mechanism two {{
+    param length = 80 mm
+    param A = (1 mm, 2 mm)
+    input u = 0.3 * sin(t / 1 s)
+    input v = 0.2 * t / 1 s
+    ground {{ point O = A  point P = (1 m, 0) }}
+    body p {{ point O = (0, 0)  point tip = (length, 0) }}
+    body q at (1 m, 0, 0) {{ point O = (0, 0) }}
+    joint jp: revolute(ground.O, p.O)
+    joint jq: revolute(ground.P, q.O)
+    driver dp: rotation(jp) = u
+    driver dq: rotation(jq) = v
+}}"
+    );
+    let (told, rows) = said(&text);
+    assert!(told.is_empty(), "{parts}: {told:?}");
+    rows.last().expect("rows").clone()
+}
+
+fn are_the_same(one: &str, other: &str) {
+    let (found, wanted) = (last_row(one), last_row(other));
+    assert_eq!(found.len(), wanted.len(), "{one}");
+    for (found, wanted) in found.iter().zip(&wanted) {
+        assert!((found - wanted).abs() <= 1e-12 * wanted.abs().max(1.0), "{one}: {found}, not {wanted}");
+    }
+}
+
+#[test]
+fn bindings_of_inputs_may_name_parts_in_any_order() {
+    let (sine, rising) = ("0.3 * sin(t / 1 s)", "1 rad/s * t");
+    for (written, meant) in [
+        ("part a: two(u = b.u) part b: two(u = T)", "part a: two(u = T) part b: two(u = T)"),
+        ("part a: two(v = a.u)", "part a: two(v = S)"),
+        ("part a: two(v = 2 * angle(a.p))", "part a: two(v = 2 * S)"),
+        (
+            "part a: two(v = angle(b.p)) part b: two(v = angle(a.p), u = T)",
+            "part a: two(v = T) part b: two(v = S, u = T)",
+        ),
+        ("part a: two(v = b.u) part b: two(v = a.u, u = T)", "part a: two(v = T) part b: two(v = S, u = T)"),
+        (
+            "part a: two(u = g(2)) part b: two(u = T) fn f(x) = b.u fn g(x) = x * f(x)",
+            "part a: two(u = 2 * T) part b: two(u = T)",
+        ),
+        ("part a: two(u = a.length / 1 m)", "part a: two(u = 0.08)"),
+        ("part a: two(v = c.first.u) part c: pair(feed = T)", "part a: two(v = T) part c: pair(feed = T)"),
+        ("part c: pair(feed = a.u) part a: two(u = T)", "part c: pair(feed = T) part a: two(u = T)"),
+    ] {
+        let filled = |text: &str| text.replace('S', sine).replace('T', rising);
+        are_the_same(&filled(written), &filled(meant));
+    }
+}
+
+#[test]
+fn params_of_parts_stand_wherever_constants_do() {
+    for (written, meant) in [
+        (
+            "param n = 2 * a.length part a: two(length = 30 mm) measure m1 = n",
+            "part a: two(length = 30 mm) measure m1 = 60 mm",
+        ),
+        ("fn f(u) = u * b.length part b: two() measure m1 = f(3)", "part b: two() measure m1 = 240 mm"),
+        (
+            "part a: two(length = 2 * b.length) part b: two(length = 1 mm)",
+            "part a: two(length = 2 mm) part b: two(length = 1 mm)",
+        ),
+        ("part a: two(A = b.A + (b.length, 0)) part b: two()", "part a: two(A = (81 mm, 2 mm)) part b: two()"),
+        ("param n = c.first.length part c: pair() measure m1 = n", "part c: pair() measure m1 = 80 mm"),
+        (
+            "param n = d[1].length part d[k in 0..2]: two(length = k * 1 m) measure m1 = n",
+            "part d[k in 0..2]: two(length = k * 1 m) measure m1 = 1 m",
+        ),
+        (
+            "table c = spline [(0, a.length), (1, 1 m)] part a: two() measure m1 = c(0.5)",
+            "table c = spline [(0, 80 mm), (1, 1 m)] part a: two() measure m1 = c(0.5)",
+        ),
+        (
+            "part a: two() ground { point G = (a.length, 0) } body b at (0, 0, a.length / 1 m) { point O = (0, 0) } joint j: weld(ground.G, b.O, 0)",
+            "part a: two() ground { point G = (80 mm, 0) } body b at (0, 0, 0.08) { point O = (0, 0) } joint j: weld(ground.G, b.O, 0)",
+        ),
+    ] {
+        are_the_same(written, meant);
     }
 }

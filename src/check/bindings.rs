@@ -43,6 +43,21 @@ impl<'a> Checker<'a> {
         self.import_params_of(part);
     }
 
+    /// The same of a part whose params go in a circle, which has been said: what they are in its text.
+    pub(super) fn definitions_of_part_alone(&mut self, part: usize) {
+        let samples = self.samples.clone();
+        self.in_part(part, |child| {
+            child.samples = samples;
+            child.definitions();
+        });
+    }
+
+    /// The bindings of a part that must be known before it is, those of params; others wait until all parts are.
+    pub(super) fn binds_definition(&self, part: usize, binding: &Binding) -> bool {
+        let bound = self.parts.get(part).and_then(|child| child.space.get(&binding.name.text));
+        !matches!(bound, Some(Entity::Input(_)))
+    }
+
     /// What is said of the params of a part.
     fn params_bound(&mut self, part: usize) -> Vec<BoundParam<'a>> {
         let of_part = self.bindings[part];
@@ -114,8 +129,9 @@ impl<'a> Checker<'a> {
         let BoundParam { bound: Bound::Number(value, judged), span, .. } = *self.bound_param(name)? else {
             return None;
         };
+        // a number without a unit is a pure number, as one that is set from outside
         let fits = match (in_file.dim, value.dim) {
-            (Dim::Of(wanted), Dim::Of(found)) if judged => wanted.is(found),
+            (Dim::Of(wanted), Dim::Of(found)) => wanted.is(found) || !judged && wanted.is(Dimension::PURE),
             _ => true,
         };
         if let (false, Dim::Of(wanted), Dim::Of(found), Some(span)) = (fits, in_file.dim, value.dim, span) {
@@ -147,9 +163,20 @@ impl<'a> Checker<'a> {
                 continue;
             }
             match bound {
-                Bound::Point(bound) => point = bound,
+                Bound::Point(bound) => {
+                    let is_zero = bound.at.iter().all(|&id| self.constant_value(id) == Some(0.0));
+                    if let Some(span) = span.filter(|_| point.dimensional && !bound.dimensional && !is_zero) {
+                        let plain = rates::Part { span, dimension: Dimension::PURE };
+                        let place = format!("the point `{}`", name.text);
+                        let text = self.sources.text(span);
+                        self.report(errors::wrong_dimension(&place, Dimension::LENGTH, plain, text));
+                        return None;
+                    }
+                    point = bound;
+                }
                 Bound::Coordinate(axis, value, judged) => {
                     let place = format!("the coordinate `{}.{}`", name.text, ["x", "y"][axis]);
+                    let judged = judged || point.dimensional;
                     let context = Context { judged, ..Context::constant("a binding of a param") };
                     let span = span.unwrap_or(name.span);
                     self.demand(&place, Dimension::LENGTH, span, value.dim, &context)?;
@@ -192,68 +219,6 @@ impl<'a> Checker<'a> {
             };
             self.bound_params.push(param);
         }
-    }
-
-    /// What is said of the inputs of parts, from the outside in.
-    pub(super) fn bind_inputs(&mut self) {
-        for part in 0..self.parts.len() {
-            let of_part = self.bindings[part];
-            for binding in &of_part.bindings {
-                let Some(Entity::Input(k)) = self.parts[part].space.get(&binding.name.text) else { continue };
-                let value = self.input_bound(part, k, binding);
-                self.in_part(part, |child| {
-                    let declared = child.declared(&binding.name);
-                    child.inputs[k].value = value.map(|value| {
-                        let held = child.held(value);
-                        child.with_shift(&declared, held)
-                    });
-                });
-            }
-            self.tell_inputs(part);
-            self.in_part(part, Checker::bind_inputs);
-        }
-    }
-
-    /// Writes down what the inputs of a part are in the end, those of parts within it that nobody binds by their paths there.
-    fn tell_inputs(&mut self, part: usize) {
-        let Some(id) = self.parts[part].part else { return };
-        let child = &self.parts[part];
-        let own = child.inputs.iter().filter_map(|input| Some((input.name.text.clone(), input.value?.id)));
-        let mut inputs: Vec<(String, ExprId)> = own.collect();
-        let deeper = self.model.inputs.iter().filter_map(|input| {
-            let name = input.declared.name.strip_prefix(child.path.as_str())?;
-            name.contains('.').then(|| (name.to_owned(), input.value))
-        });
-        inputs.extend(deeper);
-        self.model.parts[id.index()].inputs = inputs;
-    }
-
-    fn input_bound(&mut self, part: usize, k: usize, binding: &Binding) -> Option<Value> {
-        let wanted = self.parts[part].inputs.get(k)?.value?.dim;
-        let judged = self.is_dimensional(&binding.value);
-        let context = Context {
-            judged,
-            time: true,
-            inputs: true,
-            quantities: true,
-            ..Context::constant("a binding of an input")
-        };
-        let conditions = self.model.conditions.len();
-        let value = self.formula(&binding.value, &context)?;
-        let owner = format!("{}{}", self.path, self.bindings[part].name.text);
-        for condition in &mut self.model.conditions[conditions..] {
-            condition.owner.clone_from(&owner);
-        }
-        if let (Dim::Of(wanted), Dim::Of(found)) = (wanted, value.dim)
-            && judged
-            && !wanted.is(found)
-        {
-            let place = format!("the input `{}` of `{}`", binding.name.text, self.bindings[part].name.text);
-            let wrong = rates::Part { span: binding.value.span, dimension: found };
-            self.report(errors::wrong_dimension(&place, wanted, wrong, self.sources.text(binding.value.span)));
-            return None;
-        }
-        Some(Value { dim: wanted, ..value })
     }
 }
 

@@ -936,9 +936,9 @@ pub fn index_is_taken(name: &Name) -> Diagnostic {
         .help("choose a name that nothing else has: `i`, `j`, `k`")
 }
 
-pub fn too_many_declarations(span: Span, most: usize) -> Diagnostic {
+pub fn too_many_declarations(span: Span, most: usize, label: &str) -> Diagnostic {
     Diagnostic::new(Code::E0208, format!("written out, the mechanism has more than {most} declarations"))
-        .at(span, "too large a range")
+        .at(span, label)
 }
 
 // ---- the whole

@@ -395,6 +395,10 @@ impl<'a> Checker<'a> {
     /// A name alone where `body.feature` is wanted.
     pub(super) fn bare_name(&mut self, name: &Name, what: &str) {
         let Ok(entity) = self.resolve(name) else { return };
+        if entity == Some(Entity::Trace) && what == "point" {
+            self.trace_in_a_formula(name.span, "a point", name);
+            return;
+        }
         let wanted = if what == "axis" { "an axis".to_owned() } else { format!("a {what}") };
         let beside = self.owners_beside(name.span);
         let owners: Vec<String> = std::iter::once(self.ground)

@@ -12,7 +12,7 @@ use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, ItemKind, Name, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// The dimension of a formula.
@@ -228,6 +228,10 @@ impl Checker<'_> {
                 if let Ok(coordinate) = self.coordinate_of(e, context) {
                     return coordinate;
                 }
+                if let Some(Entity::Trace) = self.entity(owner) {
+                    self.trace_in_a_formula(e.span, "a number", owner);
+                    return None;
+                }
                 let what = self.describe_member(owner, feature);
                 let diagnostic = errors::wrong_kind(e.span, "a number", &what);
                 self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
@@ -241,9 +245,12 @@ impl Checker<'_> {
                 let text: String = self.sources.text(e.span).chars().filter(|c| !c.is_whitespace()).collect();
                 // those of the text have been written out; this one comes from outside
                 let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
-                self.report(match self.space.get(&owner) {
-                    Some(entity) => errors::path_from_outside(e.span, &owner, entity.noun(), owner == text),
-                    None => errors::path_of_nothing(e.span, segments),
+                let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
+                let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
+                self.report(match (self.space.get(&owner), unknown) {
+                    (Some(entity), _) => errors::path_from_outside(e.span, &owner, entity.noun(), owner == text),
+                    (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
+                    (None, None) => errors::path_of_nothing(e.span, segments),
                 });
                 None
             }
@@ -355,6 +362,10 @@ impl Checker<'_> {
                 );
                 None
             }
+            Some(Entity::Trace) => {
+                self.trace_in_a_formula(name.span, "a number", name);
+                None
+            }
             Some(entity @ (Entity::Function(_) | Entity::Table(_))) => {
                 let help = format!("call it: `{}(…)`", name.text);
                 self.report(errors::wrong_kind(name.span, "a number", entity.noun()).help(help));
@@ -370,6 +381,16 @@ impl Checker<'_> {
                 None
             }
         }
+    }
+
+    /// Says that a trace is no number and no point.
+    pub(super) fn trace_in_a_formula(&mut self, span: Span, wanted: &str, name: &Name) {
+        let point = self.items().iter().find_map(|item| match &item.kind {
+            ItemKind::Trace { name: own, point, .. } if own.text == name.text => Some(self.sources.text(point.span)),
+            _ => None,
+        });
+        let diagnostic = errors::trace_in_a_formula(span, wanted, name, point);
+        self.report(diagnostic);
     }
 
     fn unknown_number(&mut self, name: &Name, context: &Context<'_>) {
@@ -660,16 +681,14 @@ impl Checker<'_> {
         false
     }
 
-    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
-    /// The value of a formula of constants, of whatever dimension; of one that is broken nothing is said here.
+    /// The value of a formula of constants, of whatever dimension.
     pub(super) fn any_constant(&mut self, e: &Expr) -> Option<f64> {
-        let said = self.diagnostics.len();
         let judged = self.is_dimensional(e);
-        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") });
-        self.diagnostics.truncate(said);
-        self.constant_value(value?.id)
+        let value = self.formula(e, &Context { judged, ..Context::constant("a binding of a param") })?;
+        self.constant_value(value.id)
     }
 
+    /// A constant of a given dimension, judged on its own: its place in the graph and its value.
     pub(super) fn constant(&mut self, e: &Expr, place: &str, wanted: Dimension) -> Option<(ExprId, f64)> {
         let judged = self.is_dimensional(e);
         self.constant_in(e, place, wanted, judged)

@@ -190,7 +190,8 @@ impl<'t> Builder<'t, '_> {
     fn must_be_small_enough(&mut self, count: usize, part: &ast::Part) {
         if count > MOST && !self.is_too_large {
             self.is_too_large = true;
-            self.diagnostics.push(errors::too_many_declarations(part.name.span, MOST));
+            let label = format!("with this part there are {count} or more");
+            self.diagnostics.push(errors::too_many_declarations(part.name.span, MOST, &label));
         }
     }
 

@@ -195,7 +195,7 @@ impl Checker<'_> {
     /// Whether the poses as written say on which side, or in which direction, one of two wheels lies from the other.
     fn is_drawn_apart(&mut self, joint: JointKind, arguments: &[Expr]) -> bool {
         // a pose that is broken says nothing
-        if joint.frames(&self.model).iter().any(|frame| self.broken_poses.contains(frame)) {
+        if joint.frames(&self.model).iter().any(|frame| self.is_place_broken(*frame)) {
             return true;
         }
         match joint {

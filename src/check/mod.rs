@@ -6,8 +6,10 @@
 
 mod arguments;
 mod bindings;
+mod bound_inputs;
 mod builtins;
 mod calls;
+mod columns_by;
 mod elements;
 mod errors;
 mod features;
@@ -26,6 +28,7 @@ mod meaning;
 mod meant;
 mod mends;
 mod mentions;
+mod mounts;
 mod named_points;
 mod names;
 mod parts;
@@ -525,7 +528,8 @@ impl<'a> Checker<'a> {
                 ItemKind::Part(part) => {
                     let k = entities.iter().filter(|entity| matches!(entity, Entity::Part(_))).count();
                     entities.push(Entity::Part(k));
-                    definitions.push((&part.name, part.bindings.iter().map(|binding| &binding.value).collect()));
+                    let bindings = part.bindings.iter().filter(|binding| self.binds_definition(k, binding));
+                    definitions.push((&part.name, bindings.map(|binding| &binding.value).collect()));
                 }
                 _ => continue,
             }
@@ -533,8 +537,10 @@ impl<'a> Checker<'a> {
         }
         self.import_params();
         let uses = self.uses(&definitions, &entities);
-        let (mut measures, mut results, mut parts) = (Vec::new(), Vec::new(), Vec::new());
-        for at in self.ordered(&uses) {
+        let (mut measures, mut results) = (Vec::new(), Vec::new());
+        let order = self.ordered(&uses);
+        self.define_parts_on_circles(&order, &entities);
+        for at in order {
             let (name, formulas) = &definitions[at];
             match entities[at] {
                 Entity::Param(k) => {
@@ -551,10 +557,7 @@ impl<'a> Checker<'a> {
                 Entity::Function(k) => self.function(k),
                 Entity::Table(k) => self.table(k),
                 Entity::Input(k) => self.input(k),
-                Entity::Part(k) if k < self.parts.len() => {
-                    self.definitions_of_part(k);
-                    parts.push(k);
-                }
+                Entity::Part(k) if k < self.parts.len() => self.definitions_of_part(k),
                 Entity::Measure(k) => {
                     self.measures[k].dimensional = formulas.iter().any(|value| self.is_dimensional(value));
                     measures.push(k);
@@ -566,11 +569,23 @@ impl<'a> Checker<'a> {
                 _ => {}
             }
         }
-        // a part in a circle is broken, and has its own definitions all the same
-        for part in (0..self.parts.len()).filter(|part| !parts.contains(part)) {
-            self.definitions_of_part(part);
-        }
         (self.measure_order, self.result_order) = (measures, results);
+    }
+
+    /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
+    fn define_parts_on_circles(&mut self, order: &[usize], entities: &[Entity]) {
+        let mut is_ordered = vec![false; entities.len()];
+        for &at in order {
+            is_ordered[at] = true;
+        }
+        for (entity, is_ordered) in entities.iter().zip(is_ordered) {
+            if let Entity::Part(k) = *entity
+                && !is_ordered
+                && k < self.parts.len()
+            {
+                self.definitions_of_part_alone(k);
+            }
+        }
     }
 
     fn uses<'d>(
@@ -606,14 +621,15 @@ impl<'a> Checker<'a> {
                             let hidden = arguments.get(&k) == Some(&used.text.as_str());
                             let is_own = !hidden && !self.is_declared_though_taken(used);
                             let entity = self.entity(used).filter(|_| is_own);
-                            // where a body is asks for nothing of the part that its input is bound to
-                            let is_place = matches!(entity, Some(Entity::Body(_) | Entity::Joint(_)));
-                            if is_place && matches!(entities[k], Entity::Part(_)) {
-                                return;
-                            }
-                            // what is in a part is known when the part is
+                            // what is in a part is known when the part is, but for what nothing here asks the number of
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
-                            let entity = part.or(entity);
+                            let entity = match entity {
+                                Some(Entity::Body(_) | Entity::Joint(_) | Entity::Ground) => None,
+                                entity => part.or(entity),
+                            };
+                            // no input may stand in what an option says of one, which is told there
+                            let is_told = self.sources.get(used.span.file).is_option;
+                            let entity = entity.filter(|entity| !(is_told && matches!(entity, Entity::Input(_))));
                             if let Some(&at) = entity.and_then(|e| position.get(&e)) {
                                 uses.push((at, used.span));
                             }

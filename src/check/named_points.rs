@@ -244,7 +244,7 @@ impl<'a> Checker<'a> {
         };
         let diagnostic = errors::wrong_kind(name.span, "a point", found);
         self.report(match entity {
-            Some(Entity::Body(_)) if feature.is_none() && self.scope.site == Site::Drawing => {
+            Some(Entity::Body(_)) if feature.is_none() && self.scope.site.takes_drawn_points() => {
                 diagnostic.help(format!("name one of its points: `{}.…`", name.text))
             }
             Some(Entity::Param(_)) => {

@@ -1,12 +1,10 @@
 //! Parts: each is checked as the mechanism that it is, by a checker of its own that shares the model with those around it.
 
 use super::instance::Instance;
-use super::sites::Site;
-use super::{Checker, Surroundings, errors};
-use crate::expr::{ExprId, Graph};
-use crate::model::{Frame, Part, Placement};
+use super::{Checker, Surroundings};
+use crate::model::{Frame, Part};
 use crate::source::{Sources, Span};
-use crate::syntax::ast::{self, Expr, ExprKind, ItemKind};
+use crate::syntax::ast::{self, ItemKind};
 
 impl<'a> Checker<'a> {
     /// A checker of a mechanism with its parts, which are all there before anything of them is read; each knows its path, and where it is
@@ -107,64 +105,5 @@ impl<'a> Checker<'a> {
             child.ground = Frame::Part(id);
             child.add_frames();
         });
-    }
-
-    /// What carries each part, and where.
-    pub(super) fn mount_parts(&mut self) {
-        for k in 0..self.parts.len() {
-            let written = self.bindings[k];
-            let mount = written.on.as_ref().map(|on| self.carrier_of(on));
-            let pose = written.at.as_ref().map(|at| self.at_site(Site::Drawing, None, |c| c.pose_of_part(at)));
-            let Some(id) = self.parts[k].part else { continue };
-            let own = Frame::Part(id);
-            if let Some(Some(mount)) = mount {
-                if self.model.carrier_chain(mount).any(|frame| frame == own) {
-                    self.report(errors::carries_itself(
-                        &written.name,
-                        written.on.as_ref().map_or(written.name.span, |on| on.span),
-                    ));
-                } else {
-                    self.model.parts[id.index()].mount = mount;
-                }
-            }
-            if let Some(Some(pose)) = pose {
-                self.model.parts[id.index()].pose = pose;
-            }
-        }
-        self.in_parts(Checker::mount_parts);
-    }
-
-    fn carrier_of(&mut self, on: &Expr) -> Option<Frame> {
-        if let ExprKind::Name(name) = &on.kind {
-            return self.body(name);
-        }
-        self.wrong_kind(on.span, "a body", Self::describe(on));
-        None
-    }
-
-    /// A part's frame: those of the poses of bodies that need no body.
-    fn pose_of_part(&mut self, at: &Expr) -> Option<[ExprId; 3]> {
-        let (place, phi) = self.place_and_angle(at)?;
-        let ([x, y], phi) = (place?, phi?);
-        Some([x, y, phi])
-    }
-
-    /// Where a frame is drawn in that of this text.
-    pub(super) fn drawn_frame(&mut self, frame: Frame) -> Placement {
-        let mut graph = std::mem::replace(&mut self.model.graph, Graph::new());
-        let placement = self.model.drawn(&mut graph, &mut |_, id| id, self.part, frame);
-        self.model.graph = graph;
-        placement
-    }
-
-    /// Whether a frame moves, as this text sees it.
-    pub(super) fn moves(&self, frame: Frame) -> bool {
-        let mut chain = self.model.carrier_chain(frame);
-        chain.find_map(|frame| match frame {
-            _ if frame == self.ground => Some(false),
-            Frame::Body(_) => Some(true),
-            Frame::Ground => Some(false),
-            Frame::Part(_) => None,
-        }) == Some(true)
     }
 }

@@ -9,7 +9,7 @@ use super::named_points::Found;
 use super::sites::{Drawn, Place, Site};
 use super::{Checker, errors, mends};
 use crate::expr::{Binary, Comparison, ExprId, Graph, Node, Unary};
-use crate::model::Dimension;
+use crate::model::{Dimension, Frame};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Name, Sign};
 use crate::vocabulary::{Function, Keyword};
@@ -105,18 +105,26 @@ impl Checker<'_> {
 
     /// `crank.pin`: where it is drawn.
     fn feature_point(&mut self, e: &Expr, owner: &Name, feature: &Name) -> Option<Place> {
-        if self.is_named_point(owner) || self.is_body(owner) && self.scope.site != Site::Drawing {
+        if self.is_named_point(owner) || self.is_body(owner) && !self.scope.site.takes_drawn_points() {
             let diagnostic = self.no_place(e.span, owner, feature);
             self.report(diagnostic);
             return None;
         }
         let frame = self.body(owner)?;
         let point = self.point_named(frame, feature)?;
-        let [x, y] = self.model[point].at;
+        let at = self.model[point].at;
+        match self.scope.site {
+            Site::Mount(mount) => self.drawn_from(mount, frame, at),
+            _ => self.drawn_place(frame, at),
+        }
+    }
+
+    /// Where a point of a frame is drawn, in the frame of this text; nothing where that is broken.
+    pub(super) fn drawn_place(&mut self, frame: Frame, [x, y]: Place) -> Option<Place> {
         if frame == self.ground {
             return Some([x, y]);
         }
-        if self.broken_poses.contains(&frame) {
+        if self.is_place_broken(frame) {
             return None;
         }
         let Some(body) = self.own_body(frame) else {
@@ -294,7 +302,7 @@ impl Checker<'_> {
             ExprKind::Member { owner, .. } => self.is_body(owner) && !self.is_named_point(owner),
             _ => false,
         };
-        points.into_iter().find(is_moving).map(|e| e.span).filter(|_| self.scope.site != Site::Drawing)
+        points.into_iter().find(is_moving).map(|e| e.span).filter(|_| !self.scope.site.takes_drawn_points())
     }
 
     /// The angle of the way between two points, in (−π, π].

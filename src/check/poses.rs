@@ -9,7 +9,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Name, Pose};
 use crate::syntax::keywords_in;
 use crate::vocabulary::Keyword;
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 /// For messages.
 const PLACE: &str = "the estimate of a pose";
@@ -27,9 +27,17 @@ impl<'a> Checker<'a> {
         }
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
-        for k in self.ordered(&uses) {
+        let order = self.ordered(&uses);
+        self.break_places_on_circles(&order, poses.len());
+        for k in order {
             // behind the bodies stand the parts
-            let Some(&(item, _, pose)) = poses.get(k) else { continue };
+            let Some(&(item, _, pose)) = poses.get(k) else {
+                let part = k - poses.len();
+                if self.is_placed_by_features(part) {
+                    self.place_part(part);
+                }
+                continue;
+            };
             is_sound[k] = match pose {
                 Some(pose) => self.at_site(Site::Drawing, None, |checker| checker.pose(k, pose)).is_some(),
                 None => !self.has_unread_pose(item),
@@ -54,29 +62,47 @@ impl<'a> Checker<'a> {
         }
         // what is in a part stands where the part does
         let position = |name: &Name| positions.get(name.text.split('.').next().unwrap_or_default()).copied();
-        let uses = poses.iter().map(|&(_, name, pose)| {
-            let mut uses = Vec::new();
-            let mut open: Vec<&Expr> = pose.into_iter().flat_map(Pose::parts).collect();
-            while let Some(e) = open.pop() {
-                if let ExprKind::Member { owner, .. } = &e.kind
-                    && self.point_param(owner).is_none()
-                {
-                    uses.extend(position(owner).map(|k| (k, owner.span)));
-                }
-                open.extend(e.children());
-            }
-            (name, uses)
-        });
+        let uses = poses
+            .iter()
+            .map(|&(_, name, pose)| (name, self.owners_in(pose.into_iter().flat_map(Pose::parts).collect(), position)));
         let mut uses: Vec<_> = uses.collect();
-        for (own, part) in self.bindings.iter().enumerate() {
-            let mount = part.on.as_ref().and_then(|on| match &on.kind {
+        for (part, child) in self.bindings.iter().zip(&self.parts) {
+            // of one whose mount is refused that is said
+            let is_mounted = child.part.is_some_and(|id| self.model[id].mount != self.ground);
+            let mount = part.on.as_ref().filter(|_| is_mounted).and_then(|on| match &on.kind {
                 ExprKind::Name(name) => position(name).map(|k| (k, name.span)),
                 _ => None,
             });
-            // of one that carries itself that is said
-            uses.push((&part.name, mount.filter(|(k, _)| *k != poses.len() + own).into_iter().collect()));
+            uses.push((
+                &part.name,
+                mount.into_iter().chain(self.owners_in(part.at.iter().collect(), position)).collect(),
+            ));
         }
         uses
+    }
+
+    /// Whose features formulas name, by their positions.
+    fn owners_in(&self, mut open: Vec<&Expr>, position: impl Fn(&Name) -> Option<usize>) -> Vec<(usize, Span)> {
+        let mut uses = Vec::new();
+        while let Some(e) = open.pop() {
+            if let ExprKind::Member { owner, .. } = &e.kind
+                && self.point_param(owner).is_none()
+            {
+                uses.extend(position(owner).map(|k| (k, owner.span)));
+            }
+            open.extend(e.children());
+        }
+        uses
+    }
+
+    /// Parts whose places go in a circle have none; those of bodies follow.
+    fn break_places_on_circles(&mut self, order: &[usize], bodies: usize) {
+        let is_ordered: FxHashSet<usize> = order.iter().copied().collect();
+        for (k, child) in self.parts.iter().enumerate() {
+            if let Some(id) = child.part.filter(|_| !is_ordered.contains(&(bodies + k))) {
+                self.broken_poses.insert(Frame::Part(id));
+            }
+        }
     }
 
     /// Whether a body has a pose that does not follow the grammar, which has been said.

@@ -2,13 +2,13 @@
 //! names that the copies have. All else of `check` knows plain declarations alone.
 
 use super::instance::{Copies, Instance};
-use super::mentions::name_of;
+use super::mentions::{formulas, name_of};
 use super::{Checker, errors};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Sign,
+    self, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Sign, TableRows,
 };
 use crate::vocabulary::is_taken;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -30,6 +30,7 @@ pub(super) type Numbers<'t> = Vec<(&'t str, i64)>;
 
 /// Writes out one mechanism.
 pub(super) struct Writer<'t, 'c> {
+    tree: &'t Mechanism,
     /// Knows the params.
     checker: Checker<'c>,
     /// The mechanism's names.
@@ -52,7 +53,7 @@ pub(super) struct Writer<'t, 'c> {
 type WrittenOut = (Mechanism, Diagnostics);
 
 /// A formula or declaration that cannot be written out, which has been said.
-struct Unwritten;
+pub(super) struct Unwritten;
 
 type Written<T> = Result<T, Unwritten>;
 
@@ -60,6 +61,7 @@ impl<'t, 'c> Writer<'t, 'c> {
     /// With a reader of formulas that knows the mechanism's params.
     pub fn new(tree: &'t Mechanism, checker: Checker<'c>) -> Writer<'t, 'c> {
         Writer {
+            tree,
             checker,
             names: tree.items.iter().filter_map(name_of).map(|name| name.text.as_str()).collect(),
             copies: FxHashMap::default(),
@@ -100,10 +102,16 @@ impl<'t, 'c> Writer<'t, 'c> {
         copies
     }
 
-    /// The value of a formula of constants; nothing where it is broken, which the whole will tell.
+    /// The value of what is bound of a param that decides a range; nothing where it is broken, which is told here: what it decides is
+    /// never there to tell it.
     pub fn number(&mut self, e: &Expr, numbers: &Numbers<'_>) -> Option<f64> {
         let formula = self.formula(e, numbers).ok()?;
-        self.checker.any_constant(&formula)
+        let said = self.checker.diagnostics.len();
+        let value = self.checker.any_constant(&formula);
+        if value.is_none() {
+            self.is_of_a_part(e, "a binding that decides a range", said);
+        }
+        value
     }
 
     /// The mechanism written out, with its parts by their names; the numbers of what is repeated; what its formulas name in its parts.
@@ -166,8 +174,9 @@ impl<'t, 'c> Writer<'t, 'c> {
             for numbers in copies {
                 let [from, to] = self.bounds(range, &numbers)?;
                 let more = usize::try_from(to.saturating_sub(from)).unwrap_or(0);
-                if self.count.saturating_add(longer.len()).saturating_add(more) > MOST {
-                    self.tell(errors::too_many_declarations(range.index.span, MOST));
+                let count = self.count.saturating_add(longer.len()).saturating_add(more);
+                if count > MOST {
+                    self.tell(errors::too_many_declarations(range.index.span, MOST, "too large a range"));
                     self.is_too_large = true;
                     return None;
                 }
@@ -207,7 +216,11 @@ impl<'t, 'c> Writer<'t, 'c> {
             value
         } else {
             let formula = self.formula(e, numbers)?;
-            self.checker.constant(&formula, place, Dimension::PURE).ok_or(Unwritten)?.1
+            let said = self.checker.diagnostics.len();
+            match self.checker.constant(&formula, place, Dimension::PURE) {
+                Some((_, value)) => value,
+                None => return Err(self.is_of_a_part(e, place, said)),
+            }
         };
         let whole = value.round();
         if (value - whole).abs() > WHOLE || whole.abs() > 1e15 {
@@ -215,6 +228,17 @@ impl<'t, 'c> Writer<'t, 'c> {
             return Err(Unwritten);
         }
         Ok(whole as i64)
+    }
+
+    /// Says of a number that cannot be told that it is made of what a part has, if it is, rather than what was said of it.
+    pub fn is_of_a_part(&mut self, e: &Expr, place: &str, said: usize) -> Unwritten {
+        if let Some(path) = path_into_part(self.tree, e) {
+            self.checker.diagnostics.truncate(said);
+            let text = self.checker.sources.text(path);
+            let diagnostic = errors::decided_by_a_part(place, text, e.span, path);
+            self.tell(diagnostic);
+        }
+        Unwritten
     }
 
     /// A copy of a declaration; as broken, where something in it cannot be written out.
@@ -228,6 +252,22 @@ impl<'t, 'c> Writer<'t, 'c> {
     fn kind(&mut self, kind: &ItemKind, numbers: &Numbers<'_>) -> Written<ItemKind> {
         let own = |name: &Name| named(name, numbers);
         Ok(match kind {
+            ItemKind::Param { name, value } => {
+                ItemKind::Param { name: name.clone(), value: self.formula(value, numbers)? }
+            }
+            ItemKind::Function { name, argument, value } => {
+                let value = self.formula_over(argument, value)?;
+                ItemKind::Function { name: name.clone(), argument: argument.clone(), value }
+            }
+            ItemKind::Table { name, periodic, rows: TableRows::Listed(rows) } => {
+                let rows = TableRows::Listed(self.formulas(rows, numbers)?);
+                ItemKind::Table { name: name.clone(), periodic: *periodic, rows }
+            }
+            ItemKind::Analysis { from, to, every } => ItemKind::Analysis {
+                from: self.formula(from, numbers)?,
+                to: self.formula(to, numbers)?,
+                every: self.formula(every, numbers)?,
+            },
             ItemKind::Input { name, value } => {
                 ItemKind::Input { name: own(name), value: self.formula(value, numbers)? }
             }
@@ -306,6 +346,14 @@ impl<'t, 'c> Writer<'t, 'c> {
     fn pose(&mut self, pose: &Pose, numbers: &Numbers<'_>) -> Written<Pose> {
         let toward = pose.toward.as_ref().map(|toward| self.formula(toward, numbers)).transpose()?;
         Ok(Pose { at: self.formula(&pose.at, numbers)?, toward })
+    }
+
+    /// The formula of a function: its argument hides what is repeated.
+    fn formula_over(&mut self, argument: &Name, formula: &Expr) -> Written<Expr> {
+        let hidden = self.copies.remove_entry(argument.text.as_str());
+        let written = self.formula(formula, &Vec::new());
+        self.copies.extend(hidden);
+        written
     }
 
     fn formulas(&mut self, list: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<Expr>> {
@@ -388,7 +436,12 @@ impl<'t, 'c> Writer<'t, 'c> {
             [] => Ok(ExprKind::Name(owner)),
             [feature] if feature.indices.is_empty() => Ok(ExprKind::Member { owner, feature: feature.name.clone() }),
             _ => {
-                self.tell(errors::path_of_nothing(span, segments));
+                let diagnostic = if self.names.contains(first.name.text.as_str()) || first.name.text == "ground" {
+                    errors::path_of_nothing(span, segments)
+                } else {
+                    errors::unknown_owner(&first.name, self.tree)
+                };
+                self.tell(diagnostic);
                 Err(Unwritten)
             }
         }
@@ -474,6 +527,8 @@ impl<'t, 'c> Writer<'t, 'c> {
                 let text = self.one_of(&copies, segment, numbers)?;
                 Ok(Name { text, span: name.span })
             }
+            // of what could not be repeated that has been said
+            None if self.is_repeated(name) => Err(Unwritten),
             None if self.names.contains(name.text.as_str()) => {
                 self.tell(errors::not_repeated(name));
                 Err(Unwritten)
@@ -481,6 +536,11 @@ impl<'t, 'c> Writer<'t, 'c> {
             // nothing of that name is told by whoever asks for it
             None => Ok(Name { text: indexed(&name.text, &self.values(indices, numbers)?), span: name.span }),
         }
+    }
+
+    fn is_repeated(&self, name: &Name) -> bool {
+        let is_it = |item: &Item| name_of(item).is_some_and(|own| own.text == name.text);
+        self.tree.items.iter().any(|item| !item.ranges.is_empty() && is_it(item))
     }
 
     fn values(&mut self, indices: &[Expr], numbers: &Numbers<'_>) -> Written<Vec<i64>> {
@@ -526,6 +586,31 @@ pub(super) fn named(name: &Name, numbers: &Numbers<'_>) -> Name {
 fn indexed(name: &str, numbers: &[i64]) -> String {
     let numbers: Vec<String> = numbers.iter().map(i64::to_string).collect();
     format!("{name}[{}]", numbers.join(","))
+}
+
+/// The place of what a formula names in a part, also by way of other definitions.
+fn path_into_part(tree: &Mechanism, formula: &Expr) -> Option<Span> {
+    let item = |name: &Name| tree.items.iter().find(|item| name_of(item).is_some_and(|own| own.text == name.text));
+    let is_part = |name: &Name| item(name).is_some_and(|item| matches!(item.kind, ItemKind::Part(_)));
+    let (mut open, mut seen) = (vec![formula], FxHashSet::default());
+    while let Some(e) = open.pop() {
+        let (owner, is_path) = match &e.kind {
+            ExprKind::Name(name) | ExprKind::Call { name, .. } => (Some(name), false),
+            ExprKind::Member { owner, .. } => (Some(owner), true),
+            ExprKind::Path(segments) => (segments.first().map(|first| &first.name), true),
+            _ => (None, false),
+        };
+        if let Some(name) = owner {
+            if is_path && is_part(name) {
+                return Some(e.span);
+            }
+            if seen.insert(&name.text) {
+                open.extend(item(name).map(formulas).unwrap_or_default());
+            }
+        }
+        open.extend(e.children());
+    }
+    None
 }
 
 /// The value of a formula of numbers alone, as most indices are.

@@ -25,6 +25,15 @@ pub(super) enum Site {
     Inside(Frame),
     /// Behind a body's `at`, where points of other bodies may stand.
     Drawing,
+    /// Behind a part's `at`: such points stand there too, and all is in the frame that carries the part.
+    Mount(Frame),
+}
+
+impl Site {
+    /// Whether points of bodies may stand there.
+    pub fn takes_drawn_points(self) -> bool {
+        matches!(self, Site::Drawing | Site::Mount(_))
+    }
 }
 
 /// The points that the formula at hand may name, and those it has named.

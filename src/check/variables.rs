@@ -8,11 +8,9 @@ use super::mentions::formulas;
 use super::names::Entity;
 use super::told::is_told_by;
 use super::{Checker, errors};
-use crate::diag::nearest;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Declared, Named, Variable};
-use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, ItemKind, Mechanism, Name};
+use crate::syntax::ast::{Expr, ExprKind, Mechanism, Name};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// How many variables a formula may be differentiated by, one after the other, and how often by time then.
@@ -25,7 +23,7 @@ pub(super) struct Variables {
     /// Names by which derivatives are asked for: those of points and of repeated inputs stand for all that they hold.
     asked: FxHashSet<String>,
     /// The numbers of those that have had their turn.
-    known: FxHashMap<String, u32>,
+    pub known: FxHashMap<String, u32>,
     /// Of the graph's named symbols that hold such derivatives: by how many variables, and how often by time.
     orders: FxHashMap<ExprId, (u8, u8)>,
 }
@@ -184,8 +182,11 @@ impl Checker<'_> {
     /// The number of what a derivative is taken by.
     fn variable(&mut self, by: &Expr) -> Option<u32> {
         let own = named(by).map(|name| format!("{}{name}", self.path));
-        if let Some((part, binding)) = self.bound_by_path(by) {
-            self.report(errors::by_bound(by.span, &part, binding));
+        let path = named(by).unwrap_or_default();
+        if let Some(bound) = self.binding_of(&format!("{}{path}", self.path)) {
+            let own = |name: &String| name.strip_prefix(self.path.as_str()).unwrap_or(name).to_owned();
+            let made_of: Vec<String> = bound.made_of.iter().map(own).collect();
+            self.report(errors::by_bound(by.span, &path, bound.span, &made_of));
             return None;
         }
         let known = own.and_then(|name| self.variables.known.get(&name).copied());
@@ -211,18 +212,6 @@ impl Checker<'_> {
         None
     }
 
-    /// What a path names that is bound where the part is used, with its place.
-    fn bound_by_path(&self, by: &Expr) -> Option<(String, Span)> {
-        let path = named(by)?;
-        let (part, name) = path.split_once('.')?;
-        let Some(Entity::Part(k)) = self.space.get(part) else { return None };
-        let bindings = &self.bindings.get(k)?.bindings;
-        let binding = bindings.iter().find(|binding| {
-            binding.name.text == name || name.split_once('.').is_some_and(|(point, _)| binding.name.text == point)
-        })?;
-        Some((path.clone(), binding.span))
-    }
-
     /// What is said of a name that no derivative is taken by; nothing where it is broken, which has been said.
     fn no_variable(&self, name: &Name) -> Option<crate::diag::Diagnostic> {
         match self.resolve(name).ok()? {
@@ -236,67 +225,5 @@ impl Checker<'_> {
                 Some(errors::unknown("input or parameter", name, &known))
             }
         }
-    }
-
-    /// Looks the names of `--by` up, in the order given; what is named twice counts once.
-    pub(super) fn look_over_by(&mut self) {
-        for told in self.by {
-            let found = self.variables_named(told);
-            if found.is_empty() {
-                self.no_column_by(told);
-            }
-            for variable in found {
-                if !self.model.by.contains(&variable) {
-                    self.model.by.push(variable);
-                }
-            }
-        }
-    }
-
-    /// One of that name; the coordinates of a point; or all copies of a repeated input.
-    fn variables_named(&self, told: &str) -> Vec<u32> {
-        let known = |name: String| self.variables.known.get(&name).copied();
-        if let Some(one) = known(told.to_owned()) {
-            return vec![one];
-        }
-        let of_point: Vec<u32> = ["x", "y"].into_iter().filter_map(|axis| known(format!("{told}.{axis}"))).collect();
-        if !of_point.is_empty() {
-            return of_point;
-        }
-        let is_told = |name: &str| {
-            let whole = name.rsplit_once('.').map(|(point, _)| point);
-            is_told_by(name, told) || whole.is_some_and(|whole| is_told_by(whole, told))
-        };
-        let mut copies: Vec<u32> =
-            self.variables.known.iter().filter(|(name, _)| is_told(name)).map(|(_, number)| *number).collect();
-        copies.sort_unstable();
-        copies
-    }
-
-    fn no_column_by(&mut self, told: &str) {
-        let whole = told.rsplit_once('.').map_or(told, |(point, _)| point);
-        let free = self.settable_names(|item| match item {
-            ItemKind::Param { name, .. } | ItemKind::Input { name, .. } => Some(name),
-            _ => None,
-        });
-        let known: Vec<&str> = free
-            .iter()
-            .filter(|(_, binding)| binding.is_none())
-            .map(|(name, _)| name.as_str())
-            .filter(|name| !self.deciding.contains(*name))
-            .collect();
-        let diagnostic = match self.space.get(told).or_else(|| self.space.get(whole)) {
-            Some(Entity::Param(_)) if self.deciding.contains(whole) => errors::column_by_deciding(told),
-            Some(Entity::Param(_) | Entity::Input(_)) if self.diagnostics.has_errors() => return,
-            Some(Entity::Param(_) | Entity::Input(_)) => {
-                errors::no_column_by(&self.tree.name.text, told, None, Some(whole), &known)
-            }
-            Some(entity) => errors::no_column_by(&self.tree.name.text, told, Some(entity.noun()), None, &known),
-            None => {
-                let meant = nearest(told, known.iter().copied());
-                errors::no_column_by(&self.tree.name.text, told, None, meant, &known)
-            }
-        };
-        self.report(diagnostic);
     }
 }

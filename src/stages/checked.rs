@@ -262,11 +262,18 @@ fn by_own_equations((compiled, mut said): (Option<Compiled>, Diagnostics)) -> (O
     }
 }
 
-/// The only mechanism of some that is not a part of another one of them; each with the names of its parts.
+/// The only mechanism of some that is not a part of another one of them; each with the names of its parts. Where all are, one that
+/// contains itself, of which that is to be told.
 fn outermost(mechanisms: &[(&str, Vec<&str>)]) -> Option<usize> {
-    let is_part = |name: &str| mechanisms.iter().any(|(other, parts)| *other != name && parts.contains(&name));
-    let mut others = (0..mechanisms.len()).filter(|&number| !is_part(mechanisms[number].0));
-    others.next().filter(|_| others.next().is_none())
+    let user = |name: &str| mechanisms.iter().position(|(other, parts)| *other != name && parts.contains(&name));
+    let mut others = (0..mechanisms.len()).filter(|&number| user(mechanisms[number].0).is_none());
+    match (others.next(), others.next()) {
+        (Some(only), None) => Some(only),
+        (Some(_), Some(_)) => None,
+        // who goes from part to user so often has come round
+        (None, _) if mechanisms.is_empty() => None,
+        (None, _) => (0..mechanisms.len()).try_fold(0, |at, _| user(mechanisms[at].0)),
+    }
 }
 
 fn chosen(parsed: &Parsed, used: &Used, wanted: Option<&str>) -> Result<usize, Box<Diagnostic>> {
@@ -398,9 +405,10 @@ mod tests {
         assert_eq!(of(&[("leg", &[]), ("walker", &[])]), None);
         assert_eq!(of(&[("leg", &["foot"]), ("walker", &["leg", "leg"]), ("foot", &[])]), Some(1));
         assert_eq!(of(&[("leg", &[]), ("walker", &["leg"]), ("runner", &["leg"])]), None);
-        // one that contains itself is no part of another, and of two that contain each other none is outermost
+        // one that contains itself is no part of another; of those that contain each other one is taken, which tells it
         assert_eq!(of(&[("leg", &["leg"])]), Some(0));
-        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), None);
+        assert_eq!(of(&[("leg", &["foot"]), ("foot", &["leg"])]), Some(0));
+        assert_eq!(of(&[("foot", &[]), ("egg", &["hen", "foot"]), ("hen", &["egg"])]), Some(1));
         assert_eq!(of(&[]), None);
     }
 }

@@ -3,7 +3,7 @@
 use super::meant;
 use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
-use crate::syntax::ast::{Binding, MechanismName, Name};
+use crate::syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
 
 /// Of a fault in the text of a part: which part it is.
 pub fn in_part(path: &str) -> String {
@@ -28,6 +28,42 @@ pub fn nothing_in_part(path: &str, mechanism: &str, name: &Name, known: &[&str])
     Diagnostic::new(Code::E0201, format!("there is no `{}` in the part `{path}`", name.text))
         .at(name.span, format!("`{mechanism}` declares nothing of that name"))
         .fix_if(meant(name, known))
+}
+
+/// A bound of a range is made of a param of a part: its path as it is written, and where.
+pub fn decided_by_a_part(place: &str, path: &str, span: Span, written: Span) -> Diagnostic {
+    let diagnostic = Diagnostic::new(Code::E0208, format!("{place} cannot be made of `{path}`, which is in a part"));
+    let diagnostic = diagnostic.at(span, "decides which declarations there are");
+    let is_inside = span.file == written.file && span.start <= written.start && written.end <= span.end;
+    let diagnostic = if is_inside { diagnostic } else { diagnostic.also(written, "comes in here") };
+    diagnostic.help("parts are there when all ranges are known: make both of a param, and bind that of the part to it")
+}
+
+/// `b.arm.tip`, where nothing is called `b`.
+pub fn unknown_owner(name: &Name, tree: &Mechanism) -> Diagnostic {
+    let known: Vec<&str> = tree
+        .items
+        .iter()
+        .filter_map(|item| match &item.kind {
+            ItemKind::Part(part) => Some(part.name.text.as_str()),
+            ItemKind::Body { name, .. } => Some(name.text.as_str()),
+            _ => None,
+        })
+        .collect();
+    super::unknown("part or body", name, &known)
+}
+
+/// A trace in the place of a number or point; `point` is what it is of, as it is written.
+pub fn trace_in_a_formula(span: Span, wanted: &str, name: &Name, point: Option<&str>) -> Diagnostic {
+    let diagnostic = super::wrong_kind(span, wanted, "a trace");
+    match (wanted, point) {
+        ("a number", Some(point)) => diagnostic.help(format!(
+            "`{0}.x` and `{0}.y` are columns; in a formula the place of the point is `x({point})` and `y({point})`",
+            name.text
+        )),
+        (_, Some(point)) => diagnostic.help(format!("name the point: `{point}`")),
+        _ => diagnostic.help("name the point that it is of"),
+    }
 }
 
 pub fn path_goes_on(span: Span) -> Diagnostic {
@@ -81,9 +117,19 @@ pub fn number_for_point(binding: &Binding) -> Diagnostic {
         .help("a point is written `(x, y)`")
 }
 
-pub fn carries_itself(part: &Name, on: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", part.text))
-        .at(on, "this stands on its own ground")
+/// Parts that stand on each other, or one on itself: each with the place of its `on`, and whether that names a ground.
+pub fn carries_itself(parts: &[(&Name, Span, bool)]) -> Diagnostic {
+    let Some((&(first, on, is_ground), rest)) = parts.split_first() else {
+        return Diagnostic::new(Code::E0209, "parts are carried by themselves");
+    };
+    if rest.is_empty() {
+        let label = if is_ground { "this stands on its own ground" } else { "this is a body of the part itself" };
+        return Diagnostic::new(Code::E0209, format!("the part `{}` is carried by itself", first.text)).at(on, label);
+    }
+    let way: Vec<String> = rest.iter().chain([&parts[0]]).map(|(part, ..)| format!("`{}`", part.text)).collect();
+    let message = format!("parts carry each other: `{}` stands on {}", first.text, way.join(", which stands on "));
+    let diagnostic = Diagnostic::new(Code::E0209, message).at(on, "on the circle");
+    rest.iter().fold(diagnostic, |diagnostic, (_, on, _)| diagnostic.also(*on, "on the circle"))
 }
 
 /// `--set front.reach=…`, where `front: lever(reach = …)`.

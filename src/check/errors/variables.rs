@@ -63,10 +63,42 @@ pub fn no_column_by(
     Diagnostic::new(Code::E0703, message).help(help.unwrap_or_else(listed))
 }
 
-/// `der(e, front.reach)`, where `front: lever(reach = …)`.
-pub fn by_bound(span: Span, path: &str, binding: Span) -> Diagnostic {
+/// `der(e, front.reach)`, where `front: lever(reach = …)`; and the names in that formula.
+pub fn by_bound(span: Span, path: &str, binding: Span, made_of: &[String]) -> Diagnostic {
     Diagnostic::new(Code::E0310, format!("`{path}` is bound where its mechanism is used"))
         .at(span, "not free")
         .also(binding, "bound here")
-        .help("take the derivative by what the binding is made of")
+        .help(free_instead(made_of))
 }
+
+/// The same of `--by front.reach`.
+pub fn column_by_bound(path: &str, binding: Span, made_of: &[String]) -> Diagnostic {
+    Diagnostic::new(
+        Code::E0708,
+        format!("there is no derivative by `{path}`, which is bound where its mechanism is used"),
+    )
+    .at(binding, "bound here")
+    .help(free_instead(made_of))
+}
+
+fn free_instead(made_of: &[String]) -> String {
+    let names: Vec<&str> = made_of.iter().map(String::as_str).collect();
+    match names.as_slice() {
+        [] => "its binding names no param or input: take the binding away, or make it of a param".to_owned(),
+        names => format!("take the derivative by what the binding is made of: {}", super::list(names)),
+    }
+}
+
+/// `--by` names a part; `free` are those of its params and inputs that are not bound.
+pub fn column_by_part(path: &str, free: &[String]) -> Diagnostic {
+    let names: Vec<&str> = free.iter().map(String::as_str).take(MOST_NAMES).collect();
+    let more = if free.len() > names.len() { ", for example" } else { "" };
+    let help = match names.as_slice() {
+        [] => "all that it has is bound".to_owned(),
+        names => format!("derivatives are taken by one of its params or inputs{more}: {}", super::list(names)),
+    };
+    Diagnostic::new(Code::E0703, format!("`{path}` is a part, and no input or parameter")).help(help)
+}
+
+/// So many names are listed at most.
+const MOST_NAMES: usize = 8;
