@@ -1,6 +1,5 @@
 //! Names of the source made safe for the target: valid, of the usual case, and unique.
 
-use super::tables::Tables;
 use crate::ir::{ConstraintSystem, Input};
 use rustc_hash::FxHashSet;
 
@@ -45,8 +44,8 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The names of a system whose parameters are reached by some paths, and beside which arrays may stand in a body.
-    pub fn new(system: &ConstraintSystem, paths: Vec<String>, tables: &Tables) -> Names {
+    /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
+    pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
         let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
@@ -55,8 +54,8 @@ impl Names {
         if !system.variations().is_empty() {
             variables.snake(VARIED);
         }
-        for array in tables.variables() {
-            variables.snake(&array);
+        for array in arrays {
+            variables.snake(array);
         }
         let mut variable = |wanted: String, short: String| {
             // what looks like a numbered one could be mistaken for it

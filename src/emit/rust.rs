@@ -40,7 +40,7 @@ const LARGEST_DENSE: usize = 64;
 #[must_use]
 pub fn rust(unit: &Unit<'_>) -> String {
     let tables = Tables::new(unit.program);
-    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables);
+    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, false);
     let writer = Writer { unit, names: &names, equations: &equations };
     let motion = unit.motion.as_ref().map(|motion| Solution::new(unit, motion, &equations));

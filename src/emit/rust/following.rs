@@ -27,7 +27,7 @@ pub(super) fn module(following: &Following<'_>) -> String {
         return String::new();
     };
     let tables = Tables::new(unit.program);
-    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables);
+    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, true);
     let writer = Writer { unit, names: &names, equations: &equations };
     let solution = Solution::new(unit, motion, &equations);
