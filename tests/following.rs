@@ -241,22 +241,22 @@ fn ways(text: &str, first: &str, ways: &str) -> Vec<String> {
 fn beyond_a_dead_point_it_locks_up_and_stays_where_it_was() {
     // a crank that cannot turn round: the rod and the rocker come into line
     let text = driven("1.5 m", "turn");
-    let found = ways(&text, "0.6", "[2.5, -2.5, 0.7, 100.0, 0.6 + 1e-7]");
+    let found = ways(&text, "0.6", "[2.5, -2.5, 0.7, 100.0, 0.6 + 1e-7, 1e12, -1e300]");
     let [lock, ok] = ["Err(LockUp) true true", "Ok(()) false true"];
-    assert_eq!(found, [lock, lock, ok, lock, ok]);
+    assert_eq!(found, [lock, lock, ok, lock, ok, lock, lock]);
 }
 
 #[test]
 fn a_jump_is_told_and_a_kink_is_passed() {
     let [jump, ok] = ["Err(NotSmooth) true true", "Ok(()) false true"];
     let text = driven("3.5 m", "if turn < 1 then turn else turn + 0.3");
-    assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 0.999, 1.0, 3.0]"), [ok, jump, ok, jump, jump]);
+    assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 0.999, 1.0, 3.0, 1e12]"), [ok, jump, ok, jump, jump, jump]);
     assert_eq!(ways(&text, "1.6", "[1.2, 0.9, 1.0, 0.0, 3.0]"), [ok, jump, ok, jump, ok]);
     let text = driven("3.5 m", "if turn < 1 then turn else 3 * turn - 2");
     assert_eq!(ways(&text, "0.6", "[0.9, 1.5, 1.0, 0.2, 2.0]"), [ok; 5]);
     // by the cut of an arc tangent, which no comparison tells of
     let text = driven("3.5 m", "0.2 * atan2(sin(turn), cos(turn))");
-    assert_eq!(ways(&text, "3.0", "[3.1, 3.2, 2.0, 9.0]"), [ok, jump, ok, jump]);
+    assert_eq!(ways(&text, "3.0", "[3.1, 3.2, 2.0, 9.0, 1e12]"), [ok, jump, ok, jump, jump]);
     let text = driven("3.5 m", "sqrt(turn^2)");
     assert_eq!(ways(&text, "0.6", "[0.2, -0.5, 2.0]"), [ok; 3]);
 }
@@ -301,6 +301,237 @@ fn main() {
 "#,
     );
     assert!(lines.len() >= 5, "{lines:?}");
+}
+
+#[test]
+fn a_way_that_is_long_is_too_far_and_nothing_else() {
+    let lines = printed(
+        &emitted(&text_of("four_bar")).text(None),
+        r#"
+fn main() {
+    let state = assemble(&Params::default()).unwrap();
+    let home = state.inputs();
+    for value in [1e5, 1e9, 1e12, -1e12, 1e17, 1e40, -1e200, 1.7e308] {
+        let (mut state, mut before) = (state.clone(), home.turn.value);
+        let far = Inputs { turn: Signal { value, ..home.turn } };
+        for _ in 0..2 {
+            // a step that has to be made shorter counts too, and at first every one has
+            assert_eq!(follow_within(&far, &mut state, 1500), Err(Error::TooFar), "{value}");
+            let now = state.inputs().turn.value;
+            assert!((now - before).abs() > 50.0 && (now > before) == (value > 0.0), "{value}: {before} to {now}");
+            before = now;
+        }
+        follow(&home, &mut state).unwrap();
+        // turns are whole ones
+        for (a, b) in state.q().iter().zip(assemble(&Params::default()).unwrap().q()) {
+            assert!((a - b).abs() < 1e-9, "{value}: {a} is not {b}");
+        }
+        println!("{value}");
+    }
+}
+"#,
+    );
+    assert_eq!(lines.len(), 8);
+}
+
+#[test]
+fn inputs_whose_names_meet_that_of_time_give_way() {
+    let text = "mechanism machine {
+    input T   = 3 * t / 1 s
+    input t_  = 5 * t / 1 s
+    input _t  = 7 * t / 1 s
+    input t_2 = 11 * t / 1 s
+    ground { point O = (0, 0) }
+    body shaft { point O = (0, 0) }
+    joint main: revolute(ground.O, shaft.O)
+    driver motor: rotation(main) = T + 10 * t_ + 100 * _t + 1000 * t_2MORE
+}
+";
+    let program = r#"
+fn main() {
+    let signal = |value: f64| Signal { value, rate: 0.0, acceleration: 0.0 };
+    let inputs = Inputs { t_2: signal(0.4), t_3: signal(0.1), t_4: signal(0.2), t_5: signal(0.3)TIME };
+    let mut state = assemble(&Params::default()).unwrap();
+    let by = influence(&state).unwrap();
+    for k in [input::T_3, input::T_4, input::T_5, input::T_2] {
+        println!("{:?}", by[k][2]);
+    }
+    follow(&inputs, &mut state).unwrap();
+    println!("{:?}", state.q()[2]);
+    println!("{:?}", state.qd()[2]);
+}
+"#;
+    let close = |name: &str, [more, time]: [&str; 2], wanted: [f64; 6]| {
+        let (text, program) = (text.replace("MORE", more), program.replace("TIME", time));
+        for largest_straight in [mechc::LARGEST_STRAIGHT, 0] {
+            let found: Vec<f64> = printed(&emitted(&text).text_of(None, largest_straight), &program)
+                .iter()
+                .flat_map(|line| numbers(line))
+                .collect();
+            let mut pairs = found.iter().zip(&wanted);
+            assert!(found.len() == 6 && pairs.all(|(a, b)| (a - b).abs() < 1e-9), "{name}: {found:?}");
+        }
+    };
+    close("with time", [" + 1e4 * t / 1 s", ", t: 0.5"], [1.0, 10.0, 100.0, 1000.0, 5432.1, 1e4]);
+    // time, where a formula comes to hold it, changes no name of an input
+    close("without", ["", ""], [1.0, 10.0, 100.0, 1000.0, 432.1, 0.0]);
+}
+
+/// Names that emitted code has itself, and some that Rust has.
+const TAKEN: [&str; 82] = [
+    "value",
+    "rate",
+    "acceleration",
+    "q",
+    "qd",
+    "qdd",
+    "qddd",
+    "state",
+    "inputs",
+    "params",
+    "signal",
+    "follow",
+    "step",
+    "assemble",
+    "influence",
+    "sensitivity",
+    "lanes",
+    "measures",
+    "row",
+    "coordinate",
+    "pose",
+    "at",
+    "lists",
+    "way",
+    "p",
+    "n",
+    "led",
+    "core",
+    "libm",
+    "f64",
+    "usize",
+    "self",
+    "super",
+    "crate",
+    "type",
+    "known",
+    "sides",
+    "u",
+    "u0",
+    "p0",
+    "v1",
+    "x1",
+    "w",
+    "k",
+    "v",
+    "out",
+    "guess",
+    "newton",
+    "sin_cos",
+    "select",
+    "either",
+    "piece",
+    "pick",
+    "by_signal",
+    "time",
+    "lift_knots",
+    "lift_c0",
+    "lift_c1",
+    "lift_c2",
+    "lift_c3",
+    "phi_q",
+    "nu",
+    "gamma",
+    "varied",
+    "solve",
+    "signal_2",
+    "entries",
+    "each",
+    "i",
+    "std",
+    "option",
+    "ok",
+    "shaft_x",
+    "shaft_phi_d",
+    "arrays",
+    "on_grid",
+    "lesser",
+    "run",
+    "is_led",
+    "default",
+    "towards",
+    "all_measures",
+];
+
+#[test]
+fn names_that_emitted_code_has_itself_can_be_declared() {
+    let (mut all, mut sums) = (String::new(), [String::from("0"), String::from("0")]);
+    for (k, name) in TAKEN.iter().enumerate() {
+        let input = name[..1].to_uppercase() + &name[1..];
+        let body = name.to_uppercase() + "_";
+        writeln!(
+            all,
+            "param {name} = {}
+            input {input} = 0.01 * sin({k} * t / 100 s)
+            body {body} {{ point O = (0, 0) }}
+            joint J_{k}: revolute(ground.O, {body}.O)
+            driver D_{k}: rotation(J_{k}) = {input} * {name}
+            measure _{name} = {name} * {input} * angle({body})",
+            1.0 + 0.01 * k as f64
+        )
+        .expect("a string takes everything");
+        write!(sums[k % 2], " + {name} * {input}").expect("a string takes everything");
+    }
+    let text = format!(
+        "mechanism machine {{
+    {all}
+    input T = 0.1 * t / 1 s
+    table lift = spline [(-4, -lift_knots), (0, 0), (4, lift_c0), (8, 2 * lift_c1), (12, lift_c2 + lift_c3)]
+    ground {{ point O = (0, 0) }}
+    body shaft {{ point O = (0, 0) }}
+    joint main: revolute(ground.O, shaft.O)
+    driver motor: rotation(main) = {} + lift(T * lift_knots) + lift_c0 * lift_c1 * lift_c2 * lift_c3 + t / 1 s
+    measure everything = angle(shaft) * ({}) + lift(T * lift_c0)
+    part value_p: inner(t_ = angle(shaft))
+    part q_p[copy in 0..2]: inner()
+    analysis from 0 s to 1 s every 0.5 s
+}}
+mechanism inner {{
+    param value  = 1 m
+    param params = 1
+    param q      = 1
+    input t_ = t / 1 s
+    input T_ = t / 1 s
+    ground {{ point O = (0, 0) }}
+    body self {{ point O = (0, 0)  point tip = (value, 0) }}
+    joint pin: revolute(ground.O, self.O)
+    driver d: rotation(pin) = t_ * params * q + T_
+    measure state = y(self.tip)
+}}
+",
+        sums[0], sums[1]
+    );
+    let emitted = emitted(&text);
+    let program = "
+fn main() {
+    let p = Params::default();
+    let (mut a, mut b) = (assemble(&p).unwrap(), assemble(&p).unwrap());
+    step(0.5, &mut a).unwrap();
+    follow(&Inputs::at(0.5, &p), &mut b).unwrap();
+    for (a, b) in a.row().iter().zip(b.row()).skip(1) {
+        println!(\"{a:?} {b:?}\");
+    }
+}
+";
+    let (rows, _) = emitted.rows();
+    for lines in [emitted.text(Some(2)), emitted.text_of(None, 0)].map(|module| printed(&module, program)) {
+        assert_eq!(lines.len(), rows[1].len() - 1);
+        for (line, wanted) in lines.iter().zip(&rows[1][1..]) {
+            let [stepped, followed] = numbers(line)[..] else { panic!("{line}") };
+            assert_eq!(stepped.to_bits(), wanted.to_bits(), "{line}");
+            assert!((stepped - followed).abs() < 1e-9 * (1.0 + stepped.abs()), "{line}");
+        }
+    }
 }
 
 #[test]

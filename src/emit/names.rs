@@ -1,6 +1,6 @@
 //! Names of the source made safe for the target: valid, of the usual case, and unique.
 
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, Input};
 use rustc_hash::FxHashSet;
 
 /// Words that Rust keeps for itself.
@@ -19,6 +19,9 @@ const RESERVED: &[&str] = &[
     "q", "qd", "qdd", "qddd", "t", "p", "m", "w", "x", "at", "out", "guess", "known", "sides", "newton", "sin_cos",
     "select", "either", "sign", "lesser", "greater", "piece", "pick", "on_grid", "libm", "blocks",
 ];
+
+/// What time is called, among inputs too.
+pub(super) const TIME: &str = "t";
 
 /// The array of the derivatives by inputs and parameters, of a mechanism that has such.
 pub(super) const VARIED: &str = "varied";
@@ -41,8 +44,8 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// The names of a system whose parameters are reached by some paths.
-    pub fn new(system: &ConstraintSystem, paths: Vec<String>) -> Names {
+    /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
+    pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
         let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
@@ -50,6 +53,9 @@ impl Names {
         }
         if !system.variations().is_empty() {
             variables.snake(VARIED);
+        }
+        for array in arrays {
+            variables.snake(array);
         }
         let mut variable = |wanted: String, short: String| {
             // what looks like a numbered one could be mistaken for it
@@ -62,7 +68,7 @@ impl Names {
             let coordinates = system.coordinates.iter().enumerate();
             coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
         });
-        let inputs = Case::Snake.names(system.inputs.iter().map(|input| input.name.as_str()));
+        let inputs = Case::Snake.names_of_inputs(&system.inputs);
         let signals = ["", "_d", "_dd"].map(|end| {
             let signals = inputs.iter().enumerate();
             signals
@@ -102,21 +108,52 @@ pub(super) enum Case {
 
 impl Case {
     /// Names that live in one space, in the order of their sources. Where two meet, the one that is less of a path keeps its name
-    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first. So what is declared behind others
-    /// takes a name only from a path that it spells.
+    /// (`pen_x` before `pen.x`, `leg_0.x` before `leg[0].x`), and of such that are alike the first; the other gets a number that makes
+    /// it no third one's. So what is declared behind others takes a name only from a path that it spells.
     pub fn names<'s>(self, sources: impl IntoIterator<Item = &'s str>) -> Vec<String> {
         let sources: Vec<&str> = sources.into_iter().collect();
         let mut order: Vec<usize> = (0..sources.len()).collect();
         let is_path = |c: &char| ".[ ".contains(*c);
         order.sort_by_key(|&k| sources[k].chars().filter(is_path).count());
         let (mut namer, mut names) = (Namer::default(), vec![String::new(); sources.len()]);
+        let mut met = Vec::new();
         for k in order {
-            names[k] = match self {
-                Case::Snake => namer.snake(sources[k]),
-                Case::Camel => namer.camel(sources[k]),
-                Case::Constant => namer.constant(sources[k]),
-            };
+            names[k] = self.name(sources[k]);
+            if !namer.taken.insert(names[k].clone()) {
+                met.push(k);
+            }
         }
+        for k in met {
+            names[k] = namer.name(self, sources[k]);
+        }
+        names
+    }
+
+    /// A name that other sources may give too.
+    fn name(self, source: &str) -> String {
+        let words = words(source);
+        match self {
+            Case::Snake => safe(words.to_lowercase()),
+            Case::Camel => {
+                let capital = |word: &str| {
+                    let (first, rest) = word.split_at(word.len().min(1));
+                    first.to_uppercase() + rest
+                };
+                let name = words.split('_').map(capital).collect::<String>();
+                // `Self` is a word of its own
+                if name == "Self" { "SelfBody".to_owned() } else { name }
+            }
+            Case::Constant => words.to_uppercase(),
+        }
+    }
+
+    /// Names of inputs, and of time where it is one of them, behind all others. The name `t` is that of time, whether formulas hold it
+    /// or not, so that one which holds it changes no name of an input.
+    pub fn names_of_inputs(self, inputs: &[Input]) -> Vec<String> {
+        let own = inputs.iter().filter(|input| !input.is_time()).map(|input| input.name.as_str());
+        let mut names = self.names(std::iter::once(TIME).chain(own));
+        names.rotate_left(1);
+        names.truncate(inputs.len());
         names
     }
 }
@@ -130,36 +167,20 @@ pub(super) struct Namer {
 impl Namer {
     /// A name for a field or variable: `crank_length`.
     pub fn snake(&mut self, source: &str) -> String {
-        self.unique(&words(source).to_lowercase(), '_')
-    }
-
-    /// A name for a variant: `CrankPin`.
-    pub fn camel(&mut self, source: &str) -> String {
-        let words = words(source);
-        let capital = |word: &str| {
-            let (first, rest) = word.split_at(word.len().min(1));
-            first.to_uppercase() + rest
-        };
-        let name = words.split('_').map(capital).collect::<String>();
-        // a number behind it stands without a line, which a variant does not have
-        // `Self` is a word of its own
-        let name = if name == "Self" { "SelfBody".to_owned() } else { name };
-        self.numbered(&name, "")
+        self.name(Case::Snake, source)
     }
 
     /// A name for a constant: `CRANK_PHI`.
     pub fn constant(&mut self, source: &str) -> String {
-        self.unique(&words(source).to_uppercase(), '_')
-    }
-
-    fn unique(&mut self, name: &str, separator: char) -> String {
-        let safe = if is_keyword(name) { format!("{name}{separator}") } else { name.to_owned() };
-        self.numbered(&safe, &separator.to_string())
+        self.name(Case::Constant, source)
     }
 
     /// The name, with a number if it is taken.
-    fn numbered(&mut self, name: &str, separator: &str) -> String {
-        let mut candidate = name.to_owned();
+    fn name(&mut self, case: Case, source: &str) -> String {
+        // a number behind it stands without a line in a variant
+        let separator = if case == Case::Camel { "" } else { "_" };
+        let name = case.name(source);
+        let mut candidate = name.clone();
         let mut count = 1;
         while !self.taken.insert(candidate.clone()) {
             count += 1;
@@ -167,6 +188,11 @@ impl Namer {
         }
         candidate
     }
+}
+
+/// A name that is no word of Rust.
+fn safe(name: String) -> String {
+    if is_keyword(&name) { name + "_" } else { name }
 }
 
 /// Whether a name is a word of Rust.
@@ -221,6 +247,8 @@ mod tests {
         assert_eq!(names(["pen.x", "pen_x", "pen.y"]), ["PEN_X_2", "PEN_X", "PEN_Y"]);
         assert_eq!(names(["leg[0].x", "leg[1].x", "leg_0.x"]), ["LEG_0_X_2", "LEG_1_X", "LEG_0_X"]);
         assert_eq!(Case::Snake.names(["R", "r", "s"]), ["r", "r_2", "s"]);
+        assert_eq!(Case::Snake.names(["R", "r", "r_2"]), ["r", "r_3", "r_2"]);
+        assert_eq!(Case::Snake.names(["Fn", "fn", "r"]), ["fn_", "fn_2", "r"]);
         assert_eq!(Case::Camel.names(["leg[0]", "leg_0"]), ["Leg02", "Leg0"]);
     }
 

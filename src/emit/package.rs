@@ -293,7 +293,7 @@ impl Writer<'_> {
         if self.unit.following.is_none() {
             return String::new();
         }
-        let names = Case::Snake.names(inputs.iter().map(|input| input.name.as_str()));
+        let names = Case::Snake.names_of_inputs(inputs);
         let rows: String = inputs
             .iter()
             .zip(names)

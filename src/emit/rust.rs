@@ -39,8 +39,8 @@ const LARGEST_DENSE: usize = 64;
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
 #[must_use]
 pub fn rust(unit: &Unit<'_>) -> String {
-    let names = Names::new(unit.system, Params::new(unit.system).paths);
     let tables = Tables::new(unit.program);
+    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, false);
     let writer = Writer { unit, names: &names, equations: &equations };
     let motion = unit.motion.as_ref().map(|motion| Solution::new(unit, motion, &equations));

@@ -29,6 +29,13 @@ impl Tables {
         Tables { names }
     }
 
+    /// What columns are called in a body that builds them, in order: `lift_knots`.
+    pub fn variables(&self) -> Vec<String> {
+        let mut all: Vec<String> = self.names.values().map(|name| name.to_lowercase()).collect();
+        all.sort_unstable();
+        all
+    }
+
     /// `LIFT_KNOTS`
     pub fn of(&self, table: u32, column: Column) -> &str {
         self.names.get(&(table, column)).map_or("", String::as_str)

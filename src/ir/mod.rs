@@ -132,6 +132,14 @@ pub struct Input {
     pub formulas: [ExprId; 3],
 }
 
+impl Input {
+    /// Whether it is time, which is one where formulas hold it beside inputs.
+    #[must_use]
+    pub fn is_time(&self) -> bool {
+        self.index == TIME_SIGNAL
+    }
+}
+
 /// A body with its place in the text.
 #[derive(Clone, Debug)]
 pub struct Body {

@@ -11,7 +11,6 @@ use crate::emit::params::Params;
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
 use crate::emit::text::{chosen, indented, one_line};
-use crate::expr::TIME_SIGNAL;
 use crate::ir::Input;
 use crate::program::Register;
 use rustc_hash::FxHashMap;
@@ -27,7 +26,8 @@ pub(super) fn module(following: &Following<'_>) -> String {
     let Some(motion) = &unit.motion else {
         return String::new();
     };
-    let (names, tables) = (Names::new(unit.system, Params::new(unit.system).paths), Tables::new(unit.program));
+    let tables = Tables::new(unit.program);
+    let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, true);
     let writer = Writer { unit, names: &names, equations: &equations };
     let solution = Solution::new(unit, motion, &equations);
@@ -40,16 +40,11 @@ pub(super) fn module(following: &Following<'_>) -> String {
         + "\n}\n\n"
 }
 
-/// Whether a signal is time, which is one where formulas hold it beside inputs.
-fn is_time(input: &Input) -> bool {
-    input.index == TIME_SIGNAL
-}
-
 /// What everybody sees of inputs.
 fn inputs(all: &[Input], names: &Names) -> String {
-    let own: Vec<&Input> = all.iter().filter(|input| !is_time(input)).collect();
+    let own: Vec<&Input> = all.iter().filter(|input| !input.is_time()).collect();
     let has_time = own.len() < all.len();
-    let constants = Case::Constant.names(own.iter().map(|input| input.name.as_str()));
+    let constants = Case::Constant.names_of_inputs(all);
     let (mut indices, mut fields, mut signals) = (String::new(), String::new(), String::new());
     for (k, input) in own.iter().enumerate() {
         let unit = if input.unit == "1" { "a pure number" } else { &input.unit };
@@ -116,7 +111,7 @@ impl Module<'_> {
         let (of_time, has_motion) = writer.switches();
         let solve = if equations.book.is_some() { writer.large(solution, &[]) } else { solution.function(false) };
         let mut wanted = writer.wanted(solution, &solve);
-        wanted.push(("time", unit.system.inputs.iter().any(is_time)));
+        wanted.push(("time", unit.system.inputs.iter().any(Input::is_time)));
         let mut text = chosen(FOLLOW, &wanted) + "\n" + &solution.constants(&solve, false) + &self.pattern();
         text += &writer.left_out_limits();
         text += &self.model();
