@@ -16,7 +16,7 @@ const GAP: f64 = 1e-11;
 /// The same, where the formula has no derivative.
 const GAP_OF_VALUES: f64 = 1e-9;
 /// What rounding makes of a value.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
+pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A time is certain to this part of the span.
 const CERTAIN: f64 = 1e-13;
 /// Corrections of a time at most.
@@ -65,12 +65,12 @@ impl Extreme {
             return;
         }
         self.best = self.best.max(found.value);
-        if found.value < self.best - ALIKE * scale.range {
+        if found.value < self.best - scale.alike() {
             return;
         }
         if found.value > self.largest {
             self.largest = found.value;
-            let least = found.value - ALIKE * scale.range;
+            let least = found.value - scale.alike();
             self.extrema.retain(|known| known.value >= least);
         }
         self.extrema.push(found);
@@ -83,7 +83,7 @@ impl Extreme {
 
     /// Its first time (s).
     pub fn time(&self, scale: Scale) -> f64 {
-        let least = self.best - ALIKE * scale.range;
+        let least = self.best - scale.alike();
         let mut alike = self.extrema.iter().filter(|extremum| extremum.value >= least);
         let Some(first) = alike.next() else { return f64::NAN };
         let is_it = |next: &&Extremum| {
@@ -117,7 +117,7 @@ impl Survey<'_> {
     fn is_done(&mut self, cell: &Cell, known: Option<Range>, extreme: &mut Extreme, scale: Scale) -> bool {
         let sign = extreme.sign;
         let gap = f64::max(GAP * scale.range, ROUNDING * scale.weight);
-        let (least, enough) = (extreme.best - ALIKE * scale.range - gap, extreme.largest + gap);
+        let (least, enough) = (extreme.best - scale.alike() - gap, extreme.largest + gap);
         let is_hopeless = |upper: f64| upper < least || upper <= enough;
         let oriented = |low: f64, high: f64| if sign > 0.0 { [low, high] } else { [-high, -low] };
         if known.is_some_and(|range| is_hopeless(oriented(range.low, range.high)[1])) {

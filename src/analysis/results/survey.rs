@@ -2,13 +2,16 @@
 
 use super::formulas::{Cell, Formula, Point};
 use super::places::Places;
+use super::search::{ALIKE, ROUNDING};
 use crate::analysis::kinematics::State;
 use crate::analysis::stretches::Stretch;
 use crate::program::Range;
 use std::rc::Rc;
 
-/// Looking at one formula, so many cells are cut at most: what needs more is not meant.
+/// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
+/// so many.
 const MOST_CELLS: usize = 1_000_000;
+const SOLVED: usize = 20;
 /// No cell is shorter than this part of the span.
 pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// A stretch in which nothing can be solved for may be so long, as a part of the span.
@@ -26,6 +29,13 @@ pub(super) struct Scale {
     pub weight: f64,
     /// The time of the analysis (s).
     pub span: f64,
+}
+
+impl Scale {
+    /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
+    pub fn alike(self) -> f64 {
+        f64::max(ALIKE * self.range, ROUNDING * self.weight)
+    }
 }
 
 /// Why there is no number.
@@ -78,7 +88,7 @@ impl Survey<'_> {
 
     /// The formula at a time (s) between two points.
     pub fn point(&mut self, ends: &[&Rc<Point>; 2], t: f64) -> Option<Rc<Point>> {
-        *self.cells += 1;
+        *self.cells += if self.formula.moves() { SOLVED } else { 1 };
         let [a, b] = ends.map(|point| &point.state);
         let state = if self.formula.moves() {
             let solved = self.places.solve(self.stretch, [a, b], t);
