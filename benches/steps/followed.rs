@@ -2001,7 +2001,7 @@ mod following {
         Ok(by_input)
     }
 
-    /// The shortest step, as a part of the way.
+    /// The shortest step, as a part of the way; of a long one, as a change of a signal.
     const SMALLEST_STEP: f64 = 1e-12;
 
     /// A way of the signals: a straight line from 0 to 1.
@@ -2113,12 +2113,14 @@ mod following {
             let now = if self.is_second { second } else { first };
             now.t = 0.0;
             let length = way.direction().into_iter().map(f64::abs).fold(0.0, larger);
+            // the branch asks for steps of the same change on any way
+            let smallest = SMALLEST_STEP / larger(length, 1.0);
             let stride = self.stride;
             // the solution at the beginning, once it is behind the one before
             let mut home = None;
             for _ in 0..most {
                 let now = self.at().t;
-                let step = f64::max(self.stride / length, SMALLEST_STEP);
+                let step = f64::max(self.stride / length, smallest);
                 // no crumb at the end; a way without length is one step
                 let wanted = if step < 0.999 * (1.0 - now) {
                     now + step
@@ -2145,7 +2147,7 @@ mod following {
                         let half = 0.5 * size;
                         self.stride = half * length;
                         self.is_smooth = false;
-                        if half < SMALLEST_STEP || now + half == now {
+                        if half < smallest || now + half == now {
                             let why = self.explain(fault, next, steepness);
                             self.stride = stride;
                             let way = &mut self.model.way;
@@ -2248,9 +2250,11 @@ mod following {
                 };
             }
             // a motion that comes to a dead point after a way u is as the root of u, whose slope over
-            // twice its curvature is u
+            // twice its curvature is u; all by the signal that changes most
+            let longest = m.way.direction().into_iter().map(f64::abs).fold(0.0, larger);
             let mut along = m.clone();
-            (along.way.rates, along.way.accelerations) = (m.way.direction(), [0.0; SIGNALS]);
+            along.way.rates = m.way.direction().map(|change| change / longest);
+            along.way.accelerations = [0.0; SIGNALS];
             let mut moving = at.clone();
             solve(&tears(&at.q), at.t, &along, &mut moving);
             let rates = moving.qd.iter().zip(&moving.qdd).zip(&SCALES);
@@ -2263,8 +2267,7 @@ mod following {
             };
             let (_, left) = rates.fold((0.0, 0.0), sooner);
             // a way may be short itself
-            let longest = m.way.direction().into_iter().map(f64::abs).fold(0.0, larger);
-            if left > 0.0 && left < NEAR_FOLD * (1.0 + 1.0 / longest) {
+            if left > 0.0 && left < NEAR_FOLD * (1.0 + longest) {
                 Error::LockUp
             } else {
                 Error::Bifurcation

@@ -5,18 +5,14 @@
 //! slope passes zero in it just once, at a place that is then solved for.
 
 use super::formulas::{Cell, Point, between};
-use super::survey::{Scale, Survey};
+use super::survey::{ROUNDING, Scale, Survey};
 use crate::program::Range;
 use std::rc::Rc;
 
-/// Values that differ by no more than this part of the range are the same.
-pub(super) const ALIKE: f64 = 1e-9;
 /// A cell that can gain no more than this part of the range is not cut.
 const GAP: f64 = 1e-11;
 /// The same, where the formula has no derivative.
 const GAP_OF_VALUES: f64 = 1e-9;
-/// What rounding makes of a value.
-pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 /// A time is certain to this part of the span.
 const CERTAIN: f64 = 1e-13;
 /// Corrections of a time at most.

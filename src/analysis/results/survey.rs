@@ -2,7 +2,6 @@
 
 use super::formulas::{Cell, Formula, Point};
 use super::places::Places;
-use super::search::{ALIKE, ROUNDING};
 use crate::analysis::kinematics::State;
 use crate::analysis::stretches::Stretch;
 use crate::program::Range;
@@ -16,6 +15,11 @@ const SOLVED: usize = 20;
 pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
 /// A stretch in which nothing can be solved for may be so long, as a part of the span.
 pub(super) const OPAQUE: f64 = 1e-6;
+
+/// Values that differ by no more than this part of the range are the same.
+const ALIKE: f64 = 1e-9;
+/// What rounding makes of a value.
+pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Where nothing is known.
 const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false };
