@@ -91,14 +91,14 @@ pub(super) enum Command {
         mechc import pendulum.adm | mechc run - --from 0 --to 5 --every 10ms"
     )]
     Import(ImportArguments),
-    /// The page of a diagnostic's code, or of a function, quantity, joint, unit or keyword
+    /// The page of a diagnostic's code, of a word of the language, or of a subject such as `parts`
     #[command(
         long_about = "The page of a diagnostic's code, or of a word of the language.\n\n\
         Every message of mechc begins with a code, as in error[E0203]. Its page says what the code means, shows a small file \
         that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.\n\n\
         The page of a word says how it is written, what it means (a joint's equations, a unit's value in SI), shows a mechanism \
-        with it, and says what others call it. `functions`, `motions`, `quantities`, `joints`, `units`, `keywords` and `constants` \
-        list them; `parts`, `inputs`, `samples`, `files`, `repetition`, `by` and `names` are pages on more than a word.",
+        with it, and says what others call it. `functions`, `motions`, `quantities`, `reductions`, `joints`, `units`, `keywords` and \
+        `constants` list them; `parts`, `inputs`, `samples`, `files`, `repetition`, `by` and `names` are pages on more than a word.",
         after_help = "Examples:\n  mechc explain E0203\n  mechc explain step5\n  mechc explain joints | less\n  mechc explain"
     )]
     Explain(ExplainArguments),

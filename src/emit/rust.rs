@@ -684,7 +684,7 @@ impl Writer<'_> {
         if solution.motion.blocks.is_some() {
             text += &self.rights("param", &self.unit.program.outputs.by_param, "PARAMS");
         }
-        text += &self.held_apart("param", &self.unit.program.outputs.check_slopes.by_param, "PARAMS");
+        text += &self.held_apart("param", &self.unit.program.outputs.check_slopes.params, "PARAMS");
         text
     }
 
@@ -694,7 +694,7 @@ impl Writer<'_> {
         if self.unit.system.checks.is_empty() {
             return String::new();
         }
-        let all: Vec<Register> = slopes.by_q.iter().chain(lists.iter().flatten()).copied().collect();
+        let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
         let function = self.equations.function(&Wanted {
             name: &format!("left_out_slopes_by_{by}"),
             docs: &format!(

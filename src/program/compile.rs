@@ -37,9 +37,9 @@ impl Program {
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
         let slopes = &system.check_slopes;
         outputs.check_slopes = CheckSlopes {
-            by_q: varied(&slopes.by_q),
-            by_signal: slopes.by_signal.iter().map(|list| varied(list)).collect(),
-            by_param: slopes.by_param.iter().map(|list| varied(list)).collect(),
+            coordinates: varied(&slopes.by_q),
+            signals: slopes.by_signal.iter().map(|list| varied(list)).collect(),
+            params: slopes.by_param.iter().map(|list| varied(list)).collect(),
         };
         for scope in system.scopes() {
             let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);

@@ -319,11 +319,11 @@ pub struct Inputs {
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
 pub struct CheckSlopes {
     /// With the coordinates: by the pattern of [`crate::ir::CheckSlopes`].
-    pub by_q: Vec<Register>,
+    pub coordinates: Vec<Register>,
     /// With each signal, one entry per check.
-    pub by_signal: Vec<Vec<Register>>,
+    pub signals: Vec<Vec<Register>>,
     /// With each parameter, likewise.
-    pub by_param: Vec<Vec<Register>>,
+    pub params: Vec<Vec<Register>>,
 }
 
 impl Inputs {
@@ -401,8 +401,8 @@ impl Outputs {
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let more = more.into_iter().chain([&self.appended, &self.check_slopes.by_q]);
-        let slopes = self.check_slopes.by_signal.iter().chain(&self.check_slopes.by_param);
+        let more = more.into_iter().chain([&self.appended, &self.check_slopes.coordinates]);
+        let slopes = self.check_slopes.signals.iter().chain(&self.check_slopes.params);
         let varied = self.variations.iter().flatten();
         let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));

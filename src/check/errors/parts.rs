@@ -15,7 +15,7 @@ pub fn contains_itself(wanted: &MechanismName, circle: &[&str]) -> Diagnostic {
     let mut way: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();
     way.push(format!("`{name}`"));
     let diagnostic = Diagnostic::new(Code::E0206, format!("the mechanism `{name}` contains itself"));
-    diagnostic.at(wanted.span(), "a part of itself").note(format!("the way round: {}", way.join(" has a part ")))
+    diagnostic.at(wanted.span(), "a part of itself").note(format!("the way round: {}", way.join(" → ")))
 }
 
 pub fn too_many_levels(wanted: &MechanismName, most: usize) -> Diagnostic {
@@ -74,7 +74,7 @@ pub fn path_goes_on(span: Span) -> Diagnostic {
 pub fn bound_twice(binding: &Binding, first: Span) -> Diagnostic {
     Diagnostic::new(Code::E0209, format!("`{}` is bound twice", binding.name.text))
         .at(binding.span, "bound again")
-        .also(first, "and here")
+        .also(first, "first bound here")
 }
 
 pub fn nothing_to_bind(

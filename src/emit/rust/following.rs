@@ -216,7 +216,7 @@ impl Module<'_> {
                 given: Given::All,
             });
         }
-        text += &writer.held_apart("signal", &outputs.check_slopes.by_signal, "SIGNALS");
+        text += &writer.held_apart("signal", &outputs.check_slopes.signals, "SIGNALS");
         if has_pivoting {
             text += &writer.rights("signal", &outputs.by_signal, "SIGNALS");
             text += &of_led(&writer.measures().replace("pub fn measures", "fn measures"));
