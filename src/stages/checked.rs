@@ -3,6 +3,7 @@
 use super::lead::Leading;
 use super::signals::WithSignals;
 use super::used::{self, Used};
+use super::used_at::UsedAt;
 use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles};
@@ -240,7 +241,8 @@ impl Checked {
     }
 
     fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
-        Compiled::of(self.sources().clone(), lower::lower(model), redundant, self.leading.clone(), cancel)
+        let (leading, used_at) = (self.leading.clone(), UsedAt::of(model));
+        Compiled::of(self.sources().clone(), lower::lower(model), redundant, leading, used_at, cancel)
     }
 
     /// The model in which some parts ask for derivatives by their own equations though they move together with what is around them.

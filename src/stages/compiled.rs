@@ -59,12 +59,12 @@ impl Compiled {
         system: ConstraintSystem,
         redundant: Redundant,
         leading: Option<Arc<Leading>>,
+        used_at: UsedAt,
         cancel: &Cancel,
     ) -> (Option<Compiled>, Diagnostics) {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
-        let used_at = UsedAt::of(&system);
         match analysis::determine(system, redundant == Redundant::LeftOut) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
             Err(why) => (None, used_at.told(why)),
@@ -92,7 +92,8 @@ impl Compiled {
         if !self.system().by_param.is_empty() {
             system.derive_by_params();
         }
-        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, None, cancel);
+        let (compiled, said) =
+            Compiled::of(self.sources.clone(), system, self.redundant, None, self.used_at.clone(), cancel);
         compiled.map(Some).ok_or(said)
     }
 
@@ -101,7 +102,14 @@ impl Compiled {
         let mut system = self.system().clone();
         system.derive_by_params();
         let leading = self.leading.clone();
-        let (compiled, said) = Compiled::of(self.sources.clone(), system, self.redundant, leading, &Cancel::default());
+        let (compiled, said) = Compiled::of(
+            self.sources.clone(),
+            system,
+            self.redundant,
+            leading,
+            self.used_at.clone(),
+            &Cancel::default(),
+        );
         compiled.map(|compiled| compiled.with_signals(self.with_signals.clone())).ok_or(said)
     }
 

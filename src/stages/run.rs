@@ -189,7 +189,9 @@ impl Run {
             return Some(Answers { values: vec![None; self.results], notes: Vec::new() });
         }
         let Answers { values, notes } = asked.answer();
-        let notes = notes.into_iter().map(|note| self.used_at.tell(note)).collect();
+        let mut said = Diagnostics::default();
+        said.extend(notes);
+        let notes = self.used_at.told(said).into_iter().collect();
         Some(Answers { values, notes })
     }
 
