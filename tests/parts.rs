@@ -294,11 +294,11 @@ fn a_part_on_a_turning_body_is_what_it_is_alone_however_far_its_mount() {
         measure turned = angle(eye)
         analysis from 0 s to 1 s every 0.1 s
     }";
-    let (_, alone) = said(part);
+    let (_, alone) = said(&part.replace("mechanism guided", "mechanism whole"));
     for distance in ["45 m", "100 m", "10 km", "100 km"] {
         let distance = distance.replace(" km", "000 m");
         let text = format!(
-            "mechanism top {{
+            "mechanism whole {{
                 body base {{ point h = (0, 0) }}
                 driver across: x(base.h) = 0
                 driver up: y(base.h) = 0
