@@ -466,8 +466,9 @@ proptest! {
         }
     }
 
+    // not 1, which stands elsewhere in the text that is replaced
     #[test]
-    fn a_unit_that_gives_way_is_itself_where_nobody_has_its_name(number in 1..1000_i32, power in 1..4_i32) {
+    fn a_unit_that_gives_way_is_itself_where_nobody_has_its_name(number in 2..1000_i32, power in 1..4_i32) {
         let text = |hertz: &str, milliradian: &str| with(&format!(
             "measure v = {number} {hertz}^{power} * 1 s^{power} + {number} * {milliradian} + sin({number} {milliradian}) + 2 * {hertz} / (3 * {hertz})"
         ));
