@@ -12,7 +12,7 @@ use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, ItemKind, Name, Sign};
+use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, ItemKind, Name, Segment, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// The dimension of a formula.
@@ -228,13 +228,7 @@ impl Checker<'_> {
                 if let Ok(coordinate) = self.coordinate_of(e, context) {
                     return coordinate;
                 }
-                if let Some(Entity::Trace) = self.entity(owner) {
-                    self.trace_in_a_formula(e.span, "a number", owner);
-                    return None;
-                }
-                let what = self.describe_member(owner, feature);
-                let diagnostic = errors::wrong_kind(e.span, "a number", &what);
-                self.report(diagnostic.fix_if(self.number_for(e.span, owner, feature)));
+                self.member_as_number(e.span, owner, feature);
                 None
             }
             ExprKind::Tuple(_) => {
@@ -242,16 +236,7 @@ impl Checker<'_> {
                 None
             }
             ExprKind::Path(segments) => {
-                let text: String = self.sources.text(e.span).chars().filter(|c| !c.is_whitespace()).collect();
-                // those of the text have been written out; this one comes from outside
-                let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
-                let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
-                let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
-                self.report(match (self.space.get(&owner), unknown) {
-                    (Some(entity), _) => errors::path_from_outside(e.span, &owner, entity.noun(), owner == text),
-                    (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
-                    (None, None) => errors::path_of_nothing(e.span, segments),
-                });
+                self.path_as_number(e.span, segments);
                 None
             }
             ExprKind::Not(_) | ExprKind::Compare(..) | ExprKind::And(_) | ExprKind::Or(_) => {
@@ -381,6 +366,33 @@ impl Checker<'_> {
                 None
             }
         }
+    }
+
+    // what is said of a fault stands in functions of its own: their locals would make every level of a formula larger
+
+    /// Says that a feature, or what else a name and another behind a dot may mean, is no number.
+    fn member_as_number(&mut self, span: Span, owner: &Name, feature: &Name) {
+        if let Some(Entity::Trace) = self.entity(owner) {
+            self.trace_in_a_formula(span, "a number", owner);
+            return;
+        }
+        let what = self.describe_member(owner, feature);
+        let diagnostic = errors::wrong_kind(span, "a number", &what);
+        self.report(diagnostic.fix_if(self.number_for(span, owner, feature)));
+    }
+
+    /// Says of a longer path that it is no number.
+    fn path_as_number(&mut self, span: Span, segments: &[Segment]) {
+        let text: String = self.sources.text(span).chars().filter(|c| !c.is_whitespace()).collect();
+        // those of the text have been written out; this one comes from outside
+        let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
+        let unknown = segments.first().filter(|first| matches!(self.resolve(&first.name), Ok(None)));
+        let unknown = unknown.filter(|first| first.name.text != "ground" && segments.len() > 2);
+        self.report(match (self.space.get(&owner), unknown) {
+            (Some(entity), _) => errors::path_from_outside(span, &owner, entity.noun(), owner == text),
+            (None, Some(first)) => errors::unknown_owner(&first.name, self.tree),
+            (None, None) => errors::path_of_nothing(span, segments),
+        });
     }
 
     /// Says that a trace is no number and no point.
