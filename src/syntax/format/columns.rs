@@ -1,8 +1,9 @@
 //! Columns of neighbouring declarations, and of the comments behind them.
 
 use super::groups::BEFORE_COMMENT;
+use super::layout::WIDTH;
 use super::lexemes::Lexeme;
-use super::rows::{Kind, Row};
+use super::rows::{Group, Kind, Row};
 use super::words::Word;
 use std::ops::Range;
 
@@ -58,8 +59,23 @@ impl Cells {
     }
 }
 
+/// Whether bodies on a line each can be brought into columns: they have the same ones, and fit.
+fn have_room(rows: &[Row], cells: &[Option<Cells>]) -> bool {
+    // the ground has none
+    let of_bodies = || cells.iter().flatten().map(|cells| &cells.0).filter(|cells| cells.len() > 1);
+    let count = of_bodies().next().map_or(0, Vec::len);
+    let width = |columns: &[usize]| columns.iter().sum::<usize>() + columns.len().saturating_sub(1);
+    let indent = rows.first().map_or(0, |row| row.indent);
+    let widest = |column: usize| of_bodies().filter_map(|cells| cells.get(column)).map(|&(_, width)| width).max();
+    let columns: Vec<usize> = (0..count).filter_map(widest).collect();
+    of_bodies().all(|cells| cells.len() == count) && indent + width(&columns) <= WIDTH
+}
+
 /// Adds the spaces that bring the cells of a run into columns, to those before each lexeme of the text.
 pub(super) fn align(rows: &[Row], cells: &[Option<Cells>], spaces: &mut [usize]) {
+    if rows.iter().any(|row| row.kind == Kind::Declaration(Group::Blocks)) && !have_room(rows, cells) {
+        return;
+    }
     let count = cells.iter().flatten().map(|cells| cells.padded().len()).max().unwrap_or(0);
     for column in 0..count {
         let of_column = |cells: &Cells| cells.padded().get(column).map(|&(_, width)| width);

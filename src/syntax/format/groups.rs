@@ -231,9 +231,23 @@ impl Grouping<'_> {
     }
 }
 
+/// What stands before the last column of a declaration is not broken, unless it takes more columns than this.
+const WIDEST_HEAD: usize = 60;
+
+/// The first lexeme before which a line may end.
+fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
+    if matches!(keyword, "body" | "ground" | "mechanism") {
+        return words.len();
+    }
+    let head = words.iter().rposition(|word| word.begins_cell).unwrap_or(0);
+    if super::words::width(&words[..head], &lexemes[..head]) > WIDEST_HEAD { 0 } else { head }
+}
+
 /// The nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
 pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) -> Grouped {
-    let groups = groups(words);
+    let mut groups = groups(words);
+    let breakable = breakable(words, lexemes, lexemes.first().map_or("", |lexeme| lexeme.text));
+    groups.is_gap[..breakable].fill(false);
     let mut made = Grouped { nodes: Vec::with_capacity(4 * words.len()), lexemes: Vec::new(), lists: Vec::new() };
     for (k, word) in words.iter().enumerate() {
         if k > 0 {

@@ -117,8 +117,12 @@ enum Cells {
     Colon,
     /// Behind `:`, and then with `=`.
     ColonAndEquals,
-    /// With the next keyword or brace.
-    Parts,
+    /// With the next keyword.
+    As,
+    /// With the next keyword, and then as the next.
+    At,
+    /// With the brace that opens a block.
+    Brace,
 }
 
 /// Whether a number with its unit stands before, to which another unit may be joined: `30 deg/s * t`, but not `a / 30 deg/s`,
@@ -343,9 +347,10 @@ impl<'a> Reading<'a> {
             (Cells::Equals, Class::Equals) if is_outside => (true, Cells::None),
             (Cells::Colon, _) if self.before == Some(Class::Colon) => (true, Cells::None),
             (Cells::ColonAndEquals, _) if self.before == Some(Class::Colon) => (true, Cells::Equals),
-            (Cells::Parts, Class::Keyword) if is_outside && self.keyword == "body" => (true, Cells::Parts),
-            (Cells::Parts, Class::Keyword) if is_outside => (true, Cells::None),
-            (Cells::Parts, Class::OpenBrace) => (true, Cells::None),
+            (Cells::As | Cells::At, Class::Keyword) if is_outside => {
+                (true, if self.cells == Cells::At { Cells::Brace } else { Cells::None })
+            }
+            (Cells::At | Cells::Brace, Class::OpenBrace) => (true, Cells::None),
             (cells, _) => (false, cells),
         };
         self.cells = next;
@@ -358,7 +363,8 @@ fn cells_of(keyword: &str) -> Cells {
     match keyword {
         "joint" | "part" => Cells::Colon,
         "driver" | "constraint" => Cells::ColonAndEquals,
-        "use" | "body" => Cells::Parts,
+        "use" => Cells::As,
+        "body" => Cells::At,
         _ => Cells::Equals,
     }
 }
