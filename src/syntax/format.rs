@@ -97,10 +97,10 @@ mod tests {
     /// A mechanism of many declarations, with formulas as deep as they may be.
     fn large(declarations: usize) -> String {
         let deep = format!("{}a + b{}", "max(c, (".repeat(90), ") * d)".repeat(90));
-        let one = |k: usize| match k % 100 {
+        let one = |k: usize| match k % 500 {
             0 => format!("param p{k} = {deep}\n"),
-            1 => format!("// {k}\nbody b{k} {{ point A = (0, {k} mm) point B = A }}\n"),
-            _ => format!("measure m{k} = if t<{k} s then x(b.A)+{k}*y(b.A) else 3 // {k}\n"),
+            1..20 => format!("// {k}\nbody b{k} {{ point A = (0, {k} mm) point B = A }}\n"),
+            _ => format!("param q{k}=2*q // {k}\n"),
         };
         format!("mechanism m {{\n{}}}\n", (0..declarations).map(one).collect::<String>())
     }

@@ -5,10 +5,11 @@ use super::groups::{Grouped, grouped};
 use super::layout::lay_out;
 use super::lexemes::{Lexeme, lexemes};
 use super::rows::{Kind, Row, rows};
-use super::words::{Word, words};
+use super::words::{Word, declared, words};
 use crate::diag::Edit;
 use crate::source::{FileId, Span};
 use crate::syntax::parse::Parsed;
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// What stands before a lexeme.
@@ -54,20 +55,21 @@ struct Line {
 impl<'a> Formatted<'a> {
     pub fn of(parsed: &Parsed, text: &'a str) -> Formatted<'a> {
         let lexemes = lexemes(text);
+        let names = declared(&lexemes);
         let mut faults: Vec<usize> =
             parsed.faults.iter().flat_map(|fault| &fault.labels).map(|label| label.span.start as usize).collect();
         faults.sort_unstable();
-        let rows = rows(&parsed.tree, &lexemes, &faults);
+        let rows = rows(&parsed.tree, &lexemes, &names, &faults);
         let count = lexemes.len();
         let (gaps, commas) = (vec![Gap::Kept; count], vec![Comma::Unchanged; count]);
         let mut formatted = Formatted { lexemes, rows, gaps, commas, steps: count };
-        formatted.lay_out();
+        formatted.lay_out(&names);
         formatted
     }
 
-    fn lay_out(&mut self) {
+    fn lay_out(&mut self, names: &FxHashSet<&str>) {
         let rows = std::mem::take(&mut self.rows);
-        let lines: Vec<Line> = rows.iter().map(|row| self.line(row)).collect();
+        let lines: Vec<Line> = rows.iter().map(|row| self.line(row, names)).collect();
         let mut spaces: Vec<usize> = vec![0; self.lexemes.len()];
         for (row, line) in rows.iter().zip(&lines) {
             for (k, word) in line.words.iter().enumerate() {
@@ -100,12 +102,14 @@ impl<'a> Formatted<'a> {
         self.rows = rows;
     }
 
-    fn line(&self, row: &Row) -> Line {
+    fn line(&self, row: &Row, names: &FxHashSet<&str>) -> Line {
         match row.kind {
             Kind::Comment | Kind::Kept => Line { words: Vec::new(), cells: None },
-            Kind::Head | Kind::End => Line { words: words(&self.lexemes, row.lexemes.clone(), None), cells: None },
+            Kind::Head | Kind::End => {
+                Line { words: words(&self.lexemes, names, row.lexemes.clone(), None), cells: None }
+            }
             Kind::Declaration(_) => {
-                let words = words(&self.lexemes, row.lexemes.clone(), row.printed);
+                let words = words(&self.lexemes, names, row.lexemes.clone(), row.printed);
                 let cells = Cells::of(&words, &self.lexemes[row.lexemes.clone()]);
                 Line { words, cells: Some(cells) }
             }

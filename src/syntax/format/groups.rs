@@ -94,12 +94,14 @@ impl Grouping<'_> {
                 return;
             }
             Class::Close => return self.close(k),
+            // as if it were not there
+            Class::Comma if words[k].is_last_comma => return self.end_part(k),
             Class::Comma => {
                 self.end_part(k);
                 if let Some(Frame::Bracket { has_commas, .. }) = self.frames.last_mut() {
                     *has_commas = true;
                 }
-                self.groups.is_gap[k + 1] = !words[k].is_last_comma;
+                self.groups.is_gap[k + 1] = true;
                 self.forget_operand();
                 return;
             }
@@ -187,8 +189,9 @@ impl Grouping<'_> {
     fn close(&mut self, k: usize) {
         self.end_part(k);
         let Some(Frame::Bracket { bracket, first, has_commas }) = self.frames.pop() else { return };
-        self.operands.pop();
-        if matches!(bracket, Bracket::Bindings | Bracket::Rows) && first < k {
+        // comments alone are no list
+        let has_items = self.operands.pop().flatten().is_some() || has_commas;
+        if matches!(bracket, Bracket::Bindings | Bracket::Rows) && has_items {
             self.groups.is_list[first - 1] = true;
             self.groups.is_list[k] = true;
         } else if has_commas {

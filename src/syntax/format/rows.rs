@@ -7,6 +7,7 @@ use super::lexemes::Lexeme;
 use super::words;
 use crate::source::Span;
 use crate::syntax::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, Use};
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// What begins a line of its own.
@@ -79,8 +80,8 @@ impl Group {
 }
 
 /// The rows of a text. `faults` are the bytes at which something is wrong with it, in order.
-pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], faults: &[usize]) -> Vec<Row> {
-    let mut rows = Rows { lexemes, faults, at: 0, rows: Vec::new() };
+pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
+    let mut rows = Rows { lexemes, names, faults, at: 0, rows: Vec::new() };
     let mut mechanisms = file.mechanisms.iter().peekable();
     for used in &file.uses {
         while let Some(before) = mechanisms.next_if(|before| before.span.start < used.span.start) {
@@ -95,6 +96,7 @@ pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], faults: &[usize]) -> Vec
 
 struct Rows<'a> {
     lexemes: &'a [Lexeme<'a>],
+    names: &'a FxHashSet<&'a str>,
     faults: &'a [usize],
     /// The lexeme that comes next.
     at: usize,
@@ -246,7 +248,7 @@ impl Rows<'_> {
         }
         let is_empty = lexemes.len() > 1 && lexemes[lexemes.len() - 2].text == "{";
         let fits = || {
-            let words = words::words(self.lexemes, self.at..behind, None);
+            let words = words::words(self.lexemes, self.names, self.at..behind, None);
             INDENT + words::width(&words, lexemes) <= WIDTH
         };
         let is_one = is_empty || lexemes[1..].iter().all(|lexeme| lexeme.lines_before == 0) && fits();

@@ -1,7 +1,8 @@
 //! What each lexeme of a declaration is to those around it, which decides the spaces between them.
 
 use super::lexemes::{Lexeme, Shape};
-use crate::vocabulary::{Keyword, Role, Unit};
+use crate::vocabulary::{Keyword, Place, Role, Synonym, Unit};
+use rustc_hash::FxHashSet;
 use std::ops::Range;
 
 /// How tightly an operator binds, loosest first.
@@ -82,10 +83,29 @@ pub(super) struct Word {
 /// Spaces between declarations that share a line.
 const BETWEEN_FEATURES: usize = 2;
 
+/// The words that a text declares as names, wherever: none of them means a unit in a formula.
+pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
+    let is_keyword = |lexeme: &Lexeme<'_>| Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
+    let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
+    let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
+    let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
+    behind_keywords.chain(arguments).collect()
+}
+
+fn begins(role: Role) -> bool {
+    matches!(role, Role::Declaration | Role::Opener | Role::Feature)
+}
+
 /// The words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
-pub(super) fn words(lexemes: &[Lexeme<'_>], range: Range<usize>, printed: Option<usize>) -> Vec<Word> {
+pub(super) fn words(
+    lexemes: &[Lexeme<'_>],
+    names: &FxHashSet<&str>,
+    range: Range<usize>,
+    printed: Option<usize>,
+) -> Vec<Word> {
     let mut reading = Reading {
         lexemes,
+        names,
         range: range.clone(),
         printed,
         keyword: "",
@@ -137,6 +157,7 @@ enum Quantity {
 
 struct Reading<'a> {
     lexemes: &'a [Lexeme<'a>],
+    names: &'a FxHashSet<&'a str>,
     range: Range<usize>,
     printed: Option<usize>,
     /// That of the declaration.
@@ -277,8 +298,10 @@ impl<'a> Reading<'a> {
     /// Whether a unit stands behind a lexeme, with its power or alone.
     fn is_a_unit_behind(&self, k: usize) -> bool {
         let mut behind = self.lexemes[k + 1..self.range.end].iter().filter(|lexeme| !lexeme.is_comment());
-        let is_unit = behind.next().is_some_and(|lexeme| Unit::named(lexeme.text).is_some());
-        is_unit
+        // `min` is none, but meant as one
+        let names_one = |text: &str| Unit::named(text).is_some() || Synonym::of(Place::Unit, text).is_some();
+        let is_unit = |lexeme: &Lexeme<'_>| names_one(lexeme.text) && !self.names.contains(lexeme.text);
+        behind.next().is_some_and(is_unit)
             && match behind.next().map(|lexeme| lexeme.text) {
                 Some("(" | "." | "[") => false,
                 Some("^") => is_exponent(behind),
@@ -314,8 +337,6 @@ impl<'a> Reading<'a> {
             return 0;
         }
         match before {
-            // `50 mm^- 1` is no power of the unit
-            Class::Sign if class == Class::Number && self.is_power_of_a_quantity(k) => 1,
             Class::Tight | Class::Sign | Class::Open(_) => 0,
             Class::OpenBrace => 1,
             _ if class == Class::Keyword && self.cells == Cells::None && self.is_feature(k) => BETWEEN_FEATURES,
@@ -325,13 +346,6 @@ impl<'a> Reading<'a> {
 
     fn is_feature(&self, k: usize) -> bool {
         Keyword::named(self.lexemes[k].text).is_some_and(|keyword| keyword.role == Role::Feature)
-    }
-
-    /// Whether a number that stands behind a sign and a space is the exponent of a number with its unit.
-    fn is_power_of_a_quantity(&self, k: usize) -> bool {
-        let [unit, power, sign, number] = [3, 2, 1, 0].map(|back| self.lexemes.get(k.wrapping_sub(back)));
-        let (Some(unit), Some(power), Some(sign), Some(number)) = (unit, power, sign, number) else { return false };
-        unit.shape == Shape::Word && power.text == "^" && sign.end() < number.start
     }
 
     fn begins_cell(&mut self, class: Class) -> bool {
