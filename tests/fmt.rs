@@ -1,7 +1,7 @@
 //! Formatting changes no token but spaces and a comma behind the last item of a list, loses no comment, and changes nothing when it is
 //! done twice. The project's own texts are formatted.
 
-#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
@@ -9,7 +9,7 @@ use mechc::rooms::syntax::parse;
 use mechc::{Edit, Parsed, Sources, Span};
 use proptest::prelude::*;
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use support::blocks::blocks;
 use support::files;
 use support::random::Random;
@@ -99,7 +99,7 @@ fn documentation() -> Vec<(String, String)> {
     let mut pages = vec![root.join("README.md")];
     pages.extend(files("docs", "md"));
     pages.extend(files("src", "md"));
-    let page = |path| (format!("{path:?}"), fs::read_to_string(&path).expect("a page"));
+    let page = |path: PathBuf| (path.display().to_string(), fs::read_to_string(&path).expect("a page"));
     let mech = |(path, page): (String, String)| {
         let blocks = blocks(&page).into_iter().filter(|(language, _)| language == "mech");
         blocks.map(move |(_, block)| (path.clone(), block)).collect::<Vec<_>>()
@@ -438,4 +438,111 @@ fn edits_are_small() {
     let edits = Parsed::of("text", text).formatting();
     let small: Vec<(u32, u32, &str)> = edits.iter().map(|e| (e.span.start, e.span.end, e.text.as_str())).collect();
     assert_eq!(small, [(31, 32, ""), (45, 45, " ")]);
+}
+
+// ---- files
+
+const LOOSE: &str = "mechanism m{param a=1}\n";
+const NEAT: &str = "mechanism m {\n    param a = 1\n}\n";
+
+/// The exit code, what it printed, and what it said, of `mechc fmt` in a folder.
+fn fmt(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let output = command.current_dir(folder).arg("fmt").args(arguments).output().expect("it runs");
+    let text = |bytes: Vec<u8>| String::from_utf8(bytes).expect("text");
+    (output.status.code().expect("a code"), text(output.stdout), text(output.stderr))
+}
+
+#[test]
+fn files_are_replaced_only_where_they_change() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    let read = |name: &str| fs::read_to_string(at(name)).expect("a text");
+    fs::create_dir_all(at("inner/.hidden")).unwrap();
+    let texts = [
+        ("neat.mech", NEAT),
+        ("loose.mech", LOOSE),
+        ("marked.mech", "\u{feff}mechanism m{param a=1}\r\n"),
+        ("notes.txt", LOOSE),
+        ("inner/broken.mech", "mechanism m{param a=}\n"),
+        ("inner/loose.mech", LOOSE),
+        ("inner/.hidden/loose.mech", LOOSE),
+    ];
+    for (name, text) in texts {
+        fs::write(at(name), text).unwrap();
+    }
+    let (code, diff, said) = fmt(folder.path(), &["--check", "."]);
+    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 3), "{diff}{said}");
+    assert!(said.contains("E0101"), "{said}");
+    for (name, text) in texts {
+        assert_eq!(read(name), text, "{name} is only looked at");
+    }
+    let old = fs::metadata(at("neat.mech")).unwrap().modified().unwrap();
+    let (code, printed, said) = fmt(folder.path(), &[".", "loose.mech"]);
+    assert_eq!((code, printed.as_str(), said.matches("formatted `").count()), (1, "", 3), "{said}");
+    assert_eq!((read("loose.mech"), read("inner/loose.mech")), (NEAT.to_owned(), NEAT.to_owned()));
+    assert_eq!(read("marked.mech"), format!("\u{feff}{}", NEAT.replace('\n', "\r\n")));
+    for kept in ["notes.txt", "inner/broken.mech", "inner/.hidden/loose.mech"] {
+        assert!(texts.contains(&(kept, &read(kept))), "{kept}");
+    }
+    assert_eq!(fs::metadata(at("neat.mech")).unwrap().modified().unwrap(), old, "it is not written");
+    assert_eq!(fmt(folder.path(), &["--check", "inner/loose.mech", "neat.mech"]), (0, String::new(), String::new()));
+}
+
+#[test]
+fn what_cannot_be_formatted_is_told_and_the_rest_is_formatted() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir(at("empty")).unwrap();
+    for (bad, wanted, code) in [("missing.mech", "E0701", 4), ("empty", "no `.mech` file is in it", 4)] {
+        fs::write(at("loose.mech"), LOOSE).unwrap();
+        let (exit, _, said) = fmt(folder.path(), &[bad, "loose.mech"]);
+        assert_eq!(exit, code, "{said}");
+        assert!(said.contains(wanted), "{said}");
+        assert_eq!(fs::read_to_string(at("loose.mech")).unwrap(), NEAT);
+    }
+    fs::write(at("latin1.mech"), b"mechanism caf\xe9 {}").unwrap();
+    let (exit, _, said) = fmt(folder.path(), &["latin1.mech"]);
+    assert!(exit == 1 && said.contains("E0102"), "{said}");
+    assert_eq!(fmt(folder.path(), &[]).0, 2);
+}
+
+#[test]
+fn standard_input_goes_to_standard_output() {
+    let run = |arguments: &[&str], text: &str| {
+        let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_mechc"));
+        let output = command.arg("fmt").args(arguments).write_stdin(text).output().expect("it runs");
+        (output.status.code(), String::from_utf8(output.stdout).expect("text"))
+    };
+    assert_eq!(run(&["-"], LOOSE), (Some(0), NEAT.to_owned()));
+    assert_eq!(run(&["-"], "mechanism m{param a=}"), (Some(1), String::new()));
+    let (code, diff) = run(&["-", "--check"], LOOSE);
+    assert_eq!(code, Some(1));
+    assert!(
+        diff.starts_with("--- <stdin>\n+++ <stdin>\n@@ -1 +1,3 @@\n-mechanism m{param a=1}\n+mechanism m {\n"),
+        "{diff}"
+    );
+    assert_eq!(run(&["-", "--check"], NEAT), (Some(0), String::new()));
+}
+
+#[cfg(unix)]
+#[test]
+fn permissions_and_links_stay() {
+    use std::os::unix::fs::{PermissionsExt, symlink};
+    let folder = tempfile::tempdir().expect("a folder");
+    let at = |name: &str| folder.path().join(name);
+    fs::create_dir_all(at("linked")).unwrap();
+    for name in ["real.mech", "beyond.mech"] {
+        fs::write(at(name), LOOSE).unwrap();
+    }
+    fs::set_permissions(at("real.mech"), fs::Permissions::from_mode(0o640)).unwrap();
+    symlink("real.mech", at("link.mech")).unwrap();
+    symlink("../beyond.mech", at("linked/beyond.mech")).unwrap();
+    symlink(".", at("linked/circle")).unwrap();
+    fs::write(at("linked/own.mech"), NEAT).unwrap();
+    assert_eq!(fmt(folder.path(), &["link.mech", "linked"]).0, 0);
+    assert!(fs::symlink_metadata(at("link.mech")).unwrap().is_symlink());
+    assert_eq!(fs::read_to_string(at("real.mech")).unwrap(), NEAT, "a link that is named is written through");
+    assert_eq!(fs::metadata(at("real.mech")).unwrap().permissions().mode() & 0o777, 0o640);
+    assert_eq!(fs::read_to_string(at("beyond.mech")).unwrap(), LOOSE, "one that is met in a folder is passed over");
 }

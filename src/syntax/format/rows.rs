@@ -81,7 +81,7 @@ impl Group {
 
 /// The rows of a text. `faults` are the bytes at which something is wrong with it, in order.
 pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>, faults: &[usize]) -> Vec<Row> {
-    let mut rows = Rows { lexemes, names, faults, at: 0, rows: Vec::new() };
+    let mut rows = Rows { lexemes, names, faults, at: 0, made: Vec::new() };
     let mut mechanisms = file.mechanisms.iter().peekable();
     for used in &file.uses {
         while let Some(before) = mechanisms.next_if(|before| before.span.start < used.span.start) {
@@ -91,7 +91,7 @@ pub(super) fn rows(file: &File, lexemes: &[Lexeme<'_>], names: &FxHashSet<&str>,
     }
     mechanisms.for_each(|mechanism| rows.mechanism(mechanism));
     rows.up_to(usize::MAX, 0);
-    rows.rows
+    rows.made
 }
 
 struct Rows<'a> {
@@ -100,7 +100,7 @@ struct Rows<'a> {
     faults: &'a [usize],
     /// The lexeme that comes next.
     at: usize,
-    rows: Vec<Row>,
+    made: Vec<Row>,
 }
 
 impl Rows<'_> {
@@ -127,7 +127,7 @@ impl Rows<'_> {
 
     fn comment(&mut self, indent: usize) {
         let k = self.at;
-        match self.rows.last_mut() {
+        match self.made.last_mut() {
             Some(row) if self.lexemes[k].lines_before == 0 => {
                 if row.kind == Kind::Kept {
                     row.lexemes.end = k + 1;
@@ -142,7 +142,7 @@ impl Rows<'_> {
 
     /// Leaves all before a lexeme as it is.
     fn keep(&mut self, end: usize) {
-        match self.rows.last_mut() {
+        match self.made.last_mut() {
             Some(row) if row.kind == Kind::Kept => {
                 row.lexemes.end = end;
                 self.at = end;
@@ -154,7 +154,7 @@ impl Rows<'_> {
     /// Adds the lexemes before one as a row. One that goes on in the line of what is kept is kept, too.
     fn push(&mut self, end: usize, indent: usize, kind: Kind) {
         let goes_on = self.lexemes[self.at].lines_before == 0;
-        if goes_on && self.rows.last().is_some_and(|row| row.kind == Kind::Kept) {
+        if goes_on && self.made.last().is_some_and(|row| row.kind == Kind::Kept) {
             self.keep(end);
         } else {
             self.push_row(end, indent, kind);
@@ -162,16 +162,16 @@ impl Rows<'_> {
     }
 
     fn push_row(&mut self, end: usize, indent: usize, kind: Kind) {
-        let is_first = self.rows.last().is_none_or(|row| row.kind == Kind::Head) || kind == Kind::End;
+        let is_first = self.made.last().is_none_or(|row| row.kind == Kind::Head) || kind == Kind::End;
         let is_apart = self.lexemes[self.at].lines_before > 1 && !is_first;
-        self.rows.push(Row { lexemes: self.at..end, behind: None, indent, kind, is_apart, printed: None });
+        self.made.push(Row { lexemes: self.at..end, behind: None, indent, kind, is_apart, printed: None });
         self.at = end;
     }
 
     /// A declaration without a block.
     fn plain(&mut self, span: Span, group: Option<Group>, indent: usize) {
         let range = span.start as usize..span.end as usize;
-        if self.index_at(range.start) == self.at && self.starts_behind(range.start) {
+        if self.starts_behind(range.start) {
             return;
         }
         self.up_to(range.start, indent);
@@ -206,19 +206,16 @@ impl Rows<'_> {
     }
 
     fn item(&mut self, item: &Item) {
-        let features = match &item.kind {
-            ItemKind::Ground { features } | ItemKind::Body { features, .. } => features,
-            _ => {
-                let before = self.rows.len();
-                self.plain(item.span, Group::of(&item.kind), INDENT);
-                if let Some(row) = self.rows[before..].last_mut() {
-                    row.printed = printed(&item.kind);
-                }
-                return;
+        let (ItemKind::Ground { features } | ItemKind::Body { features, .. }) = &item.kind else {
+            let before = self.made.len();
+            self.plain(item.span, Group::of(&item.kind), INDENT);
+            if let Some(row) = self.made[before..].last_mut() {
+                row.printed = printed(&item.kind);
             }
+            return;
         };
         let start = item.span.start as usize;
-        if self.starts_behind(start) && self.index_at(start) == self.at {
+        if self.starts_behind(start) {
             return;
         }
         self.up_to(start, INDENT);
