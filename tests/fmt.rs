@@ -164,7 +164,7 @@ fn respaced(text: &str, seed: u64) -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, max_shrink_iters: 0, max_global_rejects: 60, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 250, max_shrink_iters: 0, max_global_rejects: 60, failure_persistence: None, ..ProptestConfig::default() })]
 
     #[test]
     fn nothing_is_lost_of_a_text_with_other_spaces_and_comments(seed in any::<u64>()) {
