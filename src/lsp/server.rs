@@ -149,7 +149,7 @@ impl Server {
             (State::Running, "initialize") => self.refuse(id, ErrorCode::InvalidRequest, "it is initialized already"),
             (State::Running, "shutdown") => {
                 self.state = State::ShutDown;
-                self.snapshot.cancel();
+                self.end_work();
                 self.answer(id, Value::Null);
             }
             (State::Running, "textDocument/diagnostic") => self.pull(id, &params),
@@ -261,8 +261,7 @@ impl Server {
 
     /// A file's text is another one: what was begun for the old snapshot ends, and all open texts that this concerns are looked at.
     fn replace(&mut self, path: &Arc<Path>) {
-        self.snapshot.cancel();
-        self.motions.drain(..).for_each(|(cancel, _)| cancel.cancel());
+        self.end_work();
         let text = self.documents.get(path).map(|document| Arc::from(document.text()));
         let before = self.snapshot.clone();
         self.snapshot = self.snapshot.with_text(path, text);
@@ -276,6 +275,12 @@ impl Server {
                 self.look(path);
             }
         }
+    }
+
+    /// Ends what is being done for the snapshot.
+    fn end_work(&mut self) {
+        self.snapshot.cancel();
+        self.motions.drain(..).for_each(|(cancel, _)| cancel.cancel());
     }
 
     /// Begins the next stage of a text.
