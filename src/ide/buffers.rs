@@ -67,6 +67,10 @@ impl World for Buffers {
         names
     }
 
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        self.behind.folders_in(folder)
+    }
+
     fn identity(&self, path: &Path) -> PathBuf {
         if self.open.contains_key(path) { path.to_owned() } else { self.behind.identity(path) }
     }

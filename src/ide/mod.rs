@@ -15,17 +15,27 @@
 
 mod buffers;
 mod diagnostics;
+mod edits;
 mod hover;
 mod kept;
+mod names;
+mod navigate;
 mod outline;
 mod place;
+mod rename;
 mod snapshot;
+mod structure;
 #[cfg(test)]
 mod testing;
+mod workspace;
 
 pub use buffers::Buffers;
 pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
 pub use hover::{Hover, hover};
+pub use navigate::{FileLink, Highlight, Link, definition, file_links, highlights, references};
 pub use outline::{Entry, outline};
 pub use place::{Change, Place, Stretch};
+pub use rename::{prepare_rename, rename};
 pub use snapshot::{Analysed, Proven, Snapshot};
+pub use structure::{Fold, FoldKind, around, folds};
+pub use workspace::{Found, files_in, is_mech, workspace_names};

@@ -93,6 +93,24 @@ impl Snapshot {
         Snapshot { buffers: Arc::clone(&self.buffers), files, cancel: Cancel::default() }
     }
 
+    /// The same with files that may be asked about, though nobody has opened them.
+    #[must_use]
+    pub fn with_files(&self, paths: impl IntoIterator<Item = Arc<Path>>) -> Snapshot {
+        let mut files = self.files.clone();
+        for path in paths {
+            files.entry(path).or_default();
+        }
+        Snapshot { files, ..self.clone() }
+    }
+
+    /// The same without a file that is gone.
+    #[must_use]
+    pub fn without_file(&self, path: &Arc<Path>) -> Snapshot {
+        let mut after = self.without(path);
+        after.files.remove(path);
+        after
+    }
+
     /// Ends all work on it, soon: it gives nothing then.
     pub fn cancel(&self) {
         self.cancel.cancel();

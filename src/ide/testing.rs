@@ -41,6 +41,36 @@ mechanism four_bar {
 }
 ";
 
+/// A mechanism that uses one of another file.
+pub const TWO_FILES: &str = "\
+//- main.mech
+use \"lever.mech\" as levers
+
+mechanism pair {
+    param A = (10 mm, 0)
+    ground {
+        point A
+        point O = (0, 0)
+    }
+    part front:             levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+    part side[k in 0..2]:   levers.lever() on front.arm at (front.arm.tip, 0)
+    measure way = x(front.arm.tip) + x(side[1].arm.tip)
+    analysis from 0 s to 1 s every 0.1 s
+}
+//- lever.mech
+mechanism lever {
+    param reach = 80 mm
+    input turn = 10 deg * sin(1 rev/s * t)
+    ground { point O = (0, 0) }
+    body arm {
+        point O   = (0, 0)
+        point tip = (reach, 0)
+    }
+    joint pivot: revolute(ground.O, arm.O)
+    driver motor: rotation(pivot) = turn
+}
+";
+
 /// A snapshot with files, each `//- NAME` a line of its own before its text (`main.mech` where there is no such line), all open; and the
 /// place of the cursor, `$0`.
 pub fn at_cursor(text: &str) -> (Snapshot, Place) {

@@ -195,7 +195,8 @@ impl Checked {
         self.parsed.tree().mechanisms.iter().any(|other| other.name != own.name && parts(other).any(is_it))
     }
 
-    fn tree(&self) -> Option<&ast::Mechanism> {
+    /// What was written of it.
+    pub(crate) fn tree(&self) -> Option<&ast::Mechanism> {
         self.parsed.tree().mechanisms.get(self.number?)
     }
 
@@ -228,6 +229,11 @@ impl Checked {
         let files = self.library.files();
         let own = files.iter().take(1).flat_map(|own| own.read.tree.uses.iter().zip(&own.uses));
         own.filter_map(|(used, number)| Some((used.path.as_ref()?.span, files[(*number)?].id)))
+    }
+
+    /// Which mechanisms its text may name; its own file is the first.
+    pub(crate) fn library(&self) -> &Library {
+        &self.library
     }
 
     /// The files that its text names, and those that these name, whether or not its mechanism needs them: texts that are used, and
