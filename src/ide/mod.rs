@@ -13,7 +13,9 @@
 //!   and a line in `TABLE`.
 //! - In `lsp/capabilities.rs` that the server has it.
 
+mod actions;
 mod buffers;
+mod completion;
 mod diagnostics;
 mod edits;
 mod hover;
@@ -29,7 +31,9 @@ mod structure;
 mod testing;
 mod workspace;
 
+pub use actions::{Action, ActionKind, actions};
 pub use buffers::Buffers;
+pub use completion::{Item, ItemKind, Template, completions};
 pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
 pub use hover::{Hover, hover};
 pub use navigate::{FileLink, Highlight, Link, definition, file_links, highlights, references};

@@ -337,3 +337,15 @@ pub(super) fn each<'t>(formula: &'t Expr, act: &mut impl FnMut(&'t Expr)) {
         open.extend(e.children());
     }
 }
+
+/// `crank.B` as its names tell it; nothing of what is no path, or has numbers in it.
+pub(super) fn path_text(e: &Expr) -> Option<String> {
+    match &e.bare().kind {
+        ExprKind::Name(name) => Some(name.text.clone()),
+        ExprKind::Member { owner, feature } => Some(format!("{}.{}", owner.text, feature.text)),
+        ExprKind::Path(segments) if segments.iter().all(|segment| segment.indices.is_empty()) => {
+            Some(segments.iter().map(|segment| segment.name.text.as_str()).collect::<Vec<_>>().join("."))
+        }
+        _ => None,
+    }
+}

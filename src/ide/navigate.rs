@@ -110,21 +110,61 @@ mod tests {
 
     #[test]
     fn names_lead_to_their_declarations() {
-        insta::assert_snapshot!(defined("crank.B, c", "crank.$0B, c", FOUR_BAR), @"");
-        insta::assert_snapshot!(defined("rotation(main)", "rotation(main$0)", FOUR_BAR), @"");
-        insta::assert_snapshot!(defined("revolute(ground", "$0revolute(ground", FOUR_BAR), @"");
-        insta::assert_snapshot!(defined("    point A\n", "    point $0A\n", TWO_FILES), @"");
+        insta::assert_snapshot!(defined("crank.B, c", "crank.$0B, c", FOUR_BAR), @r"
+        main.mech:10
+                point B = (crank_length, 0)
+                      ^
+        ");
+        insta::assert_snapshot!(defined("rotation(main)", "rotation(main$0)", FOUR_BAR), @r"
+        main.mech:21
+            joint main:  revolute(ground.A, crank.A)
+                  ^^^^
+        ");
+        insta::assert_snapshot!(defined("revolute(ground", "$0revolute(ground", FOUR_BAR), @"nothing");
+        insta::assert_snapshot!(defined("    point A\n", "    point $0A\n", TWO_FILES), @r"
+        main.mech:4
+            param A = (10 mm, 0)
+                  ^
+        ");
     }
 
     #[test]
     fn they_lead_into_parts_and_other_files() {
-        insta::assert_snapshot!(defined("front.arm.tip", "front.arm.$0tip", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("front.arm.tip", "front.$0arm.tip", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("side[1].arm.tip", "side[1].arm.$0tip", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("reach = 60", "re$0ach = 60", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("levers.lever(turn", "levers.$0lever(turn", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("levers.lever(turn", "$0levers.lever(turn", TWO_FILES), @"");
-        insta::assert_snapshot!(defined("\"lever.mech\"", "\"lever$0.mech\"", TWO_FILES), @"");
+        insta::assert_snapshot!(defined("front.arm.tip", "front.arm.$0tip", TWO_FILES), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        ");
+        insta::assert_snapshot!(defined("front.arm.tip", "front.$0arm.tip", TWO_FILES), @r"
+        lever.mech:5
+            body arm {
+                 ^^^
+        ");
+        insta::assert_snapshot!(defined("side[1].arm.tip", "side[1].arm.$0tip", TWO_FILES), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        ");
+        insta::assert_snapshot!(defined("reach = 60", "re$0ach = 60", TWO_FILES), @r"
+        lever.mech:2
+            param reach = 80 mm
+                  ^^^^^
+        ");
+        insta::assert_snapshot!(defined("levers.lever(turn", "levers.$0lever(turn", TWO_FILES), @r"
+        lever.mech:1
+        mechanism lever {
+                  ^^^^^
+        ");
+        insta::assert_snapshot!(defined("levers.lever(turn", "$0levers.lever(turn", TWO_FILES), @r#"
+        main.mech:1
+        use "lever.mech" as levers
+                            ^^^^^^
+        "#);
+        insta::assert_snapshot!(defined("\"lever.mech\"", "\"lever$0.mech\"", TWO_FILES), @r"
+        lever.mech:1
+        mechanism lever {
+        ^
+        ");
     }
 
     fn used(from: &str, to: &str) -> String {
@@ -135,9 +175,42 @@ mod tests {
 
     #[test]
     fn uses_are_found_in_all_files() {
-        insta::assert_snapshot!(used("point tip =", "point $0tip ="), @"");
-        insta::assert_snapshot!(used("reach = 60", "reach$0 = 60"), @"");
-        insta::assert_snapshot!(used("mechanism lever", "mechanism lev$0er"), @"");
+        insta::assert_snapshot!(used("point tip =", "point $0tip ="), @r"
+        lever.mech:7
+                point tip = (reach, 0)
+                      ^^^
+        main.mech:10
+            part side[k in 0..2]:   levers.lever() on front.arm at (front.arm.tip, 0)
+                                                                              ^^^
+        main.mech:11
+            measure way = x(front.arm.tip) + x(side[1].arm.tip)
+                                      ^^^
+        main.mech:11
+            measure way = x(front.arm.tip) + x(side[1].arm.tip)
+                                                           ^^^
+        ");
+        insta::assert_snapshot!(used("reach = 60", "reach$0 = 60"), @r"
+        lever.mech:2
+            param reach = 80 mm
+                  ^^^^^
+        lever.mech:7
+                point tip = (reach, 0)
+                             ^^^^^
+        main.mech:9
+            part front:             levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+                                                                            ^^^^^
+        ");
+        insta::assert_snapshot!(used("mechanism lever", "mechanism lev$0er"), @r"
+        lever.mech:1
+        mechanism lever {
+                  ^^^^^
+        main.mech:9
+            part front:             levers.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+                                           ^^^^^
+        main.mech:10
+            part side[k in 0..2]:   levers.lever() on front.arm at (front.arm.tip, 0)
+                                           ^^^^^
+        ");
     }
 
     #[test]

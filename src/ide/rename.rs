@@ -201,45 +201,79 @@ mod tests {
 
     #[test]
     fn a_name_changes_wherever_it_stands() {
-        insta::assert_snapshot!(renamed(FOUR_BAR, "body crank", "body cra$0nk", "arm"), @"");
-        insta::assert_snapshot!(renamed(FOUR_BAR, "coupler.C, ", "coupler.C$0, ", "tip"), @"");
-        insta::assert_snapshot!(renamed(FOUR_BAR, "mechanism four", "mechanism $0four", "linkage"), @"");
+        insta::assert_snapshot!(renamed(FOUR_BAR, "body crank", "body cra$0nk", "arm"), @r"
+        main.mech: body arm at (0, 0, 60 deg) {
+        main.mech: joint main:  revolute(ground.A, arm.A)
+        main.mech: joint pin:   revolute(arm.B, coupler.B)
+        ");
+        insta::assert_snapshot!(renamed(FOUR_BAR, "coupler.C, ", "coupler.C$0, ", "tip"), @r"
+        main.mech: point tip = (80 mm, 0)
+        main.mech: joint knee:  revolute(coupler.tip, rocker.C)
+        ");
+        insta::assert_snapshot!(renamed(FOUR_BAR, "mechanism four", "mechanism $0four", "linkage"), @"main.mech: mechanism linkage {");
     }
 
     #[test]
     fn it_changes_in_all_files() {
-        insta::assert_snapshot!(renamed(TWO_FILES, "front.arm.tip", "front.$0arm.tip", "rod"), @"");
-        insta::assert_snapshot!(renamed(TWO_FILES, "param reach", "param $0reach", "length_of_arm"), @"");
-        insta::assert_snapshot!(renamed(TWO_FILES, "as levers", "as $0levers", "l"), @"");
-        insta::assert_snapshot!(renamed(TWO_FILES, "mechanism lever", "mechanism lever$0", "arm"), @"");
+        insta::assert_snapshot!(renamed(TWO_FILES, "front.arm.tip", "front.$0arm.tip", "rod"), @r"
+        lever.mech: body rod {
+        lever.mech: joint pivot: revolute(ground.O, rod.O)
+        main.mech: part side[k in 0..2]:   levers.lever() on front.rod at (front.rod.tip, 0)
+        main.mech: measure way = x(front.rod.tip) + x(side[1].rod.tip)
+        ");
+        insta::assert_snapshot!(renamed(TWO_FILES, "param reach", "param $0reach", "length_of_arm"), @r"
+        lever.mech: param length_of_arm = 80 mm
+        lever.mech: point tip = (length_of_arm, 0)
+        main.mech: part front:             levers.lever(turn = 30 deg * t / (1 s), length_of_arm = 60 mm)
+        ");
+        insta::assert_snapshot!(renamed(TWO_FILES, "as levers", "as $0levers", "l"), @r#"
+        main.mech: use "lever.mech" as l
+        main.mech: part front:             l.lever(turn = 30 deg * t / (1 s), reach = 60 mm)
+        main.mech: part side[k in 0..2]:   l.lever() on front.arm at (front.arm.tip, 0)
+        "#);
+        insta::assert_snapshot!(renamed(TWO_FILES, "mechanism lever", "mechanism lever$0", "arm"), @r"
+        lever.mech: mechanism arm {
+        main.mech: part front:             levers.arm(turn = 30 deg * t / (1 s), reach = 60 mm)
+        main.mech: part side[k in 0..2]:   levers.arm() on front.arm at (front.arm.tip, 0)
+        ");
     }
 
     #[test]
     fn what_is_declared_and_taken_at_once_is_written_out() {
-        insta::assert_snapshot!(renamed(TWO_FILES, "param A", "param $0A", "B"), @"");
-        insta::assert_snapshot!(renamed(TWO_FILES, "point A", "point $0A", "B"), @"");
+        insta::assert_snapshot!(renamed(TWO_FILES, "param A", "param $0A", "B"), @r"
+        main.mech: param B = (10 mm, 0)
+        main.mech: point A = B
+        ");
+        insta::assert_snapshot!(renamed(TWO_FILES, "point A", "point $0A", "B"), @"main.mech: point B = A");
     }
 
     #[test]
     fn letters_of_any_length_are_names() {
-        insta::assert_snapshot!(renamed(&FOUR_BAR.replace("crank", "𝛼"), "driver motor: rotation(main) = 6", "driver motor: rotation(m$0ain) = 6", "Gelenk_ä"), @"");
-        insta::assert_snapshot!(renamed(&FOUR_BAR.replace("crank", "𝛼"), "body 𝛼", "body 𝛼$0", "µ"), @"");
+        insta::assert_snapshot!(renamed(&FOUR_BAR.replace("crank", "𝛼"), "driver motor: rotation(main) = 6", "driver motor: rotation(m$0ain) = 6", "Gelenk_ä"), @r"
+        main.mech: joint Gelenk_ä:  revolute(ground.A, 𝛼.A)
+        main.mech: driver motor: rotation(Gelenk_ä) = 60 deg + 90 deg/s * t
+        ");
+        insta::assert_snapshot!(renamed(&FOUR_BAR.replace("crank", "𝛼"), "body 𝛼", "body 𝛼$0", "µ"), @r"
+        main.mech: body µ at (0, 0, 60 deg) {
+        main.mech: joint main:  revolute(ground.A, µ.A)
+        main.mech: joint pin:   revolute(µ.B, coupler.B)
+        ");
     }
 
     #[test]
     fn what_would_clash_is_refused() {
         let crank = |new| renamed(FOUR_BAR, "body crank", "body cra$0nk", new);
-        insta::assert_snapshot!(crank("rocker"), @"");
-        insta::assert_snapshot!(crank("crank_length"), @"");
-        insta::assert_snapshot!(crank("body"), @"");
-        insta::assert_snapshot!(crank("3x"), @"");
-        insta::assert_snapshot!(crank("mm"), @"");
-        insta::assert_snapshot!(crank("t"), @"");
-        insta::assert_snapshot!(renamed(FOUR_BAR, "point B = (c", "point $0B = (c", "A"), @"");
-        insta::assert_snapshot!(renamed(TWO_FILES, "point O = (0, 0)\n    }\n    part", "point $0O = (0, 0)\n    }\n    part", "A"), @"");
+        insta::assert_snapshot!(crank("rocker"), @"`crank` cannot be called `rocker`: `rocker` is declared twice");
+        insta::assert_snapshot!(crank("crank_length"), @"`crank` cannot be called `crank_length`: `crank_length` is declared twice");
+        insta::assert_snapshot!(crank("body"), @"`body` is not a name: letters, digits and `_`, no digit first, and no keyword");
+        insta::assert_snapshot!(crank("3x"), @"`3x` is not a name: letters, digits and `_`, no digit first, and no keyword");
+        insta::assert_snapshot!(crank("mm"), @"`crank` cannot be called `mm`: `mm` cannot be declared: it is a unit");
+        insta::assert_snapshot!(crank("t"), @"`crank` cannot be called `t`: `t` cannot be declared: it is time");
+        insta::assert_snapshot!(renamed(FOUR_BAR, "point B = (c", "point $0B = (c", "A"), @"`B` cannot be called `A`: `A` is declared twice");
+        insta::assert_snapshot!(renamed(TWO_FILES, "point O = (0, 0)\n    }\n    part", "point $0O = (0, 0)\n    }\n    part", "A"), @"`O` cannot be called `A`: `A` is declared twice");
         let hides = "mechanism m {\n fn f(u) = u^2\n param k = 2\n body b { point P = (1 m, 0) }\n driver d: angle(b) = k * t / (1 s)\n measure s1 = speed(b.P) + f(2) * 1 m/s\n}";
-        insta::assert_snapshot!(renamed(hides, "fn f", "fn $0f", "speed"), @"");
-        insta::assert_snapshot!(renamed(hides, "param k", "param $0k", "u"), @"");
+        insta::assert_snapshot!(renamed(hides, "fn f", "fn $0f", "speed"), @"`f` cannot be called `speed`: expected a number, found a point");
+        insta::assert_snapshot!(renamed(hides, "param k", "param $0k", "u"), @"`k` cannot be called `u`: the argument `u` hides a name of the mechanism");
     }
 
     #[test]
@@ -248,9 +282,9 @@ mod tests {
             let (snapshot, place) = at_cursor(&TWO_FILES.replacen(from, to, 1));
             prepare_rename(&snapshot, &place).expect_err("it stays")
         };
-        insta::assert_snapshot!(why("part front", "pa$0rt front"), @"");
-        insta::assert_snapshot!(why("ground", "gro$0und"), @"");
-        insta::assert_snapshot!(why("30 deg", "30$0 deg"), @"");
-        insta::assert_snapshot!(why("\"lever.mech\"", "\"lev$0er.mech\""), @"");
+        insta::assert_snapshot!(why("part front", "pa$0rt front"), @"`part` is a word of the language");
+        insta::assert_snapshot!(why("ground", "gro$0und"), @"`ground` is a word of the language");
+        insta::assert_snapshot!(why("30 deg", "30$0 deg"), @"there is no name here");
+        insta::assert_snapshot!(why("\"lever.mech\"", "\"lev$0er.mech\""), @"this is the name of a file");
     }
 }

@@ -172,7 +172,13 @@ mod tests {
         let told = folds(&snapshot, &place.path).expect("a file").into_iter();
         let told: Vec<_> =
             told.map(|fold| format!("{}–{} {:?}", line(fold.range.start), line(fold.range.end), fold.kind)).collect();
-        insta::assert_snapshot!(told.join("\n"), @"");
+        insta::assert_snapshot!(told.join("\n"), @r"
+        1–2 Uses
+        3–4 Comment
+        6–16 Inside
+        7–9 Inside
+        10–12 Inside
+        ");
     }
 
     #[test]
@@ -190,6 +196,18 @@ mod tests {
         };
         let told: Vec<_> =
             around(&snapshot, &place).expect("a file").iter().map(|range| line(range).replace('\n', " ")).collect();
-        insta::assert_snapshot!(told.join("\n"), @"");
+        insta::assert_snapshot!(told.join("\n"), @r"
+        len
+        2 * len
+        crank_length + 2 * len
+        crank_length + 2 * len, 0
+        (crank_length + 2 * len, 0)
+        point B = (crank_length + 2 * len, 0)
+        point A = ( … * len, 0)
+        body crank at (0, 0, … * len, 0)     }
+        param crank_len … s every 0.1 s
+        mechanism four_bar { … s every 0.1 s }
+        mechanism four_bar { … every 0.1 s }
+        ");
     }
 }

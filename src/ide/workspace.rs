@@ -135,7 +135,7 @@ mod tests {
             };
             workspace_names(&snapshot, query).iter().map(line).collect::<Vec<_>>().join("\n")
         };
-        insta::assert_snapshot!(of("LEV"), @"");
-        insta::assert_snapshot!(of("tip"), @"");
+        insta::assert_snapshot!(of("LEV"), @"lever.mech Mechanism lever");
+        insta::assert_snapshot!(of("tip"), @"lever.mech Point lever.arm.tip");
     }
 }

@@ -195,6 +195,11 @@ impl Checked {
         self.parsed.tree().mechanisms.iter().any(|other| other.name != own.name && parts(other).any(is_it))
     }
 
+    /// What it means; nothing where it is not sound.
+    pub(super) fn model(&self) -> Option<&Mechanism> {
+        self.model.as_deref()
+    }
+
     /// What was written of it.
     pub(crate) fn tree(&self) -> Option<&ast::Mechanism> {
         self.parsed.tree().mechanisms.get(self.number?)
