@@ -5,6 +5,8 @@
 
 #[path = "lsp/client.rs"]
 mod client;
+#[path = "lsp/writing.rs"]
+mod writing;
 
 use client::Client;
 use mechc::Memory;

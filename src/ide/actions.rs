@@ -40,13 +40,13 @@ pub enum ActionKind {
     Drive,
 }
 
-/// What can be done about a stretch of a file: fixes of what is said there, in which `later` are the diagnostics of the late stages, and
-/// refactorings.
+/// What can be done about a stretch of a file: fixes of what its words and the proof say there, and refactorings.
 #[must_use]
-pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>, later: &[Said]) -> Option<Vec<Action>> {
+pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
     let words = diagnostics(snapshot, path, Stage::Words, &Cancel::default())?;
+    let proof = diagnostics(snapshot, path, Stage::Proof, &Cancel::default())?;
     let mut all: Vec<&Said> = words.iter().collect();
-    all.extend(later.iter().filter(|said| !words.contains(said)));
+    all.extend(proof.iter().filter(|said| !words.contains(said)));
     let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
     let mut found: Vec<Action> = all.iter().copied().filter(touches).flat_map(of_fault).collect();
     found.extend(fix_all(path, &all));
@@ -210,7 +210,7 @@ mod tests {
     fn offered(text: &str) -> String {
         let (snapshot, place) = at_cursor(text);
         let range = place.offset..place.offset;
-        let found = actions(&snapshot, &place.path, &range, &[]).expect("a file");
+        let found = actions(&snapshot, &place.path, &range).expect("a file");
         let before = count(&snapshot, &place.path);
         let told = |action: &Action| {
             let after = applied(&snapshot, &action.changes).expect("it can be made");

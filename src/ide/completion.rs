@@ -175,7 +175,8 @@ impl Here<'_> {
         items.extend(JOINTS.iter().map(|joint| {
             let item = Item::word(&joint.word, 1);
             // what they join is asked for when they are there
-            let detail = format!("{} · {} equations", joint.takes, joint.equations);
+            let plural = if joint.equations == 1 { "" } else { "s" };
+            let detail = format!("{} · {} equation{plural}", joint.takes, joint.equations);
             item.detail(detail)
         }));
         items
@@ -245,7 +246,12 @@ impl Here<'_> {
             items.retain(|item| !is_of_it(item));
             self.prefer_touching(other.first().copied().unwrap_or_default(), &mut items);
         }
-        let is_number = wanted.iter().any(|wanted| matches!(wanted, Wanted::Number(_) | Wanted::Point));
+        let is_number = wanted.iter().any(|wanted| match wanted {
+            Wanted::Number(_) => true,
+            // points of drawings are calculated with
+            Wanted::Point => is_drawn(cursor.head()),
+            _ => false,
+        });
         if is_number && cursor.head() != "joint" {
             items.extend(called(cursor.head()).map(|word| Item::word(word, 4)));
             items.extend(Keyword::named("if").map(|keyword| declaration(keyword)));
@@ -290,12 +296,16 @@ impl Here<'_> {
     }
 }
 
+/// Whether formulas of points may stand in a declaration.
+fn is_drawn(head: &str) -> bool {
+    matches!(head, "param" | "point" | "axis" | "circle" | "curve" | "body")
+}
+
 /// The words that a formula of a declaration may call.
 fn called(head: &str) -> impl Iterator<Item = &'static Word> {
     let has_quantities = matches!(head, "measure" | "trace" | "result" | "driver" | "constraint" | "part");
     let has_reductions = head == "result";
-    // points have functions of their own, which serve drawings
-    let is_drawn = matches!(head, "param" | "point" | "axis" | "circle" | "curve" | "body");
+    let is_drawn = is_drawn(head);
     let quantities = QUANTITIES.iter().filter(move |_| has_quantities).map(|quantity| &quantity.word);
     let reductions = REDUCTIONS.iter().filter(move |_| has_reductions).map(|reduction| &reduction.word);
     let is_there = move |function: &&crate::vocabulary::Function| match function.group {

@@ -103,7 +103,8 @@ pub(super) fn files_with(snapshot: &Snapshot, near: &Path, words: &[&str]) -> Ve
         let text = buffers.read(path).map(|contents| contents.bytes);
         text.is_ok_and(|text| !is_plain || words.iter().any(|word| contains(&text, word.as_bytes())))
     };
-    files.into_iter().filter(holds).collect()
+    let is_text = |path: &Arc<Path>| buffers.open(path).is_some() || super::workspace::is_mech(&path.to_string_lossy());
+    files.into_iter().filter(is_text).filter(holds).collect()
 }
 
 fn contains(text: &[u8], word: &[u8]) -> bool {

@@ -70,7 +70,8 @@ fn is_looked_into(folder: &str) -> bool {
 pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
     let query: Vec<char> = query.to_lowercase().chars().filter(|c| !c.is_whitespace()).collect();
     let mut found = Vec::new();
-    for path in snapshot.files() {
+    let is_text = |path: &&Arc<Path>| snapshot.buffers().open(path).is_some() || is_mech(&path.to_string_lossy());
+    for path in snapshot.files().filter(is_text) {
         if found.len() >= MOST_NAMES || snapshot.is_cancelled() {
             break;
         }

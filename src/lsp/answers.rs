@@ -1,5 +1,10 @@
 //! Requests, and what answers them: params to a feature of `ide`, and its answer to the protocol's words.
 
+mod completion;
+mod edits;
+mod navigate;
+mod structure;
+
 use super::convert::{Texts, markdown, symbol_kind};
 use crate::ide;
 use gen_lsp_types::{self as lsp, Request};
@@ -13,6 +18,8 @@ pub(super) enum Failure {
     Params(String),
     /// A later edit made it pointless.
     Modified,
+    /// It cannot be done; this is to be told.
+    Refused(String),
     /// The server has a mistake.
     Panicked(String),
 }
@@ -29,10 +36,50 @@ pub(super) struct Method {
 
 /// Every request that is answered from a snapshot alone, by name.
 pub(super) const TABLE: &[Method] = &[
+    method::<lsp::CodeActionRequest>(false, |texts, params| {
+        answered::<lsp::CodeActionRequest>(texts, params, edits::actions)
+    }),
+    method::<lsp::CompletionRequest>(false, |texts, params| {
+        answered::<lsp::CompletionRequest>(texts, params, completion::completion)
+    }),
+    method::<lsp::DefinitionRequest>(false, |texts, params| {
+        answered::<lsp::DefinitionRequest>(texts, params, navigate::definition)
+    }),
+    method::<lsp::DocumentFormattingRequest>(false, |texts, params| {
+        answered::<lsp::DocumentFormattingRequest>(texts, params, edits::formatting)
+    }),
+    method::<lsp::DocumentHighlightRequest>(false, |texts, params| {
+        answered::<lsp::DocumentHighlightRequest>(texts, params, navigate::highlights)
+    }),
+    method::<lsp::DocumentLinkRequest>(true, |texts, params| {
+        answered::<lsp::DocumentLinkRequest>(texts, params, navigate::links)
+    }),
+    method::<lsp::DocumentOnTypeFormattingRequest>(false, |texts, params| {
+        answered::<lsp::DocumentOnTypeFormattingRequest>(texts, params, edits::brace_formatting)
+    }),
+    method::<lsp::DocumentRangeFormattingRequest>(false, |texts, params| {
+        answered::<lsp::DocumentRangeFormattingRequest>(texts, params, edits::range_formatting)
+    }),
     method::<lsp::DocumentSymbolRequest>(true, |texts, params| {
         answered::<lsp::DocumentSymbolRequest>(texts, params, symbols)
     }),
+    method::<lsp::FoldingRangeRequest>(true, |texts, params| {
+        answered::<lsp::FoldingRangeRequest>(texts, params, structure::folds)
+    }),
     method::<lsp::HoverRequest>(false, |texts, params| answered::<lsp::HoverRequest>(texts, params, hover)),
+    method::<lsp::PrepareRenameRequest>(false, |texts, params| {
+        tried::<lsp::PrepareRenameRequest>(texts, params, navigate::prepare_rename)
+    }),
+    method::<lsp::ReferencesRequest>(false, |texts, params| {
+        answered::<lsp::ReferencesRequest>(texts, params, navigate::references)
+    }),
+    method::<lsp::RenameRequest>(false, |texts, params| tried::<lsp::RenameRequest>(texts, params, navigate::rename)),
+    method::<lsp::SelectionRangeRequest>(false, |texts, params| {
+        answered::<lsp::SelectionRangeRequest>(texts, params, structure::selections)
+    }),
+    method::<lsp::WorkspaceSymbolRequest>(true, |texts, params| {
+        answered::<lsp::WorkspaceSymbolRequest>(texts, params, navigate::workspace_symbols)
+    }),
 ];
 
 const fn method<R: Request>(is_retried: bool, answer: fn(&Texts, Value) -> Result<Value, Failure>) -> Method {
@@ -46,11 +93,24 @@ fn answered<R: Request>(
     answer: fn(&Texts, &R::Params) -> R::Result,
 ) -> Result<Value, Failure> {
     let params = serde_json::from_value(params).map_err(|error| Failure::Params(error.to_string()))?;
-    let answer = answer(texts, &params);
+    written::<R>(texts, Ok(answer(texts, &params)))
+}
+
+/// The same of what may be refused.
+fn tried<R: Request>(
+    texts: &Texts,
+    params: Value,
+    answer: fn(&Texts, &R::Params) -> Result<R::Result, Failure>,
+) -> Result<Value, Failure> {
+    let params = serde_json::from_value(params).map_err(|error| Failure::Params(error.to_string()))?;
+    written::<R>(texts, answer(texts, &params))
+}
+
+fn written<R: Request>(texts: &Texts, answer: Result<R::Result, Failure>) -> Result<Value, Failure> {
     if texts.snapshot.is_cancelled() {
         return Err(Failure::Modified);
     }
-    serde_json::to_value(answer).map_err(|error| Failure::Panicked(error.to_string()))
+    serde_json::to_value(answer?).map_err(|error| Failure::Panicked(error.to_string()))
 }
 
 fn hover(texts: &Texts, params: &lsp::HoverParams) -> Option<lsp::Hover> {

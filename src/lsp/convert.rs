@@ -1,11 +1,13 @@
 //! Between places of files and the words of the protocol.
 
+use super::capabilities::Client;
 use super::documents::{Document, Documents};
 use crate::check::NameKind;
-use crate::ide::{Place, Said, Severity, Snapshot, Stretch};
+use crate::ide::{Change, Place, Said, Severity, Snapshot, Stretch};
 use crate::source::Encoding;
 use crate::world::World;
 use gen_lsp_types as lsp;
+use std::collections::HashMap;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -16,6 +18,7 @@ pub(super) struct Texts {
     pub snapshot: Snapshot,
     pub documents: Documents,
     pub encoding: Encoding,
+    pub client: Client,
 }
 
 impl Texts {
@@ -30,6 +33,30 @@ impl Texts {
         let document = self.text(&path)?;
         let offset = document.offset((given.position.line, given.position.character), self.encoding);
         Some(Place { path, offset })
+    }
+
+    /// A stretch that the client gives.
+    pub fn bytes(&self, given: &lsp::TextDocumentIdentifier, range: &lsp::Range) -> Option<Range<u32>> {
+        let document = self.text(&self.path(&given.uri))?;
+        let [start, end] = [&range.start, &range.end]
+            .map(|position| document.offset((position.line, position.character), self.encoding));
+        Some(start.min(end)..start.max(end))
+    }
+
+    /// A change of a text in its file.
+    pub fn text_edit(&self, change: &Change) -> Option<lsp::TextEdit> {
+        let range = self.location(&change.place)?.range;
+        Some(lsp::TextEdit { range, new_text: change.text.clone() })
+    }
+
+    /// Changes of texts.
+    pub fn edit(&self, changes: &[Change]) -> Option<lsp::WorkspaceEdit> {
+        let mut files: HashMap<lsp::Uri, Vec<lsp::TextEdit>> = HashMap::new();
+        for change in changes {
+            let uri = self.location(&change.place)?.uri;
+            files.entry(uri).or_default().push(self.text_edit(change)?);
+        }
+        Some(lsp::WorkspaceEdit { changes: Some(files), ..lsp::WorkspaceEdit::default() })
     }
 
     /// A stretch of a file, for the client.

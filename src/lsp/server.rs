@@ -14,7 +14,7 @@ use crossbeam_channel::{Receiver, Sender, select, unbounded};
 use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, HashMap};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -44,6 +44,7 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
         pending: HashMap::new(),
         pulls: Vec::new(),
         next_id: 0,
+        folders: Vec::new(),
     };
     server.run(&receiver, &tasks)
 }
@@ -59,7 +60,15 @@ enum State {
 /// What the pool has done.
 enum Task {
     Answered(RequestId, Result<Value, Failure>),
-    Found { path: Arc<Path>, revision: u64, stage: Stage, found: Result<Option<Found>, String>, took: Duration },
+    /// The files of the client's folders.
+    Files(Vec<Arc<Path>>),
+    Found {
+        path: Arc<Path>,
+        revision: u64,
+        stage: Stage,
+        found: Result<Option<Found>, String>,
+        took: Duration,
+    },
 }
 
 /// A request that is being answered.
@@ -95,6 +104,8 @@ struct Server {
     pulls: Vec<Pull>,
     /// Of the server's own requests.
     next_id: i32,
+    /// What the client has open.
+    folders: Vec<PathBuf>,
 }
 
 impl Server {
@@ -142,6 +153,7 @@ impl Server {
         match (self.state, method.as_str()) {
             (State::New, "initialize") => {
                 self.client = Client::of(&params);
+                self.folders = capabilities::folders(&params);
                 self.state = State::Running;
                 self.answer(id, capabilities::of_server(&self.client));
             }
@@ -175,7 +187,8 @@ impl Server {
 
     fn texts(&self) -> Texts {
         let encoding = self.client.encoding;
-        Texts { snapshot: self.snapshot.clone(), documents: self.documents.clone(), encoding }
+        let (snapshot, documents) = (self.snapshot.clone(), self.documents.clone());
+        Texts { snapshot, documents, encoding, client: self.client.clone() }
     }
 
     fn notification(&mut self, notification: Notification) {
@@ -184,9 +197,11 @@ impl Server {
             return;
         }
         let done = match method.as_str() {
+            "initialized" => self.began(),
             "textDocument/didOpen" => self.opened(&params),
             "textDocument/didChange" => self.changed(&params),
             "textDocument/didClose" => self.closed(&params),
+            "workspace/didChangeWorkspaceFolders" => self.changed_folders(&params),
             "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
             "$/cancelRequest" => self.cancelled(&params),
             _ => Some(()),
@@ -235,6 +250,41 @@ impl Server {
             self.tell(uri, Value::Null, &[]);
         }
         self.replace(&path);
+        Some(())
+    }
+
+    /// The session has begun: the files of the client's folders are looked for.
+    fn began(&mut self) -> Option<()> {
+        if self.client.watches_files {
+            let watchers = json!([{ "globPattern": "**/*.mech" }, { "globPattern": "**/*.csv" }]);
+            let method = "workspace/didChangeWatchedFiles";
+            let registration = json!({ "id": "files", "method": method, "registerOptions": { "watchers": watchers } });
+            self.ask_with("client/registerCapability", json!({ "registrations": [registration] }));
+        }
+        self.look_for_files();
+        Some(())
+    }
+
+    fn look_for_files(&self) {
+        let (folders, world, done) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()), self.done.clone());
+        if !folders.is_empty() {
+            self.pool.later(move || {
+                let files = caught(|| ide::files_in(&folders, &*world, &Cancel::default())).unwrap_or_default();
+                let _ = done.send(Task::Files(files));
+            });
+        }
+    }
+
+    fn changed_folders(&mut self, params: &Value) -> Option<()> {
+        let paths = |name: &str| {
+            let list = params.pointer(&format!("/event/{name}")).and_then(Value::as_array);
+            let uris = list.into_iter().flatten().filter_map(|folder| folder.get("uri")?.as_str());
+            uris.map(super::uri::path_of).collect::<Vec<_>>()
+        };
+        let removed = paths("removed");
+        self.folders.retain(|folder| !removed.contains(folder));
+        self.folders.extend(paths("added"));
+        self.look_for_files();
         Some(())
     }
 
@@ -311,6 +361,10 @@ impl Server {
     fn task(&mut self, task: Task) {
         match task {
             Task::Answered(id, answer) => self.answered(id, answer),
+            Task::Files(files) => {
+                self.log.did(|| format!("{} files are in the folders", files.len()));
+                self.snapshot = self.snapshot.with_files(files);
+            }
             Task::Found { path, revision, stage, found, took } => {
                 if revision == self.revision {
                     self.log.did(|| format!("{stage:?} of {} took {:.3} ms", path.display(), took.as_secs_f64() * 1e3));
@@ -329,6 +383,7 @@ impl Server {
             }
             Err(Failure::Modified) => self.refuse(id, ErrorCode::ContentModified, "the text was changed"),
             Err(Failure::Params(why)) => self.refuse(id, ErrorCode::InvalidParams, &why),
+            Err(Failure::Refused(why)) => self.refuse(id, ErrorCode::RequestFailed, &why),
             Err(Failure::Panicked(why)) => {
                 self.log.did(|| format!("`{}` panicked: {why}", method.name));
                 self.refuse(id, ErrorCode::InternalError, &format!("`{}` failed: {why}", method.name));
@@ -416,8 +471,12 @@ impl Server {
 
     /// A request of the server, whose answer says nothing.
     fn ask(&mut self, method: &str) {
+        self.ask_with(method, Value::Null);
+    }
+
+    fn ask_with(&mut self, method: &str, params: Value) {
         self.next_id += 1;
-        self.send(Request { id: self.next_id.into(), method: method.to_owned(), params: Value::Null });
+        self.send(Request { id: self.next_id.into(), method: method.to_owned(), params });
     }
 }
 

@@ -2,6 +2,7 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+pub mod blocks;
 pub mod change_points;
 pub mod listed;
 pub mod random;

@@ -83,22 +83,30 @@ impl Template {
         template
     }
 
-    /// By a form of the vocabulary, `revolute(P, Q)`: all words are places but its first one and keywords.
+    /// By a form of the vocabulary, `revolute(P, Q)`: all words are places but its first one, and keywords outside of parentheses.
     pub fn of_form(form: &str) -> Template {
         let mut marked = String::new();
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '…';
-        let mut rest = form;
+        let (mut rest, mut depth) = (form, 0_usize);
         while let Some(first) = rest.chars().next() {
             let length = match is_part(first) {
                 true => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),
                 false => first.len_utf8(),
             };
             let (word, behind) = rest.split_at(length);
-            let is_place = is_part(first) && !marked.is_empty() && Keyword::named(word).is_none() && word != "mech";
+            match first {
+                '(' => depth += 1,
+                ')' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            let is_own = depth == 0 && Keyword::named(word).is_some() || word == "mech";
+            let is_place = is_part(first) && !marked.is_empty() && !is_own;
             marked += &if is_place { format!("«{word}»") } else { word.to_owned() };
             rest = behind;
         }
-        Template::marked(&marked.replace("{ «…» }", "{\n    «»\n}").replace("«…»", "«»"))
+        Template::marked(
+            &marked.replace("{ «…» }", "{\n    «»\n}").replace("«BINDING», «…»", "«»").replace("«…»", "«»"),
+        )
     }
 
     /// With another one behind it.

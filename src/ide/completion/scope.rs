@@ -209,7 +209,11 @@ impl Scope<'_> {
 
     /// A name of a part, as it is seen from outside.
     fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<Item> {
-        let leads_on = matches!(item.kind, Declared::Body { .. } | Declared::Ground { .. } | Declared::Part(_));
+        let leads_on = |wanted: &Wanted| match item.kind {
+            Declared::Part(_) => wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Body),
+            Declared::Body { .. } | Declared::Ground { .. } => wanted.is_feature(),
+            _ => false,
+        };
         let fits = |wanted: &Wanted| match (wanted, &item.kind) {
             (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(&kind.text, quantity),
             (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. }) => true,
@@ -221,11 +225,7 @@ impl Scope<'_> {
             (Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
             _ => false,
         };
-        let is_wanted = wanted.is_empty() || wanted.iter().any(fits);
-        if !is_wanted
-            && !(leads_on
-                && wanted.iter().any(|wanted| wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Body)))
-        {
+        if !wanted.is_empty() && !wanted.iter().any(|wanted| fits(wanted) || leads_on(wanted)) {
             return None;
         }
         match &item.kind {

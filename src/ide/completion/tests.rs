@@ -28,6 +28,7 @@ fn with(from: &str, to: &str) -> String {
     FOUR_BAR.replacen(from, to, 1)
 }
 
+const PIN: &str = "joint pin:   revolute(crank.B, coupler.B)\n";
 const KNEE: &str = "joint knee:  revolute(coupler.C, rocker.C)\n";
 
 #[test]
@@ -65,6 +66,8 @@ fn a_joint_asks_for_what_it_joins() {
         "axis way = (0, 0) along (1, 0)\n        point A = (0, 0)\n        point D",
     );
     insta::assert_snapshot!(proposed(&axes.replacen(KNEE, "joint knee: translational($0)\n", 1), 9), @"1 ground.way — axis way = (0, 0) along (1, 0), of ground");
+    insta::assert_snapshot!(proposed(&with(PIN, "joint pin: revolute(coupler.B,$0)\n"), 3), @"");
+    insta::assert_snapshot!(proposed(&with(PIN, "joint pin: $0\n"), 2), @"");
     insta::assert_snapshot!(proposed(&with(KNEE, "joint knee: $0\n"), 5), @r"
     1 revolute(P, Q) — two points · 2 equations → revolute(«P», «Q»)
     1 translational(a, b) — two axes · 2 equations → translational(«a», «b»)
@@ -76,6 +79,7 @@ fn a_joint_asks_for_what_it_joins() {
 
 #[test]
 fn what_is_missing_is_proposed() {
+    insta::assert_snapshot!(proposed(&with(PIN, "$0\n"), 5), @"");
     insta::assert_snapshot!(proposed(&with(KNEE, "$0\n"), 3), @r"
     0 driver drive: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pivot) = «100 deg + 60 deg/s * t»
     0 driver drive: x(coupler.B) = 15 mm + 10 mm/s * t — this is left free → driver «drive»: x(coupler.B) = «15 mm + 10 mm/s * t»

@@ -13,7 +13,7 @@ use std::sync::Arc;
 /// Longer texts are not checked with each dimension that a number could have (bytes).
 const LONGEST: usize = 8_192;
 
-/// What is tried, and units with what stands behind them, for rates.
+/// What is tried: the units in which drawings and drives are mostly written, which come first.
 const TRIED: &[(&str, Dimension)] = &[
     ("mm", Dimension::LENGTH),
     ("deg", Dimension::PURE),
@@ -41,7 +41,8 @@ pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<
     let mut items: Vec<Item> = Vec::new();
     for unit in UNITS {
         let is_like = like.is_some_and(|like| std::ptr::eq(like, unit));
-        let rank = if is_like { 0 } else { u8::from(!fits(unit.dimension)) * 4 + 1 };
+        let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
+        let rank = if is_like { 0 } else { u8::from(!fits(unit.dimension)) * 4 + u8::from(!is_usual) + 1 };
         items.push(Item::word(&unit.word, rank).inserts(Template::plain(format!("{space}{}", unit.word.name))));
     }
     for (text, dimension, meaning) in RATES {
