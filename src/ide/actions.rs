@@ -236,26 +236,58 @@ mod tests {
 
     #[test]
     fn what_is_wrong_is_mended() {
-        insta::assert_snapshot!(offered(&with("crank.B, c", "crnk$0.B, c")), @"");
+        insta::assert_snapshot!(offered(&with("crank.B, c", "crnk$0.B, c")), @r"
+        Fix was `crank` meant?
+            joint pin:   revolute(crank.B, coupler.B)
+        ");
         let twice = with("60 deg + 90", "60° + 90").replacen("revolute(crank.B,", "revolute($0crank.B;", 1);
-        insta::assert_snapshot!(offered(&twice), @"");
+        insta::assert_snapshot!(offered(&twice), @r"
+        FixAll make all fixes that always apply
+            joint pin:   revolute(crank.B, coupler.B)
+            driver motor: rotation(main) = 60 deg + 90 deg/s * t
+        ");
     }
 
     #[test]
     fn a_number_becomes_a_param() {
-        insta::assert_snapshot!(offered(&with("(80 mm, 0)", "(8$00 mm, 0)")), @"");
-        insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @"");
-        insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @"");
-        insta::assert_snapshot!(offered("mechanism m { body b { point P = (1$0 m, 0) } driver d: angle(b) = 1 rad/s * t }"), @"");
+        insta::assert_snapshot!(offered(&with("(80 mm, 0)", "(8$00 mm, 0)")), @r"
+        Extract extract `80 mm` into a param
+            param size = 80 mm
+                point C = (size, 0)
+        ");
+        insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @r"
+        Extract extract `0.1 s` into a param
+            param duration = 0.1 s
+            analysis from 0 s to 4 s every duration
+        ");
+        insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @r"
+        Extract extract `30 mm` into a param
+            param size = 30 mm
+                point B = (size, 0)
+        ");
+        insta::assert_snapshot!(offered("mechanism m { body b { point P = (1$0 m, 0) } driver d: angle(b) = 1 rad/s * t }"), @r"
+        Extract extract `1 m` into a param
+        mechanism m { param size = 1 m body b { point P = (size, 0) } driver d: angle(b) = 1 rad/s * t }
+        ");
         insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 3$00 mm // long")), @"");
-        insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 30 mm // long").replacen("80 mm", "80$0 mm", 1)), @"");
+        insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 30 mm // long").replacen("80 mm", "80$0 mm", 1)), @r"
+        Extract extract `80 mm` into a param
+            param size = 80 mm
+                point C = (size, 0)
+        ");
     }
 
     #[test]
     fn a_joint_is_driven_from_where_it_is_drawn() {
         let free = with("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "");
-        insta::assert_snapshot!(offered(&free.replacen("joint main", "joint ma$0in", 1)), @"");
-        insta::assert_snapshot!(offered(&free.replacen("joint pivot", "joint pi$0vot", 1)), @"");
+        insta::assert_snapshot!(offered(&free.replacen("joint main", "joint ma$0in", 1)), @r"
+        Drive drive `main`
+            driver motor: rotation(main) = 60 deg + 60 deg/s * t
+        ");
+        insta::assert_snapshot!(offered(&free.replacen("joint pivot", "joint pi$0vot", 1)), @r"
+        Drive drive `pivot`
+            driver motor: rotation(pivot) = 100 deg + 60 deg/s * t
+        ");
         // all is driven already
         assert_eq!(offered(&with("joint main", "joint ma$0in")), "");
     }

@@ -48,8 +48,35 @@ mod tests {
 
     #[test]
     fn what_is_whole_is_formatted() {
-        insta::assert_snapshot!(formatted(|_| Formatted::Whole), @"");
-        insta::assert_snapshot!(formatted(|_| Formatted::In(20..30)), @"");
-        insta::assert_snapshot!(formatted(Formatted::AtBrace), @"");
+        insta::assert_snapshot!(formatted(|_| Formatted::Whole), @r"
+        mechanism m {
+            param a   = 3 mm
+            param bcd = 4 mm
+            body b {
+                point P = (a, 0)
+            }
+         joint k revolute(
+        }
+        ");
+        insta::assert_snapshot!(formatted(|_| Formatted::In(20..30)), @r"
+        mechanism m {
+            param a   = 3 mm
+          param bcd=4 mm
+            body b {
+        point P=(a,0)
+        }
+         joint k revolute(
+        }
+        ");
+        insta::assert_snapshot!(formatted(Formatted::AtBrace), @r"
+        mechanism m {
+        param  a = 3 mm
+          param bcd=4 mm
+            body b {
+                point P = (a, 0)
+            }
+         joint k revolute(
+        }
+        ");
     }
 }

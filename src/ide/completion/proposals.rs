@@ -11,7 +11,7 @@ use crate::vocabulary::KEYWORDS;
 use std::f64::consts::PI;
 
 /// In longer texts nothing is proposed: the text would have to be proven without the declaration at the cursor (bytes).
-const LONGEST: usize = 1 << 15;
+const LONGEST: usize = 8_192;
 
 /// Points nearer to each other than this part of the drawing's size are meant to coincide.
 const NEAR: f64 = 0.02;
