@@ -54,6 +54,12 @@ pub trait World: Send + Sync {
         Vec::new()
     }
 
+    /// The names of the folders in a folder; nothing where nobody can tell.
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        let _ = folder;
+        Vec::new()
+    }
+
     /// What tells a file from all others: two paths with one identity are one file, which is read once.
     fn identity(&self, path: &Path) -> PathBuf {
         normalised(path)
@@ -87,6 +93,14 @@ impl World for Memory {
         let mut names: Vec<String> =
             here.filter_map(|path| path.file_name()).map(|name| name.to_string_lossy().into_owned()).collect();
         names.sort();
+        names
+    }
+
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        let inside = self.files.keys().filter_map(|path| path.strip_prefix(folder).ok()?.parent()?.components().next());
+        let mut names: Vec<String> = inside.map(|part| part.as_os_str().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names.dedup();
         names
     }
 }

@@ -82,12 +82,21 @@ impl World for Disk {
         names
     }
 
+    fn folders_in(&self, folder: &Path) -> Vec<String> {
+        let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+        let entries = fs::read_dir(folder).into_iter().flatten().flatten();
+        let folders = entries.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir()));
+        let mut names: Vec<String> = folders.map(|entry| entry.file_name().to_string_lossy().into_owned()).collect();
+        names.sort();
+        names
+    }
+
     fn identity(&self, path: &Path) -> PathBuf {
         path.canonicalize().unwrap_or_else(|_| world::normalised(path))
     }
 }
 
-fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
+pub(super) fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
     Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", world::reason(error)))
 }
 

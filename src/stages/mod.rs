@@ -9,6 +9,7 @@
 mod checked;
 mod compiled;
 mod constant;
+mod drawn;
 mod emitted;
 mod formula;
 mod imported;
@@ -23,6 +24,7 @@ mod used_at;
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
 pub use constant::seconds;
+pub(crate) use drawn::Drawn;
 pub use emitted::RustOptions;
 pub use formula::{Formula, NAMES};
 pub use imported::imported;

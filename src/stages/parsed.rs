@@ -119,7 +119,8 @@ impl Parsed {
         &self.path
     }
 
-    pub(super) fn tree(&self) -> &ast::File {
+    /// What was written.
+    pub(crate) fn tree(&self) -> &ast::File {
         &self.read.tree
     }
 

@@ -21,5 +21,5 @@ pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
 pub use format::{format, formatted};
 pub use parse::{Parsed, parse, parse_expression};
-pub use tokens::keywords_in;
+pub use tokens::{Token, begins_declaration, keywords_in, tokens};
 pub use trivia::{Comment, Trivia};

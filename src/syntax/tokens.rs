@@ -6,19 +6,24 @@ use crate::vocabulary::{Keyword, is_declaration};
 
 /// A word or character, by the byte where it begins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub(super) struct Token<'a> {
+pub struct Token<'a> {
+    /// The byte.
     pub start: usize,
+    /// It itself.
     pub text: &'a str,
 }
 
 impl Token<'_> {
+    /// One past its last byte.
+    #[must_use]
     pub fn end(self) -> usize {
         self.start + self.text.len()
     }
 }
 
 /// All tokens of a text.
-pub(super) fn tokens(text: &str) -> Vec<Token<'_>> {
+#[must_use]
+pub fn tokens(text: &str) -> Vec<Token<'_>> {
     let mut tokens = Vec::new();
     let mut rest = text;
     while let Some(token) = next_token(&mut rest) {
@@ -57,7 +62,8 @@ pub(super) fn next_token<'a>(rest: &mut &'a str) -> Option<&'a str> {
 }
 
 /// Whether a token is a keyword that begins a declaration: `ground.O` is a point, and `ground` where an operand goes means the body.
-pub(super) fn begins_declaration(text: &str, token: Token<'_>) -> bool {
+#[must_use]
+pub fn begins_declaration(text: &str, token: Token<'_>) -> bool {
     let behind = text[token.end()..].trim_start();
     if !is_declaration(token.text) || behind.starts_with('.') {
         return false;

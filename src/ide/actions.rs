@@ -1,0 +1,294 @@
+//! What can be done about a place: fixes of what is wrong there, and changes that keep what the text means.
+
+use super::completion::{free, free_name};
+use super::diagnostics::{ProposedFix, Said, Stage, diagnostics};
+use super::edits::{applied, faults, first_new, text_of};
+use super::names::{each, formulas};
+use super::place::{Change, Place, Stretch};
+use super::snapshot::Snapshot;
+use crate::cancel::Cancel;
+use crate::syntax::ast::{ExprKind, Item, ItemKind, Mechanism};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What can be done.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Action {
+    /// As it is offered.
+    pub title: String,
+    /// What it is.
+    pub kind: ActionKind,
+    /// Whether it is what was meant, beyond doubt.
+    pub is_preferred: bool,
+    /// What it mends.
+    pub mends: Option<Said>,
+    /// What it changes.
+    pub changes: Vec<Change>,
+}
+
+/// What an action is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ActionKind {
+    /// Mends a fault.
+    Fix,
+    /// Makes all fixes of a file that always apply.
+    FixAll,
+    /// Gives a number a name.
+    Extract,
+    /// Adds what takes a freedom.
+    Drive,
+}
+
+/// What can be done about a stretch of a file: fixes of what its words and the proof say there, and refactorings.
+#[must_use]
+pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
+    let words = diagnostics(snapshot, path, Stage::Words, &Cancel::default())?;
+    let proof = diagnostics(snapshot, path, Stage::Proof, &Cancel::default())?;
+    let mut all: Vec<&Said> = words.iter().collect();
+    all.extend(proof.iter().filter(|said| !words.contains(said)));
+    let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
+    let mut found: Vec<Action> = all.iter().copied().filter(touches).flat_map(of_fault).collect();
+    found.extend(fix_all(path, &all));
+    found.extend(extract_param(snapshot, path, range));
+    found.extend(drive_joint(snapshot, &Place { path: Arc::clone(path), offset: range.start }));
+    Some(found)
+}
+
+fn of_fault(said: &Said) -> Vec<Action> {
+    let action = |fix: &ProposedFix| Action {
+        title: if fix.message.is_empty() { format!("mend: {}", said.message) } else { fix.message.clone() },
+        kind: ActionKind::Fix,
+        is_preferred: fix.is_certain,
+        mends: Some(said.clone()),
+        changes: fix.changes.clone(),
+    };
+    said.fixes.iter().map(action).collect()
+}
+
+/// All fixes of a file that always apply; of those that overlap the first one.
+fn fix_all(path: &Arc<Path>, all: &[&Said]) -> Option<Action> {
+    let mut changes: Vec<Change> = Vec::new();
+    for fix in all.iter().flat_map(|said| &said.fixes).filter(|fix| fix.is_certain) {
+        let is_free = |new: &Change| changes.iter().all(|old| !overlap(&old.place, &new.place));
+        let is_here = |change: &Change| change.place.path == *path;
+        if fix.changes.iter().all(|change| is_here(change) && is_free(change)) {
+            changes.extend(fix.changes.iter().cloned());
+        }
+    }
+    changes.sort_by_key(|change| change.place.start);
+    let title = "make all fixes that always apply".to_owned();
+    (!changes.is_empty()).then_some(Action {
+        title,
+        kind: ActionKind::FixAll,
+        is_preferred: false,
+        mends: None,
+        changes,
+    })
+}
+
+/// Whether two stretches share text, or a place where something would be put in.
+fn overlap(a: &Stretch, b: &Stretch) -> bool {
+    a.path == b.path && (a.start < b.end && b.start < a.end || a.start == b.start)
+}
+
+/// A number with its unit becomes a param, in front of the declaration that needs it, if the text then checks as before.
+fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Action> {
+    let parsed = snapshot.parsed(path)?;
+    let holds = |start: u32, end: u32| start <= range.start && range.end <= end;
+    let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
+    let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
+    let mut literal = None;
+    for formula in formulas(item) {
+        each(formula, &mut |e| {
+            if matches!(e.kind, ExprKind::Literal { unit: Some(_), .. }) && holds(e.span.start, e.span.end) {
+                literal = Some(e.span);
+            }
+        });
+    }
+    // a param that is only this number has a name already
+    let is_named = |span| matches!(&item.kind, ItemKind::Param { value, .. } if value.bare().span == span);
+    let literal = literal.filter(|literal| !is_named(*literal))?;
+    let name = free_name(mechanism, names_for(item));
+    let text = text_of(snapshot, path)?;
+    let value = text.get(literal.start as usize..literal.end as usize)?;
+    let (at, before, behind) = place_for_param(mechanism, item, &text)?;
+    let stretch = |start: u32, end: u32| Stretch { path: Arc::clone(path), start, end };
+    let changes = vec![
+        Change { place: stretch(at, at), text: format!("{before}param {name} = {value}{behind}") },
+        Change { place: stretch(literal.start, literal.end), text: name.clone() },
+    ];
+    let after = applied(snapshot, &changes)?;
+    let files = [Arc::clone(path)];
+    let is_as_before = first_new(&faults(snapshot, &files), &faults(&after, &files)).is_none();
+    let title = format!("extract `{value}` into a param");
+    is_as_before.then_some(Action { title, kind: ActionKind::Extract, is_preferred: false, mends: None, changes })
+}
+
+/// Names for a number of a declaration.
+fn names_for(item: &Item) -> &'static [&'static str] {
+    match item.kind {
+        ItemKind::Analysis { .. } => &["duration", "time_step"],
+        ItemKind::Equation { .. } | ItemKind::Input { .. } => &["rate", "start", "amount"],
+        _ => &["size", "width", "height", "distance_along"],
+    }
+}
+
+/// Where a param goes: behind the last one before a declaration, else in front of what comes first; with what stands around it.
+fn place_for_param(mechanism: &Mechanism, item: &Item, text: &str) -> Option<(u32, String, String)> {
+    let is_before = |other: &&Item| matches!(other.kind, ItemKind::Param { .. }) && other.span.end <= item.span.start;
+    let (other, is_behind) = match mechanism.items.iter().rfind(is_before) {
+        Some(param) => (param, true),
+        None => (mechanism.items.first()?, false),
+    };
+    let line = text.get(..other.span.start as usize)?.rfind('\n').map_or(0, |end| end + 1);
+    let indent = text.get(line..other.span.start as usize)?;
+    let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
+    if indent.trim().is_empty() && line > 0 {
+        // the lines of documentation above belong to the declaration
+        let docs = text.get(..line)?.lines().rev().take_while(|line| line.trim_start().starts_with("///"));
+        let above: usize = if is_behind { 0 } else { docs.map(|line| line.len() + end.len()).sum() };
+        let behind = text.get(other.span.end as usize..)?;
+        let rest = behind.find('\n').map_or(behind.len(), |at| at + 1);
+        return Some(match is_behind {
+            // a comment behind the param stays there
+            true if behind.get(..rest)?.trim_start().starts_with("//") || behind.get(..rest)?.trim().is_empty() => {
+                let at = other.span.end as usize + rest;
+                if rest > 0 && behind.get(..rest)?.ends_with('\n') {
+                    (at as u32, indent.to_owned(), end.to_owned())
+                } else {
+                    (at as u32, format!("{end}{indent}"), String::new())
+                }
+            }
+            true => (other.span.end, format!("{end}{indent}"), String::new()),
+            false => ((line - above) as u32, indent.to_owned(), end.to_owned()),
+        });
+    }
+    match is_behind {
+        true => Some((other.span.end, " ".to_owned(), String::new())),
+        false => Some((other.span.start, String::new(), " ".to_owned())),
+    }
+}
+
+/// A driver for the joint at a place, where the proof says that it would take what is left free.
+fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Action> {
+    let parsed = snapshot.parsed(&place.path)?;
+    let holds = |start: u32, end: u32| start <= place.offset && place.offset <= end;
+    let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
+    let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
+    let ItemKind::Joint { name, .. } = &item.kind else { return None };
+    let (driven, formula) = free(snapshot, place)?
+        .into_iter()
+        .find(|(driven, _)| driven.split_once('(').is_some_and(|(_, of)| of.trim_end_matches(')') == name.text))?;
+    let text = text_of(snapshot, &place.path)?;
+    let last = mechanism.items.iter().rfind(|item| matches!(item.kind, ItemKind::Joint { .. }))?;
+    let line = text.get(..last.span.start as usize)?.rfind('\n').map_or(0, |end| end + 1);
+    let indent = text.get(line..last.span.start as usize)?;
+    let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
+    let before = if indent.trim().is_empty() { format!("{end}{indent}") } else { " ".to_owned() };
+    let driver = free_name(mechanism, &["motor", "drive", "feed"]);
+    // a comment behind the joint stays on its line
+    let behind = text.get(last.span.end as usize..)?;
+    let rest = behind.find(['\n', '\r']).unwrap_or(behind.len());
+    let at = last.span.end + if behind.get(..rest)?.trim_start().starts_with("//") { rest as u32 } else { 0 };
+    let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
+    let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
+    let title = format!("drive `{}`", name.text);
+    Some(Action { title, kind: ActionKind::Drive, is_preferred: false, mends: None, changes })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Action, actions};
+    use crate::cancel::Cancel;
+    use crate::ide::edits::{applied, text_of};
+    use crate::ide::testing::{FOUR_BAR, at_cursor};
+    use crate::ide::{Snapshot, Stage, diagnostics};
+    use std::path::Path;
+
+    /// All that is offered at a cursor, each with the lines that it writes.
+    fn offered(text: &str) -> String {
+        let (snapshot, place) = at_cursor(text);
+        let range = place.offset..place.offset;
+        let found = actions(&snapshot, &place.path, &range).expect("a file");
+        let before = count(&snapshot, &place.path);
+        let told = |action: &Action| {
+            let after = applied(&snapshot, &action.changes).expect("it can be made");
+            assert!(count(&after, &place.path) <= before, "{} brings faults", action.title);
+            let [old, new] = [&snapshot, &after].map(|one| text_of(one, &place.path).expect("a text"));
+            let mark = if action.is_preferred { "!" } else { "" };
+            let written = new.lines().filter(|line| !old.lines().any(|old| old == *line));
+            format!("{:?}{mark} {}\n{}", action.kind, action.title, written.collect::<Vec<_>>().join("\n"))
+        };
+        found.iter().map(told).collect::<Vec<_>>().join("\n")
+    }
+
+    /// How many faults the first two stages find.
+    fn count(snapshot: &Snapshot, path: &Path) -> usize {
+        let of = |stage| diagnostics(snapshot, path, stage, &Cancel::default()).expect("a file").len();
+        of(Stage::Words) + of(Stage::Proof)
+    }
+
+    fn with(from: &str, to: &str) -> String {
+        assert!(FOUR_BAR.contains(from), "{from}");
+        FOUR_BAR.replacen(from, to, 1)
+    }
+
+    #[test]
+    fn what_is_wrong_is_mended() {
+        insta::assert_snapshot!(offered(&with("crank.B, c", "crnk$0.B, c")), @r"
+        Fix was `crank` meant?
+            joint pin:   revolute(crank.B, coupler.B)
+        ");
+        let twice = with("60 deg + 90", "60° + 90").replacen("revolute(crank.B,", "revolute($0crank.B;", 1);
+        insta::assert_snapshot!(offered(&twice), @r"
+        FixAll make all fixes that always apply
+            joint pin:   revolute(crank.B, coupler.B)
+            driver motor: rotation(main) = 60 deg + 90 deg/s * t
+        ");
+    }
+
+    #[test]
+    fn a_number_becomes_a_param() {
+        insta::assert_snapshot!(offered(&with("(80 mm, 0)", "(8$00 mm, 0)")), @r"
+        Extract extract `80 mm` into a param
+            param size = 80 mm
+                point C = (size, 0)
+        ");
+        insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @r"
+        Extract extract `0.1 s` into a param
+            param duration = 0.1 s
+            analysis from 0 s to 4 s every duration
+        ");
+        insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @r"
+        Extract extract `30 mm` into a param
+            param size = 30 mm
+                point B = (size, 0)
+        ");
+        insta::assert_snapshot!(offered("mechanism m { body b { point P = (1$0 m, 0) } driver d: angle(b) = 1 rad/s * t }"), @r"
+        Extract extract `1 m` into a param
+        mechanism m { param size = 1 m body b { point P = (size, 0) } driver d: angle(b) = 1 rad/s * t }
+        ");
+        insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 3$00 mm // long")), @"");
+        insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 30 mm // long").replacen("80 mm", "80$0 mm", 1)), @r"
+        Extract extract `80 mm` into a param
+            param size = 80 mm
+                point C = (size, 0)
+        ");
+    }
+
+    #[test]
+    fn a_joint_is_driven_from_where_it_is_drawn() {
+        let free = with("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "");
+        insta::assert_snapshot!(offered(&free.replacen("joint main", "joint ma$0in", 1)), @r"
+        Drive drive `main`
+            driver motor: rotation(main) = 60 deg + 60 deg/s * t
+        ");
+        insta::assert_snapshot!(offered(&free.replacen("joint pivot", "joint pi$0vot", 1)), @r"
+        Drive drive `pivot`
+            driver motor: rotation(pivot) = 100 deg + 60 deg/s * t
+        ");
+        // all is driven already
+        assert_eq!(offered(&with("joint main", "joint ma$0in")), "");
+    }
+}

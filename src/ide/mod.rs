@@ -1,0 +1,47 @@
+//! What an editor asks about texts, as pure functions over a snapshot of them.
+//!
+//! No protocol, no input or output, no clock and no thread is known here. A [`Snapshot`] holds the open texts, and gives the stages of
+//! each file, made when first asked for and kept. A place is a byte of a file ([`Place`], [`Stretch`]); whoever speaks a protocol turns
+//! it into lines and columns. What gives nothing was cancelled, or there is nothing to say.
+//!
+//! # How a feature is added
+//!
+//! - A file in `ide/` with one public function, `pub fn hover(snapshot: &Snapshot, place: &Place) -> Option<Hover>`, plain data as its
+//!   answer, and its tests: a text with a cursor (`$0`, see `testing.rs`) and the answer as the user sees it, in one snapshot of `insta`.
+//! - Its module and its public names here.
+//! - In `lsp/answers.rs` a function that reads the request's params, calls the feature and turns the answer into the protocol's words,
+//!   and a line in `TABLE`.
+//! - In `lsp/capabilities.rs` that the server has it.
+
+mod actions;
+mod buffers;
+mod completion;
+mod diagnostics;
+mod edits;
+mod formatting;
+mod hover;
+mod kept;
+mod names;
+mod navigate;
+mod outline;
+mod place;
+mod rename;
+mod snapshot;
+mod structure;
+#[cfg(test)]
+mod testing;
+mod workspace;
+
+pub use actions::{Action, ActionKind, actions};
+pub use buffers::Buffers;
+pub use completion::{Item, ItemKind, Template, completions};
+pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
+pub use formatting::{Formatted, formatting};
+pub use hover::{Hover, hover};
+pub use navigate::{FileLink, Highlight, Link, definition, file_links, highlights, references};
+pub use outline::{Entry, outline};
+pub use place::{Change, Place, Stretch};
+pub use rename::{prepare_rename, rename};
+pub use snapshot::{Analysed, Proven, Snapshot};
+pub use structure::{Fold, FoldKind, around, folds};
+pub use workspace::{Found, files_in, is_mech, workspace_names};

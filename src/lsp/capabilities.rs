@@ -1,0 +1,106 @@
+//! What the client can do, and what the server does.
+
+use crate::source::Encoding;
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// What the client can do, as far as it matters here. What it does not say it cannot.
+#[derive(Clone, Debug)]
+pub(super) struct Client {
+    /// What columns count.
+    pub encoding: Encoding,
+    /// Whether it asks for diagnostics, and can be told to ask again; else it is told them.
+    pub pulls_diagnostics: bool,
+    /// Whether what is completed may have places to fill in.
+    pub has_snippets: bool,
+    /// Whether it shows from where a name leads to its declaration.
+    pub has_links: bool,
+    /// Whether it folds whole lines alone.
+    pub folds_lines: bool,
+    /// Whether it can be asked to tell which files have changed.
+    pub watches_files: bool,
+}
+
+impl Client {
+    /// By the params of `initialize`.
+    pub fn of(params: &Value) -> Client {
+        let is =
+            |path: &str| params.pointer(path).is_some_and(|value| value != &Value::Bool(false) && !value.is_null());
+        let encodings = params.pointer("/capabilities/general/positionEncodings").and_then(Value::as_array);
+        let offers = |name: &str| encodings.is_some_and(|list| list.iter().any(|offered| offered == name));
+        Client {
+            encoding: if offers("utf-8") { Encoding::Utf8 } else { Encoding::Utf16 },
+            pulls_diagnostics: is("/capabilities/textDocument/diagnostic")
+                && is("/capabilities/workspace/diagnostics/refreshSupport"),
+            has_snippets: is("/capabilities/textDocument/completion/completionItem/snippetSupport"),
+            has_links: is("/capabilities/textDocument/definition/linkSupport"),
+            folds_lines: is("/capabilities/textDocument/foldingRange/lineFoldingOnly"),
+            watches_files: is("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"),
+        }
+    }
+}
+
+/// The folders that the client has open, by the params of `initialize`.
+pub(super) fn folders(params: &Value) -> Vec<PathBuf> {
+    let listed = params.get("workspaceFolders").and_then(Value::as_array).filter(|list| !list.is_empty());
+    let uris: Vec<&str> = match listed {
+        Some(list) => list.iter().filter_map(|folder| folder.get("uri")?.as_str()).collect(),
+        None => params.get("rootUri").and_then(Value::as_str).into_iter().collect(),
+    };
+    uris.into_iter().map(super::uri::path_of).collect()
+}
+
+/// The answer to `initialize`.
+pub(super) fn of_server(client: &Client) -> Value {
+    let encoding = match client.encoding {
+        Encoding::Utf8 => "utf-8",
+        Encoding::Utf16 => "utf-16",
+        Encoding::Characters => "utf-32",
+    };
+    let mut capabilities = json!({
+        "positionEncoding": encoding,
+        // incremental
+        "textDocumentSync": { "openClose": true, "change": 2 },
+        "codeActionProvider": {
+            "codeActionKinds": ["quickfix", "refactor.extract", "refactor.rewrite", "source.fixAll"],
+        },
+        // not a space: a list at every one would be in the way
+        "completionProvider": { "triggerCharacters": [".", "(", ",", "\"", "/"] },
+        "definitionProvider": true,
+        "documentFormattingProvider": true,
+        "documentHighlightProvider": true,
+        "documentLinkProvider": {},
+        "documentOnTypeFormattingProvider": { "firstTriggerCharacter": "}" },
+        "documentRangeFormattingProvider": true,
+        "documentSymbolProvider": true,
+        "foldingRangeProvider": true,
+        "hoverProvider": true,
+        "referencesProvider": true,
+        "renameProvider": { "prepareProvider": true },
+        "selectionRangeProvider": true,
+        "workspace": { "workspaceFolders": { "supported": true, "changeNotifications": true } },
+        "workspaceSymbolProvider": true,
+    });
+    if client.pulls_diagnostics {
+        capabilities["diagnosticProvider"] =
+            json!({ "identifier": "mechc", "interFileDependencies": true, "workspaceDiagnostics": false });
+    }
+    json!({ "capabilities": capabilities, "serverInfo": { "name": "mechc", "version": env!("CARGO_PKG_VERSION") } })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Client;
+    use crate::source::Encoding;
+    use serde_json::json;
+
+    #[test]
+    fn utf_8_is_taken_where_it_is_offered() {
+        let of = |encodings: serde_json::Value| {
+            Client::of(&json!({ "capabilities": { "general": { "positionEncodings": encodings } } })).encoding
+        };
+        assert_eq!(of(json!(["utf-16", "utf-8"])), Encoding::Utf8);
+        assert_eq!(of(json!(["utf-32"])), Encoding::Utf16);
+        assert_eq!(Client::of(&json!(null)).encoding, Encoding::Utf16);
+    }
+}
