@@ -15,17 +15,29 @@
 
 mod buffers;
 mod diagnostics;
+mod facts;
+mod hints;
 mod hover;
 mod kept;
+mod lenses;
+mod numbers;
 mod outline;
 mod place;
+mod signature;
 mod snapshot;
 #[cfg(test)]
 mod testing;
+mod tokens;
+mod words;
+mod written;
 
 pub use buffers::Buffers;
 pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
+pub use hints::{Hint, hints};
 pub use hover::{Hover, hover};
+pub use lenses::{Lens, LensKind, lenses};
 pub use outline::{Entry, outline};
 pub use place::{Change, Place, Stretch};
-pub use snapshot::{Analysed, Proven, Snapshot};
+pub use signature::{Signature, Signatures, signatures};
+pub use snapshot::{Analysed, Moved, Proven, Snapshot};
+pub use tokens::{Token, TokenKind, tokens};

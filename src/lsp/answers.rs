@@ -1,5 +1,12 @@
 //! Requests, and what answers them: params to a feature of `ide`, and its answer to the protocol's words.
 
+mod hints;
+mod lenses;
+mod signature;
+mod tokens;
+
+pub(super) use tokens::{MODIFIERS, types};
+
 use super::convert::{Texts, markdown, symbol_kind};
 use crate::ide;
 use gen_lsp_types::{self as lsp, Request};
@@ -29,10 +36,25 @@ pub(super) struct Method {
 
 /// Every request that is answered from a snapshot alone, by name.
 pub(super) const TABLE: &[Method] = &[
+    method::<lsp::CodeLensRequest>(true, |texts, params| {
+        answered::<lsp::CodeLensRequest>(texts, params, lenses::lenses)
+    }),
     method::<lsp::DocumentSymbolRequest>(true, |texts, params| {
         answered::<lsp::DocumentSymbolRequest>(texts, params, symbols)
     }),
     method::<lsp::HoverRequest>(false, |texts, params| answered::<lsp::HoverRequest>(texts, params, hover)),
+    method::<lsp::InlayHintRequest>(false, |texts, params| {
+        answered::<lsp::InlayHintRequest>(texts, params, hints::hints)
+    }),
+    method::<lsp::SemanticTokensRangeRequest>(false, |texts, params| {
+        answered::<lsp::SemanticTokensRangeRequest>(texts, params, tokens::in_range)
+    }),
+    method::<lsp::SemanticTokensRequest>(true, |texts, params| {
+        answered::<lsp::SemanticTokensRequest>(texts, params, tokens::all)
+    }),
+    method::<lsp::SignatureHelpRequest>(false, |texts, params| {
+        answered::<lsp::SignatureHelpRequest>(texts, params, signature::signatures)
+    }),
 ];
 
 const fn method<R: Request>(is_retried: bool, answer: fn(&Texts, Value) -> Result<Value, Failure>) -> Method {

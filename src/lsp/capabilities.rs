@@ -1,5 +1,6 @@
 //! What the client can do, and what the server does.
 
+use super::answers::{MODIFIERS, types};
 use crate::source::Encoding;
 use serde_json::{Value, json};
 
@@ -10,6 +11,18 @@ pub(super) struct Client {
     pub encoding: Encoding,
     /// Whether it asks for diagnostics, and can be told to ask again; else it is told them.
     pub pulls_diagnostics: bool,
+    /// Whether it has the commands `mechc.run` and `mechc.check`, each called with a URI and the name of a mechanism.
+    pub can_run: bool,
+    /// What it can be told to ask for again.
+    pub refreshes: Refreshes,
+}
+
+/// What a client can be told to ask for again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refreshes {
+    pub hints: bool,
+    pub lenses: bool,
+    pub tokens: bool,
 }
 
 impl Client {
@@ -19,10 +32,21 @@ impl Client {
             |path: &str| params.pointer(path).is_some_and(|value| value != &Value::Bool(false) && !value.is_null());
         let encodings = params.pointer("/capabilities/general/positionEncodings").and_then(Value::as_array);
         let offers = |name: &str| encodings.is_some_and(|list| list.iter().any(|offered| offered == name));
+        // its own commands a client tells as it likes: as an option, or as rust-analyzer's do
+        let lists = ["/initializationOptions/commands", "/capabilities/experimental/commands/commands"];
+        let commands: Vec<&Value> =
+            lists.iter().filter_map(|list| params.pointer(list)?.as_array()).flatten().collect();
+        let has_command = |name: &str| commands.iter().any(|command| *command == name);
         Client {
             encoding: if offers("utf-8") { Encoding::Utf8 } else { Encoding::Utf16 },
             pulls_diagnostics: is("/capabilities/textDocument/diagnostic")
                 && is("/capabilities/workspace/diagnostics/refreshSupport"),
+            can_run: has_command("mechc.run") && has_command("mechc.check"),
+            refreshes: Refreshes {
+                hints: is("/capabilities/workspace/inlayHint/refreshSupport"),
+                lenses: is("/capabilities/workspace/codeLens/refreshSupport"),
+                tokens: is("/capabilities/workspace/semanticTokens/refreshSupport"),
+            },
         }
     }
 }
@@ -38,8 +62,16 @@ pub(super) fn of_server(client: &Client) -> Value {
         "positionEncoding": encoding,
         // incremental
         "textDocumentSync": { "openClose": true, "change": 2 },
-        "hoverProvider": true,
+        "codeLensProvider": {},
         "documentSymbolProvider": true,
+        "hoverProvider": true,
+        "inlayHintProvider": true,
+        "semanticTokensProvider": {
+            "legend": { "tokenTypes": types(), "tokenModifiers": MODIFIERS },
+            "full": true,
+            "range": true,
+        },
+        "signatureHelpProvider": { "triggerCharacters": ["(", ","], "retriggerCharacters": [")"] },
     });
     if client.pulls_diagnostics {
         capabilities["diagnosticProvider"] =

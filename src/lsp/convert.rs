@@ -16,6 +16,8 @@ pub(super) struct Texts {
     pub snapshot: Snapshot,
     pub documents: Documents,
     pub encoding: Encoding,
+    /// Whether the client runs and checks mechanisms.
+    pub can_run: bool,
 }
 
 impl Texts {
@@ -35,6 +37,13 @@ impl Texts {
     /// A stretch of a file, for the client.
     pub fn range(&self, path: &Path, range: &Range<u32>) -> Option<lsp::Range> {
         Some(range_in(&*self.text(path)?, range, self.encoding))
+    }
+
+    /// A stretch of a file that the client gives.
+    pub fn stretch(&self, path: &Path, given: &lsp::Range) -> Option<Range<u32>> {
+        let document = self.text(path)?;
+        let [start, end] = [given.start, given.end].map(|at| document.offset((at.line, at.character), self.encoding));
+        Some(start..end.max(start))
     }
 
     /// A stretch with its file, for the client.
