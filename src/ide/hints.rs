@@ -122,7 +122,18 @@ mod tests {
 
     #[test]
     fn declarations_show_what_they_bring() {
-        insta::assert_snapshot!(shown(FOUR_BAR), @"");
+        insta::assert_snapshot!(shown(FOUR_BAR), @r"
+        mechanism four_bar⟨NDOF = 0⟩ {
+        param crank_length = 30 mm⟨= 0.03 m⟩
+        body crank⟨+3⟩ at (0, 0, 60 deg) {
+        body coupler⟨+3⟩ at (15 mm, 26 mm, 30 deg) {
+        body rocker⟨+3⟩ at (100 mm, 0, 100 deg) {
+        joint main:  revolute(ground.A, crank.A)⟨−2⟩
+        joint pin:   revolute(crank.B, coupler.B)⟨−2⟩
+        joint knee:  revolute(coupler.C, rocker.C)⟨−2⟩
+        joint pivot: revolute(ground.D, rocker.D)⟨−2⟩
+        driver motor: rotation(main) = 60 deg + 90 deg/s * t⟨−1⟩
+        ");
     }
 
     #[test]
@@ -167,7 +178,21 @@ mechanism m {
     body leg at (0, 0, 30 deg) { point O = (0, 0) }
     body toe at (P, f + 1) { point O = (0, 0) }
 }
-"), @"");
+"), @r"
+        mechanism m⟨NDOF = 9⟩ {
+        param a = 5 mm⟨= 0.005 m⟩
+        param d = 3 * a + 1 mm⟨= 0.016 m = 16 mm⟩
+        param e = a / 2⟨= 0.0025 m⟩
+        param f = -90 deg⟨= -1.5708 rad⟩
+        param g = 0.5 rad⟨= 28.6479°⟩
+        param h = f / 3⟨= -0.523599 rad = -30°⟩
+        param i = 60 rpm⟨= 6.28319 rad/s⟩
+        param P = (a, 5 mm)⟨= (0.005, 0.005) m⟩
+        param s = d / a⟨= 3.2⟩
+        body arm⟨+3⟩ at (0, 0, pi / 3⟨= 1.0472 rad = 60°⟩) { point O = (0, 0) }
+        body leg⟨+3⟩ at (0, 0, 30 deg) { point O = (0, 0) }
+        body toe⟨+3⟩ at (P, f + 1⟨= -0.570796 rad = -32.7042°⟩) { point O = (0, 0) }
+        ");
     }
 
     #[test]
@@ -193,7 +218,23 @@ mechanism walker {
     joint slide: point_follower(wheel.P, base.rim)
     ground { point O = (0, 0) }
 }
-"), @"");
+"), @r"
+        mechanism leg⟨NDOF = 0⟩ {
+        body rod⟨+3 × 3⟩[k in 0..n⟨k = 0 … 2⟩] at (k * 100 mm, 0, 0) { point O = (0, 0) point P = (100 mm, 0) }
+        joint first: revolute(ground.O, rod[0].O)⟨−2⟩
+        joint pin[k in 1..n⟨k = 1 … 2⟩]: revolute(rod[k - 1].P, rod[k].O)⟨−2 × 2⟩
+        driver turn[k in 0..n⟨k = 0 … 2⟩]: angle(rod[k]) = 10 deg * t⟨−1 × 3⟩
+        mechanism walker⟨NDOF = 0⟩ {
+        body base⟨+3⟩ at (0, 0, 0) { circle rim = (0, 0) radius 10 mm  axis way = (0, 0) along (1, 0)  point O = (0, 0) }
+        body wheel⟨+3⟩ at (0, 30 mm, 0) { circle rim = (0, 0) radius 20 mm  point P = (0, 0) }
+        part legs[k in 0..4⟨k = 0 … 3⟩]: leg()⟨±0 × 4⟩
+        part long: leg(n = 8) on base at (0, 0, pi⟨= 3.14159 rad = 180°⟩)⟨±0⟩
+        part odd[k in 1..3⟨k = 1 … 2⟩]: leg(n = k)⟨±0 × 2⟩
+        joint fixed: weld(ground.O, base.O)⟨−3⟩
+        joint mesh: gear(base.rim, wheel.rim)⟨−1⟩
+        joint touch: cam(base.rim, wheel.rim)⟨−1⟩
+        joint slide: point_follower(wheel.P, base.rim)⟨−1⟩
+        ");
     }
 
     #[test]

@@ -173,36 +173,233 @@ mod tests {
 
     #[test]
     fn a_point_shows_its_place_and_a_body_its_pose() {
-        insta::assert_snapshot!(of("crank.B", "crank.$0B"), @"");
-        insta::assert_snapshot!(of("body coupler", "/// What the others follow.\n    body cou$0pler"), @"");
+        insta::assert_snapshot!(of("crank.B", "crank.$0B"), @r"
+        main.mech:22
+            joint pin:   revolute(crank.B, coupler.B)
+                                        ^
+
+        ```mech
+        point B = (crank_length, 0)
+        ```
+
+        of `crank`
+
+        At t = 0 s: x = 0.015 m, y = 0.0259808 m in the ground's frame
+        ");
+        insta::assert_snapshot!(of("body coupler", "/// What the others follow.\n    body cou$0pler"), @r"
+        main.mech:13
+            body coupler at (15 mm, 26 mm, 30 deg) {
+                 ^^^^^^^
+
+        What the others follow.
+
+        ```mech
+        body coupler at (15 mm, 26 mm, 30 deg)
+        ```
+
+        At t = 0 s: x = 0.015 m, y = 0.0259808 m, phi = 0.422457 rad = 24.205°
+        ");
     }
 
     #[test]
     fn a_joint_shows_its_equations() {
-        insta::assert_snapshot!(of("joint pin", "joint p$0in"), @"");
+        insta::assert_snapshot!(of("joint pin", "joint p$0in"), @r"
+        main.mech:22
+            joint pin:   revolute(crank.B, coupler.B)
+                  ^^^
+
+        ```mech
+        joint pin:   revolute(crank.B, coupler.B)
+        ```
+
+        ```text
+        Φ1 = crank.x + cos(crank.phi) * crank_length - coupler.x
+        Φ2 = crank.y + sin(crank.phi) * crank_length - coupler.y
+        ν1 = 0
+        ν2 = 0
+        γ1 = cos(crank.phi) * crank.phi.d * crank.phi.d * crank_length
+        γ2 = sin(crank.phi) * crank.phi.d * crank.phi.d * crank_length
+        ```
+
+        At t = 0 s: `crank.B` = (0.015, 0.0259808) m, `coupler.B` = (0.015, 0.0259808) m
+        ");
         // not determined, and so without a place
         let free = FOUR_BAR.replacen("    driver motor: rotation(main) = 60 deg + 90 deg/s * t\n", "", 1);
-        insta::assert_snapshot!(told(&free.replacen("joint knee", "joint kn$0ee", 1)), @"");
-        insta::assert_snapshot!(of("driver motor", "driver mo$0tor"), @"");
+        insta::assert_snapshot!(told(&free.replacen("joint knee", "joint kn$0ee", 1)), @r"
+        main.mech:23
+            joint knee:  revolute(coupler.C, rocker.C)
+                  ^^^^
+
+        ```mech
+        joint knee:  revolute(coupler.C, rocker.C)
+        ```
+
+        ```text
+        Φ1 = coupler.x + 0.08 * cos(coupler.phi) - (0.06 * cos(rocker.phi) + rocker.x)
+        Φ2 = coupler.y + 0.08 * sin(coupler.phi) - (0.06 * sin(rocker.phi) + rocker.y)
+        ν1 = 0
+        ν2 = 0
+        γ1 = -(-0.08 * cos(coupler.phi) * coupler.phi.d * coupler.phi.d + 0.06 * cos(rocker.phi) * rocker.phi.d * rocker.phi.d)
+        γ2 = -(-0.08 * sin(coupler.phi) * coupler.phi.d * coupler.phi.d + 0.06 * sin(rocker.phi) * rocker.phi.d * rocker.phi.d)
+        ```
+        ");
+        insta::assert_snapshot!(of("driver motor", "driver mo$0tor"), @r"
+        main.mech:25
+            driver motor: rotation(main) = 60 deg + 90 deg/s * t
+                   ^^^^^
+
+        ```mech
+        driver motor: rotation(main) = 60 deg + 90 deg/s * t
+        ```
+
+        ```text
+        Φ = crank.phi - (1.5707963267948966 * t + 1.0471975511965976)
+        ν = 1.5707963267948966
+        γ = 0
+        ```
+        ");
     }
 
     #[test]
     fn values_are_those_of_the_start() {
         let with = |more: &str| told(&FOUR_BAR.replacen("    analysis", &format!("    {more}\n    analysis"), 1));
-        insta::assert_snapshot!(of("param crank", "param cra$0nk"), @"");
-        insta::assert_snapshot!(with("measure speed$0y = der(angle(rocker)) in deg/s"), @"");
-        insta::assert_snapshot!(with("trace pa$0th = coupler.C in mm"), @"");
-        insta::assert_snapshot!(with("input tu$0rn = 30 deg + 1 rad/s * t"), @"");
-        insta::assert_snapshot!(with("fn swi$0ng(u) = crank_length * sin(u)^2"), @"");
-        insta::assert_snapshot!(with("result most$0 = max(x(coupler.C)) in mm"), @"");
+        insta::assert_snapshot!(of("param crank", "param cra$0nk"), @r"
+        main.mech:2
+            param crank_length = 30 mm
+                  ^^^^^^^^^^^^
+
+        ```mech
+        param crank_length = 30 mm
+        ```
+
+        = 0.03 m = 30 mm, a length
+        ");
+        insta::assert_snapshot!(with("measure speed$0y = der(angle(rocker)) in deg/s"), @r"
+        main.mech:27
+            measure speedy = der(angle(rocker)) in deg/s
+                    ^^^^^^
+
+        ```mech
+        measure speedy = der(angle(rocker)) in deg/s
+        ```
+
+        At t = 0 s: 26.9732 deg/s, a rate (1/s)
+        ");
+        insta::assert_snapshot!(with("trace pa$0th = coupler.C in mm"), @r"
+        main.mech:27
+            trace path = coupler.C in mm
+                  ^^^^
+
+        ```mech
+        trace path = coupler.C in mm
+        ```
+
+        At t = 0 s: x = 87.9668 mm, a length
+
+        At t = 0 s: y = 58.781 mm, a length
+        ");
+        insta::assert_snapshot!(with("input tu$0rn = 30 deg + 1 rad/s * t"), @r"
+        main.mech:27
+            input turn = 30 deg + 1 rad/s * t
+                  ^^^^
+
+        ```mech
+        input turn = 30 deg + 1 rad/s * t
+        ```
+
+        At t = 0 s: 0.523599, a pure number
+        ");
+        insta::assert_snapshot!(with("fn swi$0ng(u) = crank_length * sin(u)^2"), @r"
+        main.mech:27
+            fn swing(u) = crank_length * sin(u)^2
+               ^^^^^
+
+        ```mech
+        fn swing(u) = crank_length * sin(u)^2
+        ```
+
+        With its derivatives:
+
+        ```text
+        swing' = 2 * crank_length * sin(u) * cos(u)
+        swing'' = 2 * crank_length * (cos(u)^2 - sin(u)^2)
+        ```
+        ");
+        insta::assert_snapshot!(with("result most$0 = max(x(coupler.C)) in mm"), @r"
+        main.mech:27
+            result most = max(x(coupler.C)) in mm
+                   ^^^^
+
+        ```mech
+        result most = max(x(coupler.C)) in mm
+        ```
+        ");
     }
 
     #[test]
     fn words_show_what_they_mean() {
-        insta::assert_snapshot!(of("revolute", "revo$0lute"), @"");
-        insta::assert_snapshot!(of("30 mm", "30 m$0m"), @"");
-        insta::assert_snapshot!(of("60 deg + 90", "si$0n(60 deg) + 90"), @"");
-        insta::assert_snapshot!(of("driver motor", "dri$0ver motor"), @"");
+        insta::assert_snapshot!(of("revolute", "revo$0lute"), @r"
+        main.mech:21
+            joint main:  revolute(ground.A, crank.A)
+                         ^^^^^^^^
+
+        ```mech
+        revolute(P, Q)
+        ```
+
+        two points coincide, and the bodies turn about them
+
+        2 equations
+
+        `Φ = r_i^P − r_j^Q`
+        ");
+        insta::assert_snapshot!(of("30 mm", "30 m$0m"), @r"
+        main.mech:2
+            param crank_length = 30 mm
+                                    ^^
+
+        ```mech
+        50 mm
+        ```
+
+        the millimetre
+
+        `1 mm = 0.001 m`
+        ");
+        insta::assert_snapshot!(of("60 deg + 90", "si$0n(60 deg) + 90"), @r"
+        main.mech:25
+            driver motor: rotation(main) = sin(60 deg) + 90 deg/s * t
+                                           ^^^
+
+        ```mech
+        sin(a)
+        ```
+
+        the sine of an angle
+
+        The angle is in radians, or has a unit of its own: `30 deg`. Takes and gives a pure number.
+
+        With its derivatives:
+
+        ```mech
+        C   = sin(t)
+        C'  = cos(t)
+        C'' = -sin(t)
+        ```
+        ");
+        insta::assert_snapshot!(of("driver motor", "dri$0ver motor"), @r"
+        main.mech:25
+            driver motor: rotation(main) = 60 deg + 90 deg/s * t
+            ^^^^^^
+
+        ```mech
+        driver NAME: FORMULA = FORMULA
+        ```
+
+        an equation that holds time: what a motor or actuator prescribes
+
+        Between kinematic quantities on one side, mostly, and a formula of `t` on the other. Each takes one degree of freedom.
+        ");
         assert!(of("    driver", "    // E05$002 here\n    driver").contains("# "), "the page of a code");
         assert_eq!(of("    driver", "    // the cra$0nk\n    driver"), "nothing");
         assert_eq!(of("four_bar {", "four_bar {$0"), "nothing");
@@ -228,15 +425,67 @@ mechanism two {
 }
 ";
         let at = |from: &str, to: &str| told(&text.replacen(from, to, 1));
-        insta::assert_snapshot!(at("front.arm.tip", "front.arm.ti$0p"), @"");
-        insta::assert_snapshot!(at("back[1].arm.tip", "back[1].ar$0m.tip"), @"");
-        insta::assert_snapshot!(at("front: lever", "front: le$0ver"), @"");
-        insta::assert_snapshot!(at("part front", "part fro$0nt"), @"");
+        insta::assert_snapshot!(at("front.arm.tip", "front.arm.ti$0p"), @r"
+        main.mech:13
+            measure a = x(front.arm.tip)
+                                    ^^^
+
+        ```mech
+        point tip = (reach, 0)
+        ```
+
+        of `front.arm`
+
+        At t = 0 s: x = 0.069282 m, y = 0.04 m in the ground's frame
+        ");
+        insta::assert_snapshot!(at("back[1].arm.tip", "back[1].ar$0m.tip"), @r"
+        main.mech:14
+            measure b = x(back[1].arm.tip)
+                                  ^^^
+
+        ```mech
+        body arm
+        ```
+
+        of `back`
+
+        At t = 0 s: x = 0.2 m, y = 0 m, phi = 0.523599 rad = 30°
+        ");
+        insta::assert_snapshot!(at("front: lever", "front: le$0ver"), @r"
+        main.mech:11
+            part front: lever()
+                        ^^^^^
+
+        Swings.
+
+        ```mech
+        mechanism lever
+            reach = 80 mm,
+            turn = 30 deg
+        ```
+        ");
+        insta::assert_snapshot!(at("part front", "part fro$0nt"), @r"
+        main.mech:11
+            part front: lever()
+                 ^^^^^
+
+        ```mech
+        part front: lever()
+        ```
+        ");
     }
 
     #[test]
     fn a_broken_text_is_told_of_as_far_as_it_goes() {
-        insta::assert_snapshot!(of("joint pin:   revolute(crank.B, coupler.B)", "joint pin:   revolute(cra$0nk."), @"");
+        insta::assert_snapshot!(of("joint pin:   revolute(crank.B, coupler.B)", "joint pin:   revolute(cra$0nk."), @r"
+        main.mech:22
+            joint pin:   revolute(crank.
+                                  ^^^^^
+
+        ```mech
+        body crank at (0, 0, 60 deg)
+        ```
+        ");
         assert!(of("joint pin:   revolute(", "joint pin   revol$0ute(").contains("revolute(P, Q)"));
     }
 }

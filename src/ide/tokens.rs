@@ -144,7 +144,52 @@ mechanism m {
     measure y = max(y(to.at), 3 mm) in mm
     analysis from 0 s to 1 s every 1 s
 }
-"), @"");
+"), @r"
+        mechanism Keyword
+        m Mechanism declared
+        param Keyword
+        A Value declared constant
+        mm Unit constant of the language
+        fn Keyword
+        f Function declared
+        in Argument declared
+        in Argument
+        pi Value constant of the language
+        ground Keyword declared
+        point Keyword
+        A Feature declared
+        body Keyword
+        to Body declared
+        at Keyword
+        point Keyword
+        at Feature declared
+        mm Unit constant of the language
+        joint Keyword
+        j Equation declared
+        k Argument declared
+        in Keyword
+        revolute JointKind of the language
+        ground Body
+        A Feature
+        to Body
+        at Feature
+        measure Keyword
+        y Value declared
+        max Function of the language
+        y Function of the language
+        to Body
+        at Feature
+        mm Unit constant of the language
+        in Keyword
+        mm Unit constant of the language
+        analysis Keyword
+        from Keyword
+        s Unit constant of the language
+        to Keyword
+        s Unit constant of the language
+        every Keyword
+        s Unit constant of the language
+        ");
     }
 
     #[test]
@@ -154,6 +199,19 @@ mechanism m {
     param a = 5 mm
     joint j revolute(ground.A, to.at
     measure b = a
-"), @"");
+"), @r"
+        mechanism Keyword
+        m Mechanism declared
+        param Keyword
+        a Value declared constant
+        mm Unit constant of the language
+        joint Keyword
+        ground Keyword
+        to Keyword
+        at Keyword
+        measure Keyword
+        b Value declared
+        a Value constant
+        ");
     }
 }
