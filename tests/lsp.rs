@@ -97,6 +97,10 @@ fn a_name_is_hovered_and_the_declarations_are_listed() {
     ```
 
     two points coincide, and the bodies turn about them
+
+    2 equations
+
+    `Φ = r_i^P − r_j^Q`
     ");
     let symbols = client.request("textDocument/documentSymbol", json!({ "textDocument": { "uri": URI } }));
     let names = |list: &Value| {
@@ -159,7 +163,11 @@ fn lenses_are_asked_for_again_when_results_are_there() {
     let lenses = client.request("textDocument/codeLens", json!({ "textDocument": { "uri": URI } }));
     let shown = |lens: &Value| format!("{} {}", lens["range"]["start"]["line"], lens["command"]);
     let shown: Vec<String> = lenses.as_array().unwrap().iter().map(shown).collect();
-    insta::assert_snapshot!(shown.join("\n"), @"");
+    insta::assert_snapshot!(shown.join("\n"), @r#"
+    0 {"title":"run","command":"mechc.run","arguments":["file:///work/slider_crank.mech","swing"]}
+    0 {"title":"check","command":"mechc.check","arguments":["file:///work/slider_crank.mech","swing"]}
+    5 {"title":"25 mm","command":""}
+    "#);
     client.end();
     // who has no such commands is not offered them
     let mut client = pushed_to();
@@ -177,14 +185,14 @@ fn hints_tokens_and_signatures_are_in_the_words_of_the_protocol() {
     let line = json!({ "start": { "line": 2, "character": 0 }, "end": { "line": 3, "character": 0 } });
     let params = json!({ "textDocument": document, "range": line });
     let hints = client.request("textDocument/inlayHint", params.clone());
-    insta::assert_snapshot!(hints, @"");
+    insta::assert_snapshot!(hints, @r#"[{"position":{"line":2,"character":13},"label":"+3","tooltip":"3 coordinates","paddingLeft":true}]"#);
     let tokens = client.request("textDocument/semanticTokens/range", params);
-    insta::assert_snapshot!(tokens, @"");
+    insta::assert_snapshot!(tokens, @r#"{"data":[2,4,4,10,0,0,5,4,2,1,0,7,5,10,0,0,6,1,3,1,0,11,5,10,0,0,6,3,3,1,0,10,2,9,6]}"#);
     let all = client.request("textDocument/semanticTokens/full", json!({ "textDocument": document }));
     assert!(all["data"].as_array().unwrap().len() > 100);
     let position = position(&text, "𝛼rm.O)");
     let help = client.request("textDocument/signatureHelp", json!({ "textDocument": document, "position": position }));
-    insta::assert_snapshot!(format!("{} {}", help["signatures"][0]["label"], help["activeParameter"]), @"");
+    insta::assert_snapshot!(format!("{} {}", help["signatures"][0]["label"], help["activeParameter"]), @r#""revolute(P, Q)" 1"#);
     client.end();
 }
 
