@@ -226,7 +226,7 @@ fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String
     for beside in std::fs::read_dir(path.parent().unwrap()).unwrap() {
         let beside = beside.unwrap().path();
         if let Ok(text) = std::fs::read_to_string(&beside) {
-            files = files.with(&beside.display().to_string(), &text);
+            files = files.with(beside.display().to_string(), &text);
         }
     }
     let systems = Parsed::of(&path.display().to_string(), text).check_each(&files);

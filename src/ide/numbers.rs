@@ -32,7 +32,7 @@ pub(super) fn si_unit(dimension: Dimension, is_angle: bool) -> String {
 /// A value in SI, in another unit; nothing where that is SI as well.
 pub(super) fn in_unit(si: f64, unit: &CompoundUnit) -> Option<String> {
     let scale = unit.scale();
-    let is_si = scale.iter().all(|part| *part == 1.0);
+    let is_si = scale.iter().all(|part| part.to_bits() == 1.0_f64.to_bits());
     (!is_si).then(|| with_unit(si / scale[0] * scale[1] / scale[2], &unit.per_second(0)))
 }
 

@@ -79,7 +79,7 @@ fn of_mechanism(checked: &Checked) -> Vec<Token> {
         let range = used.span.start..used.span.end;
         // the ground is declared by its keyword
         let kind =
-            if used.declares && &*checked.sources().text(used.span) == "ground" { TokenKind::Keyword } else { kind };
+            if used.declares && checked.sources().text(used.span) == "ground" { TokenKind::Keyword } else { kind };
         Some(Token { range, kind, declares: used.declares, is_constant, is_of_language })
     };
     symbols.uses().filter(|used| used.span.file == own && used.span.start < used.span.end).filter_map(token).collect()

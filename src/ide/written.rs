@@ -105,8 +105,8 @@ pub(super) fn call_at(text: &str, offset: usize) -> Option<OpenCall> {
         at = next;
     }
     // a comment or string that goes on to the cursor is no argument
-    let all = open.into_iter().zip(inside_from).rev();
-    all.filter_map(|(call, from)| Some(OpenCall { inside: text[from..].to_owned(), ..call? })).next()
+    let mut all = open.into_iter().zip(inside_from).rev();
+    all.find_map(|(call, from)| Some(OpenCall { inside: text[from..].to_owned(), ..call? }))
 }
 
 /// Where the declaration around a byte begins: at a line whose first word begins one, or at the beginning of the text.

@@ -56,12 +56,13 @@ impl Checked {
         loop {
             let item = item_named(tree, names.next()?)?;
             match (&item.kind, names.as_slice()) {
-                (_, []) => return Some(declaration(item)),
+                (_, []) | (ItemKind::Param { .. } | ItemKind::Trace { .. }, ["x" | "y"]) => {
+                    return Some(declaration(item));
+                }
                 (ItemKind::Part(part), _) => tree = self.mechanism(&part.mechanism)?,
                 (ItemKind::Body { features, .. } | ItemKind::Ground { features }, [feature]) => {
                     return features.iter().find(|known| known.name.text == **feature).map(of_feature);
                 }
-                (ItemKind::Param { .. } | ItemKind::Trace { .. }, ["x" | "y"]) => return Some(declaration(item)),
                 _ => return None,
             }
         }
