@@ -99,6 +99,10 @@ fn a_name_is_hovered_and_the_declarations_are_listed() {
     ```
 
     two points coincide, and the bodies turn about them
+
+    2 equations
+
+    `Φ = r_i^P − r_j^Q`
     ");
     let symbols = client.request("textDocument/documentSymbol", json!({ "textDocument": { "uri": URI } }));
     let names = |list: &Value| {
@@ -136,4 +140,112 @@ fn sessions_go_as_the_protocol_says() {
 #[test]
 fn who_vanishes_ends_it() {
     assert!(!pushed_to().vanish());
+}
+
+/// A mechanism whose results are known behind its motion.
+const SWING: &str = "mechanism swing {
+    ground { point O = (0, 0) }
+    body arm { point O = (0, 0) point tip = (50 mm, 0) }
+    joint pivot: revolute(ground.O, arm.O)
+    driver motor: rotation(pivot) = 30 deg * sin(t)
+    result top = max(y(arm.tip)) in mm
+    analysis from 0 s to 2 s every 0.1 s
+}
+";
+
+#[test]
+fn lenses_are_asked_for_again_when_results_are_there() {
+    let able = json!({
+        "workspace": { "codeLens": { "refreshSupport": true } },
+        "experimental": { "commands": { "commands": ["mechc.run", "mechc.check"] } },
+    });
+    let mut client = Client::new(&able, Memory::default());
+    client.open(URI, SWING);
+    client.asked("workspace/codeLens/refresh");
+    let lenses = client.request("textDocument/codeLens", json!({ "textDocument": { "uri": URI } }));
+    let shown = |lens: &Value| format!("{} {}", lens["range"]["start"]["line"], lens["command"]);
+    let shown: Vec<String> = lenses.as_array().unwrap().iter().map(shown).collect();
+    insta::assert_snapshot!(shown.join("\n"), @r#"
+    0 {"title":"run","command":"mechc.run","arguments":["file:///work/slider_crank.mech","swing"]}
+    0 {"title":"check","command":"mechc.check","arguments":["file:///work/slider_crank.mech","swing"]}
+    5 {"title":"25 mm","command":""}
+    "#);
+    client.end();
+    // who has no such commands is not offered them
+    let mut client = pushed_to();
+    client.open(URI, SWING);
+    assert_eq!(client.request("textDocument/codeLens", json!({ "textDocument": { "uri": URI } })), json!([]));
+    client.end();
+}
+
+#[test]
+fn hints_tokens_and_signatures_are_in_the_words_of_the_protocol() {
+    let mut client = pushed_to();
+    let text = SWING.replace("arm", "𝛼rm");
+    client.open(URI, &text);
+    let document = json!({ "uri": URI });
+    let line = json!({ "start": { "line": 2, "character": 0 }, "end": { "line": 3, "character": 0 } });
+    let params = json!({ "textDocument": document, "range": line });
+    let hints = client.request("textDocument/inlayHint", params.clone());
+    insta::assert_snapshot!(hints, @r#"[{"position":{"line":2,"character":13},"label":"+3","tooltip":"3 coordinates","paddingLeft":true}]"#);
+    let tokens = client.request("textDocument/semanticTokens/range", params);
+    insta::assert_snapshot!(tokens, @r#"{"data":[2,4,4,10,0,0,5,4,2,1,0,7,5,10,0,0,6,1,3,1,0,11,5,10,0,0,6,3,3,1,0,10,2,9,6]}"#);
+    let all = client.request("textDocument/semanticTokens/full", json!({ "textDocument": document }));
+    assert!(all["data"].as_array().unwrap().len() > 100);
+    let position = position(&text, "𝛼rm.O)");
+    let help = client.request("textDocument/signatureHelp", json!({ "textDocument": document, "position": position }));
+    insta::assert_snapshot!(format!("{} {}", help["signatures"][0]["label"], help["activeParameter"]), @r#""revolute(P, Q)" 1"#);
+    client.end();
+}
+
+/// What hints count by the text alone is what the equations are.
+#[test]
+fn the_count_of_every_example_is_that_of_its_equations() {
+    let mut seen = 0;
+    for folder in ["examples", "tests/cases"] {
+        let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+        for entry in std::fs::read_dir(root.join(folder)).unwrap() {
+            let path = entry.unwrap().path();
+            if path.extension().is_none_or(|ending| ending != "mech") {
+                continue;
+            }
+            let text = std::fs::read_to_string(&path).unwrap();
+            let uri = format!("file://{}", path.display());
+            let counted = counted(&uri, &text, &path);
+            for (shown, system) in counted {
+                assert_eq!(shown, system, "{}", path.display());
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 50, "{seen}");
+}
+
+/// The hints `NDOF = …` of a text's mechanisms, each with that of the equations.
+fn counted(uri: &str, text: &str, path: &std::path::Path) -> Vec<(String, String)> {
+    use mechc::Parsed;
+    let mut files = Memory::default();
+    for beside in std::fs::read_dir(path.parent().unwrap()).unwrap() {
+        let beside = beside.unwrap().path();
+        if let Ok(text) = std::fs::read_to_string(&beside) {
+            files = files.with(beside.display().to_string(), &text);
+        }
+    }
+    let systems = Parsed::of(&path.display().to_string(), text).check_each(&files);
+    let systems = systems.iter().map(|checked| checked.equations_text().expect("it is sound")).map(|text| {
+        let numbers = text.lines().next().unwrap().rsplit_once(": ").unwrap().1.split(' ');
+        let numbers: Vec<i64> = numbers.filter_map(|word| word.parse().ok()).collect();
+        format!("NDOF = {}", numbers[0] - numbers[1])
+    });
+    let systems: Vec<String> = systems.collect();
+    let mut client = Client::new(&json!({}), files);
+    client.open(uri, text);
+    let everything = json!({ "start": { "line": 0, "character": 0 }, "end": { "line": 1_000_000, "character": 0 } });
+    let params = json!({ "textDocument": { "uri": uri }, "range": everything });
+    let hints = client.request("textDocument/inlayHint", params);
+    client.end();
+    let labels = hints.as_array().unwrap().iter().map(|hint| hint["label"].as_str().unwrap().replace('−', "-"));
+    let shown: Vec<String> = labels.filter(|label| label.starts_with("NDOF")).collect();
+    assert_eq!(shown.len(), systems.len(), "{uri}");
+    shown.into_iter().zip(systems).collect()
 }

@@ -275,7 +275,7 @@ fn needed_by<'t>(tree: &'t Mechanism, mut open: Vec<&'t Expr>) -> FxHashSet<Stri
 }
 
 /// What the bounds of ranges may speak of.
-fn definitions_of(tree: &Mechanism) -> Mechanism {
+pub(super) fn definitions_of(tree: &Mechanism) -> Mechanism {
     let is_definition =
         |item: &&Item| matches!(item.kind, ItemKind::Param { .. } | ItemKind::Function { .. } | ItemKind::Table { .. });
     let items = tree.items.iter().filter(is_definition).cloned().collect();

@@ -68,7 +68,8 @@ pub(super) fn indices(formula: &Expr) -> Vec<&Expr> {
 }
 
 /// The name that a declaration gives.
-pub(super) fn name_of(item: &Item) -> Option<&Name> {
+#[must_use]
+pub fn name_of(item: &Item) -> Option<&Name> {
     match &item.kind {
         ItemKind::Param { name, .. }
         | ItemKind::Function { name, .. }

@@ -21,6 +21,7 @@ mod instances;
 mod instead;
 mod joints;
 mod kinds;
+mod known;
 mod lead;
 mod lengths;
 mod library;
@@ -49,8 +50,10 @@ mod told;
 mod variables;
 
 pub use inputs::Given;
+pub use known::{Amount, Count, Index, Known, Value as KnownValue, known, slopes};
 pub use lead::Lead;
 pub use library::{KnownFile, KnownMechanism, Library, NotKnown};
+pub use mentions::name_of;
 pub use symbols::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use tables::TableFiles;
 

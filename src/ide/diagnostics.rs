@@ -85,7 +85,7 @@ pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Canc
         Stage::Motion => {
             let (proven, moved) = (snapshot.proven(path)?, snapshot.moved(path, cancel)?);
             for ((checked, proven), moved) in checked.mechanisms.iter().zip(proven.iter()).zip(moved.iter()) {
-                add(checked, &proven.sources, moved);
+                add(checked, &proven.sources, &moved.said);
             }
         }
     }

@@ -6,11 +6,11 @@ use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::source::Sources;
-use crate::stages::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions};
+use crate::stages::{Assembly, Checked, Compiled, Parsed, Redundant, Run, RunOptions};
 use crate::world::World;
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The texts at one moment. A clone is the same; what is made of it is kept, and kept on in the next snapshot where an edit leaves it
 /// as it is.
@@ -28,7 +28,9 @@ struct Stages {
     parsed: Kept<Parsed>,
     checked: Kept<Analysed>,
     proven: Kept<Vec<Proven>>,
-    moved: Kept<Vec<Diagnostics>>,
+    moved: Kept<Vec<Moved>>,
+    /// What was known of the motion of a text before this one.
+    moved_before: Option<Arc<Vec<Moved>>>,
 }
 
 /// A file whose mechanisms were checked.
@@ -49,6 +51,34 @@ pub struct Proven {
     pub compiled: Option<Compiled>,
     /// Where it can be assembled.
     pub assembly: Option<Assembly>,
+    /// The row of that.
+    first: First,
+}
+
+/// What came of following a mechanism over the times of its analysis.
+pub struct Moved {
+    /// Its name.
+    pub mechanism: String,
+    /// What is to be said of its motion.
+    pub said: Diagnostics,
+    /// Its results: each with its value, where it has one, in the unit in which it is told.
+    pub results: Vec<(String, Option<f64>, String)>,
+}
+
+/// The first row of a run, made when first asked for.
+#[derive(Default)]
+struct First {
+    run: Mutex<Option<Run>>,
+    row: Kept<Vec<f64>>,
+}
+
+impl Proven {
+    /// The row of the position in which it was assembled, in SI, by [`Compiled::columns`]; nothing where it has none.
+    #[must_use]
+    pub fn first_row(&self) -> Option<Arc<Vec<f64>>> {
+        let run = || self.first.run.lock().unwrap_or_else(PoisonError::into_inner).take();
+        self.first.row.get_or(|| run()?.next()?.ok())
+    }
 }
 
 impl Analysed {
@@ -83,7 +113,7 @@ impl Snapshot {
         for (other, stages) in &self.files {
             let is_made_of_it = || stages.checked.get().is_none_or(|checked| checked.named.contains(&**path));
             let kept = match other == path {
-                true => Arc::default(),
+                true => Arc::new(stages.without_text()),
                 false if is_made_of_it() => Arc::new(stages.parsed_alone()),
                 false => Arc::clone(stages),
             };
@@ -159,16 +189,31 @@ impl Snapshot {
         self.proven_of(&self.stages(path), path)
     }
 
-    /// What is to be said of the motion of each of a file's mechanisms over the times of its analysis. The flag ends it as well; what was found
-    /// up to there is lost.
+    /// The motion of each of a file's mechanisms over the times of its analysis. The flag ends it as well; what was found up to there is lost.
     #[must_use]
-    pub fn moved(&self, path: &Path, cancel: &Cancel) -> Option<Arc<Vec<Diagnostics>>> {
+    pub fn moved(&self, path: &Path, cancel: &Cancel) -> Option<Arc<Vec<Moved>>> {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
         stages.moved.get_or(|| {
             let said = proven.iter().map(|proven| moved(proven, cancel)).collect::<Option<_>>()?;
             self.unless_cancelled(said)
         })
+    }
+
+    /// What is proven already.
+    #[must_use]
+    pub fn proven_now(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+        self.stages(path).proven.get()
+    }
+
+    /// What is known already of the motion, or what was known of that of a text before this one; and which of the two.
+    #[must_use]
+    pub fn moved_last(&self, path: &Path) -> (Option<Arc<Vec<Moved>>>, bool) {
+        let stages = self.stages(path);
+        match stages.moved.get() {
+            Some(moved) => (Some(moved), false),
+            None => (stages.moved_before.clone(), true),
+        }
     }
 
     /// What is known of a file; of one that nobody spoke of before it is not kept.
@@ -209,14 +254,20 @@ impl Snapshot {
 impl Stages {
     /// What is known by a file's own text.
     fn parsed_alone(&self) -> Stages {
-        Stages { parsed: self.parsed.get().into(), ..Stages::default() }
+        Stages { parsed: self.parsed.get().into(), ..self.without_text() }
+    }
+
+    /// What was known and may be shown until it is known anew.
+    fn without_text(&self) -> Stages {
+        // of a motion that could not be followed to its end the one before it stays
+        Stages { moved_before: self.moved.get().or_else(|| self.moved_before.clone()), ..Stages::default() }
     }
 }
 
 /// Proves a mechanism and assembles it.
 fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
-    let mut proven =
-        Proven { sources: checked.sources().clone(), said: Diagnostics::default(), compiled: None, assembly: None };
+    let (sources, said, first) = (checked.sources().clone(), Diagnostics::default(), First::default());
+    let mut proven = Proven { sources, said, compiled: None, assembly: None, first };
     if checked.is_part_of_another() {
         return proven;
     }
@@ -229,26 +280,33 @@ fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
     let (run, said) = compiled.run(&Times::listed(from, vec![from]), &options);
     proven.said.extend(said);
-    proven.assembly = run.map(|run| run.assembly().clone());
+    proven.assembly = run.as_ref().map(|run| run.assembly().clone());
+    proven.first.run = Mutex::new(run);
     proven.sources = compiled.sources().clone();
     proven.compiled = Some(compiled);
     proven
 }
 
 /// Follows a motion to its end; nothing where it is cancelled on the way.
-fn moved(proven: &Proven, cancel: &Cancel) -> Option<Diagnostics> {
-    let mut said = Diagnostics::default();
+fn moved(proven: &Proven, cancel: &Cancel) -> Option<Moved> {
+    let mut moved = Moved { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new() };
     let compiled = proven.compiled.as_ref().filter(|_| !proven.said.has_errors());
     let Some((compiled, times)) = compiled.and_then(|compiled| Some((compiled, compiled.times()?))) else {
-        return Some(said);
+        return Some(moved);
     };
+    compiled.name().clone_into(&mut moved.mechanism);
     let (run, _) = compiled.run(&times, &RunOptions { cancel: cancel.clone(), ..RunOptions::default() });
-    let Some(mut run) = run else { return (!cancel.is_cancelled()).then_some(said) };
+    let Some(mut run) = run else { return (!cancel.is_cancelled()).then_some(moved) };
     while let Some(row) = run.next_row() {
         if let Err(why) = row {
-            said.push(*why);
+            moved.said.push(*why);
         }
-        said.extend(run.take_remarks());
+        moved.said.extend(run.take_remarks());
     }
-    (!cancel.is_cancelled()).then_some(said)
+    let names = compiled.results();
+    let answers = if cancel.is_cancelled() { None } else { run.results() }.unwrap_or_default();
+    let results = names.into_iter().zip(&answers.values);
+    moved.results =
+        results.map(|((name, unit), value)| (name, value.map(|value| unit.printed(value)), unit.text)).collect();
+    (!cancel.is_cancelled()).then_some(moved)
 }

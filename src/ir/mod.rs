@@ -20,6 +20,7 @@
 //! - Every row knows the declaration that wrote it, with its place in the text.
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
+mod equations_of;
 mod print;
 mod results;
 mod rims;

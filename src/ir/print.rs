@@ -189,7 +189,7 @@ impl ConstraintSystem {
     }
 
     /// A letter for the names of shared parts that no parameter begins with.
-    fn prefix_of_shared(&self) -> &'static str {
+    pub(super) fn prefix_of_shared(&self) -> &'static str {
         let free = |prefix: &&str| !self.params.iter().any(|param| param.name.starts_with(*prefix));
         ["k", "e", "u", "w"].into_iter().find(free).unwrap_or("shared_")
     }

@@ -2,8 +2,14 @@
 
 mod completion;
 mod edits;
+mod hints;
+mod lenses;
 mod navigate;
+mod signature;
 mod structure;
+mod tokens;
+
+pub(super) use tokens::{MODIFIERS, types};
 
 use super::convert::{Texts, markdown, symbol_kind};
 use crate::ide;
@@ -39,6 +45,9 @@ pub(super) const TABLE: &[Method] = &[
     method::<lsp::CodeActionRequest>(false, |texts, params| {
         answered::<lsp::CodeActionRequest>(texts, params, edits::actions)
     }),
+    method::<lsp::CodeLensRequest>(true, |texts, params| {
+        answered::<lsp::CodeLensRequest>(texts, params, lenses::lenses)
+    }),
     method::<lsp::CompletionRequest>(false, |texts, params| {
         answered::<lsp::CompletionRequest>(texts, params, completion::completion)
     }),
@@ -67,6 +76,9 @@ pub(super) const TABLE: &[Method] = &[
         answered::<lsp::FoldingRangeRequest>(texts, params, structure::folds)
     }),
     method::<lsp::HoverRequest>(false, |texts, params| answered::<lsp::HoverRequest>(texts, params, hover)),
+    method::<lsp::InlayHintRequest>(false, |texts, params| {
+        answered::<lsp::InlayHintRequest>(texts, params, hints::hints)
+    }),
     method::<lsp::PrepareRenameRequest>(false, |texts, params| {
         tried::<lsp::PrepareRenameRequest>(texts, params, navigate::prepare_rename)
     }),
@@ -76,6 +88,15 @@ pub(super) const TABLE: &[Method] = &[
     method::<lsp::RenameRequest>(false, |texts, params| tried::<lsp::RenameRequest>(texts, params, navigate::rename)),
     method::<lsp::SelectionRangeRequest>(false, |texts, params| {
         answered::<lsp::SelectionRangeRequest>(texts, params, structure::selections)
+    }),
+    method::<lsp::SemanticTokensRangeRequest>(false, |texts, params| {
+        answered::<lsp::SemanticTokensRangeRequest>(texts, params, tokens::in_range)
+    }),
+    method::<lsp::SemanticTokensRequest>(true, |texts, params| {
+        answered::<lsp::SemanticTokensRequest>(texts, params, tokens::all)
+    }),
+    method::<lsp::SignatureHelpRequest>(false, |texts, params| {
+        answered::<lsp::SignatureHelpRequest>(texts, params, signature::signatures)
     }),
     method::<lsp::WorkspaceSymbolRequest>(true, |texts, params| {
         answered::<lsp::WorkspaceSymbolRequest>(texts, params, navigate::workspace_symbols)

@@ -1,5 +1,6 @@
 //! What the client can do, and what the server does.
 
+use super::answers::{MODIFIERS, types};
 use crate::source::Encoding;
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -19,6 +20,18 @@ pub(super) struct Client {
     pub folds_lines: bool,
     /// Whether it can be asked to tell which files have changed.
     pub watches_files: bool,
+    /// Whether it has the commands `mechc.run` and `mechc.check`, each called with a URI and the name of a mechanism.
+    pub can_run: bool,
+    /// What it can be told to ask for again.
+    pub refreshes: Refreshes,
+}
+
+/// What a client can be told to ask for again.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Refreshes {
+    pub hints: bool,
+    pub lenses: bool,
+    pub tokens: bool,
 }
 
 impl Client {
@@ -28,6 +41,11 @@ impl Client {
             |path: &str| params.pointer(path).is_some_and(|value| value != &Value::Bool(false) && !value.is_null());
         let encodings = params.pointer("/capabilities/general/positionEncodings").and_then(Value::as_array);
         let offers = |name: &str| encodings.is_some_and(|list| list.iter().any(|offered| offered == name));
+        // its own commands a client tells as it likes: as an option, or as rust-analyzer's do
+        let lists = ["/initializationOptions/commands", "/capabilities/experimental/commands/commands"];
+        let commands: Vec<&Value> =
+            lists.iter().filter_map(|list| params.pointer(list)?.as_array()).flatten().collect();
+        let has_command = |name: &str| commands.iter().any(|command| *command == name);
         Client {
             encoding: if offers("utf-8") { Encoding::Utf8 } else { Encoding::Utf16 },
             pulls_diagnostics: is("/capabilities/textDocument/diagnostic")
@@ -36,6 +54,12 @@ impl Client {
             has_links: is("/capabilities/textDocument/definition/linkSupport"),
             folds_lines: is("/capabilities/textDocument/foldingRange/lineFoldingOnly"),
             watches_files: is("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"),
+            can_run: has_command("mechc.run") && has_command("mechc.check"),
+            refreshes: Refreshes {
+                hints: is("/capabilities/workspace/inlayHint/refreshSupport"),
+                lenses: is("/capabilities/workspace/codeLens/refreshSupport"),
+                tokens: is("/capabilities/workspace/semanticTokens/refreshSupport"),
+            },
         }
     }
 }
@@ -64,6 +88,7 @@ pub(super) fn of_server(client: &Client) -> Value {
         "codeActionProvider": {
             "codeActionKinds": ["quickfix", "refactor.extract", "refactor.rewrite", "source.fixAll"],
         },
+        "codeLensProvider": {},
         // not a space: a list at every one would be in the way
         "completionProvider": { "triggerCharacters": [".", "(", ",", "\"", "/"] },
         "definitionProvider": true,
@@ -75,9 +100,16 @@ pub(super) fn of_server(client: &Client) -> Value {
         "documentSymbolProvider": true,
         "foldingRangeProvider": true,
         "hoverProvider": true,
+        "inlayHintProvider": true,
         "referencesProvider": true,
         "renameProvider": { "prepareProvider": true },
         "selectionRangeProvider": true,
+        "semanticTokensProvider": {
+            "legend": { "tokenTypes": types(), "tokenModifiers": MODIFIERS },
+            "full": true,
+            "range": true,
+        },
+        "signatureHelpProvider": { "triggerCharacters": ["(", ","], "retriggerCharacters": [")"] },
         "workspace": { "workspaceFolders": { "supported": true, "changeNotifications": true } },
         "workspaceSymbolProvider": true,
     });

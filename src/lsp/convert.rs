@@ -64,6 +64,13 @@ impl Texts {
         Some(range_in(&*self.text(path)?, range, self.encoding))
     }
 
+    /// A stretch of a file that the client gives.
+    pub fn stretch(&self, path: &Path, given: &lsp::Range) -> Option<Range<u32>> {
+        let document = self.text(path)?;
+        let [start, end] = [given.start, given.end].map(|at| document.offset((at.line, at.character), self.encoding));
+        Some(start..end.max(start))
+    }
+
     /// A stretch with its file, for the client.
     pub fn location(&self, place: &Stretch) -> Option<lsp::Location> {
         let path: Arc<Path> = self.snapshot.buffers().identity(&place.path).into();

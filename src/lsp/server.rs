@@ -1,7 +1,7 @@
 //! The loop: messages and what the pool has done, one after the other. It alone owns what changes.
 
 use super::answers::{Failure, Method, TABLE};
-use super::capabilities::{self, Client};
+use super::capabilities::{self, Client, Refreshes};
 use super::convert::{self, Texts};
 use super::documents::{Document, Documents, Position};
 use super::log::Log;
@@ -39,6 +39,7 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
         documents: Documents::default(),
         snapshot: Snapshot::new(world),
         shown: BTreeMap::new(),
+        edited: None,
         revision: 0,
         motions: Vec::new(),
         pending: HashMap::new(),
@@ -96,6 +97,8 @@ struct Server {
     documents: Documents,
     snapshot: Snapshot,
     shown: BTreeMap<Arc<Path>, Shown>,
+    /// The text that was opened or edited last.
+    edited: Option<Arc<Path>>,
     /// Counts the changes of the snapshot.
     revision: u64,
     /// The motions that are being followed, and until when.
@@ -312,6 +315,7 @@ impl Server {
     /// A file's text is another one: what was begun for the old snapshot ends, and all open texts that this concerns are looked at.
     fn replace(&mut self, path: &Arc<Path>) {
         self.end_work();
+        self.edited = Some(Arc::clone(path));
         let text = self.documents.get(path).map(|document| Arc::from(document.text()));
         let before = self.snapshot.clone();
         self.snapshot = self.snapshot.with_text(path, text);
@@ -401,6 +405,7 @@ impl Server {
         let found = found.unwrap_or(Found { said: Vec::new(), goes_on: false });
         let Some(shown) = self.shown.get_mut(path) else { return };
         let is_new = shown.take(stage, found);
+        self.refresh(path, stage);
         if self.client.pulls_diagnostics {
             if stage == Stage::Words {
                 let (now, later): (Vec<Pull>, _) =
@@ -416,6 +421,22 @@ impl Server {
             self.push(path);
         }
         self.look(path);
+    }
+
+    /// Has the client ask again for what a stage has changed, and it would not by itself.
+    fn refresh(&mut self, path: &Arc<Path>, stage: Stage) {
+        let Refreshes { hints, lenses, tokens } = self.client.refreshes;
+        // of the text that was edited it asks for hints and tokens by itself
+        let is_of_another = stage == Stage::Words && self.edited.as_ref() != Some(path);
+        let wanted = [
+            (hints && is_of_another, "workspace/inlayHint/refresh"),
+            (tokens && is_of_another, "workspace/semanticTokens/refresh"),
+            // results are known with the motion
+            (lenses && stage == Stage::Motion, "workspace/codeLens/refresh"),
+        ];
+        for (_, method) in wanted.into_iter().filter(|(is_wanted, _)| *is_wanted) {
+            self.ask(method);
+        }
     }
 
     fn pull(&mut self, id: RequestId, params: &Value) {

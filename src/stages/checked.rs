@@ -1,5 +1,6 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
+use super::known::Asked;
 use super::lead::Leading;
 use super::signals::WithSignals;
 use super::used::{self, Used};
@@ -46,14 +47,15 @@ pub struct Checked {
     parsed: Parsed,
     /// Its number in the file.
     number: Option<usize>,
-    library: Library,
-    model: Option<Arc<Mechanism>>,
+    pub(super) library: Library,
+    pub(super) model: Option<Arc<Mechanism>>,
     /// What leads it to the inputs that it is told, if it is told any.
     leading: Option<Arc<Leading>>,
     /// What it was checked with.
-    surroundings: Arc<Surroundings>,
+    pub(super) surroundings: Arc<Surroundings>,
     diagnostics: Arc<Diagnostics>,
     symbols: Arc<OnceLock<Symbols>>,
+    pub(super) asked: Arc<Asked>,
 }
 
 impl Parsed {
@@ -166,7 +168,8 @@ impl Checked {
     ) -> Checked {
         diagnostics.sort_by_place();
         let (diagnostics, surroundings, symbols) = (Arc::new(diagnostics), Arc::default(), Arc::default());
-        Checked { parsed, number, library, model, leading: None, surroundings, diagnostics, symbols }
+        let asked = Arc::default();
+        Checked { parsed, number, library, model, leading: None, surroundings, diagnostics, symbols, asked }
     }
 
     /// The texts that its diagnostics speak of.

@@ -120,7 +120,7 @@ impl Run {
         let assembly = assembly(compiled, &mut started, times.from());
         let results = compiled.system().results.outcomes.len();
         let interval = times.interval().filter(|_| results > 0);
-        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations));
+        let asked = interval.map(|interval| started.asked(interval, options.pass_bifurcations, &options.cancel));
         let mut motion = started.into_motion(times);
         if options.pass_bifurcations {
             motion.pass_bifurcations();
@@ -181,14 +181,14 @@ impl Run {
         row.map(|row| row.map_err(|why| Box::new(self.used_at.tell(*why))))
     }
 
-    /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for, and each without a value
-    /// once the motion has stopped. The motion is followed once more for them, the first time that they are asked for.
+    /// The results, in the order of [`Compiled::results`]; none at all where only some times were asked for or it was cancelled, and each
+    /// without a value once the motion has stopped. The motion is followed once more for them, the first time that they are asked for.
     pub fn results(&mut self) -> Option<Answers> {
         let asked = self.asked.take()?;
         if self.has_stopped {
             return Some(Answers { values: vec![None; self.results], notes: Vec::new() });
         }
-        let Answers { values, notes } = asked.answer();
+        let Answers { values, notes } = asked.answer()?;
         let mut said = Diagnostics::default();
         said.extend(notes);
         let notes = self.used_at.told(said).into_iter().collect();

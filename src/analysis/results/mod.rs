@@ -22,6 +22,7 @@ use super::errors;
 use super::kinematics::{Kinematics, State};
 use super::march::Motion;
 use super::times::Times;
+use crate::cancel::Cancel;
 use crate::diag::Diagnostic;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
@@ -44,6 +45,7 @@ pub struct Asked {
     solver: Option<Arc<Solver>>,
     interval: [f64; 2],
     pass: bool,
+    cancel: Cancel,
 }
 
 /// Results in their order, in SI; those that have no value are none.
@@ -57,11 +59,12 @@ pub struct Answers {
 
 impl Started {
     /// What is needed to compute the results of an analysis from one time to another (s), the first of which it is assembled
-    /// at; `pass` goes on beyond bifurcations.
+    /// at; `pass` goes on beyond bifurcations. The flag ends the work.
     #[must_use]
-    pub fn asked(&self, interval: [f64; 2], pass: bool) -> Asked {
+    pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> Asked {
         let Started { kinematics, state, solver, .. } = self;
-        Asked { kinematics: kinematics.clone(), state: state.clone(), solver: solver.clone(), interval, pass }
+        let (kinematics, state, solver) = (kinematics.clone(), state.clone(), solver.clone());
+        Asked { kinematics, state, solver, interval, pass, cancel: cancel.clone() }
     }
 }
 
@@ -74,18 +77,23 @@ struct Analysis {
 }
 
 impl Asked {
-    /// The results, by following the motion once more.
+    /// The results, by following the motion once more; nothing where that is cancelled.
     #[must_use]
-    pub fn answer(self) -> Answers {
+    pub fn answer(self) -> Option<Answers> {
         let determined = self.kinematics.determined();
         let count = determined.system().results.reductions.len();
+        let cancel = self.cancel.clone();
         let mut analysis = Analysis { asked: self, determined, found: vec![None; count] };
         while let Some(level) = analysis.next_level() {
-            if let Err(why) = analysis.follow(&level) {
-                return analysis.without_motion(&why);
+            let followed = analysis.follow(&level);
+            if cancel.is_cancelled() {
+                return None;
+            }
+            if let Err(why) = followed {
+                return Some(analysis.without_motion(&why));
             }
         }
-        analysis.answers()
+        Some(analysis.answers())
     }
 
     /// A motion of its own to some times.
@@ -172,7 +180,7 @@ impl Analysis {
         let span = to - from;
         let mut motion = self.asked.motion(Times::listed(from, vec![to]));
         let mut stretches = Vec::new();
-        loop {
+        while !self.asked.cancel.is_cancelled() {
             let next = motion.next_stretch()?;
             let is_end = next.is_none();
             if let Some(stretch) = &next {
@@ -199,6 +207,7 @@ impl Analysis {
                 return Ok(());
             }
         }
+        Ok(())
     }
 
     /// No results: the motion ends before the analysis does.
