@@ -5,6 +5,12 @@
 
 #[path = "lsp/client.rs"]
 mod client;
+#[path = "lsp/memory.rs"]
+mod memory;
+#[path = "lsp/pipe.rs"]
+mod pipe;
+#[path = "lsp/storms.rs"]
+mod storms;
 
 use client::Client;
 use mechc::Memory;

@@ -28,4 +28,4 @@ pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
 pub use hover::{Hover, hover};
 pub use outline::{Entry, outline};
 pub use place::{Change, Place, Stretch};
-pub use snapshot::{Analysed, Proven, Snapshot};
+pub use snapshot::{Analysed, Proven, Snapshot, learn_names};

@@ -152,6 +152,7 @@ impl Snapshot {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
         stages.moved.get_or(|| {
+            self.unless_cancelled(())?;
             let said = proven.iter().map(|proven| moved(proven, cancel)).collect::<Option<_>>()?;
             self.unless_cancelled(said)
         })
@@ -164,6 +165,7 @@ impl Snapshot {
 
     fn parsed_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Parsed>> {
         stages.parsed.get_or(|| {
+            self.unless_cancelled(())?;
             let before = stages.before.as_ref().zip(self.buffers.open(path));
             let parsed = match before.filter(|(_, text)| text.len() <= LARGEST) {
                 Some((before, text)) => before.edited(text),
@@ -176,6 +178,7 @@ impl Snapshot {
     fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Analysed>> {
         let parsed = self.parsed_of(stages, path)?;
         stages.checked.get_or(|| {
+            self.unless_cancelled(())?;
             let mechanisms = parsed.check_each(&*self.buffers);
             let named = mechanisms.first().map(Checked::named_files).unwrap_or_default();
             let named = named.iter().map(|path| self.buffers.identity(path)).collect();
@@ -186,6 +189,7 @@ impl Snapshot {
     fn proven_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proven>>> {
         let checked = self.checked_of(stages, path)?;
         stages.proven.get_or(|| {
+            self.unless_cancelled(())?;
             let proven = checked.mechanisms.iter().map(|checked| proven(checked, &self.cancel)).collect();
             self.unless_cancelled(proven)
         })
@@ -205,6 +209,14 @@ impl Stages {
     /// What is known by a file's own text.
     fn parsed_alone(&self) -> Stages {
         Stages { parsed: self.parsed.get().into(), ..Stages::default() }
+    }
+}
+
+/// Makes the list of names of each mechanism of a file, which is kept.
+pub fn learn_names(snapshot: &Snapshot, path: &Path) {
+    let checked = snapshot.checked(path);
+    for mechanism in checked.iter().flat_map(|checked| &checked.mechanisms).take_while(|_| !snapshot.is_cancelled()) {
+        let _ = mechanism.symbols();
     }
 }
 

@@ -18,10 +18,10 @@ pub(super) struct Known<'a> {
     before: usize,
     /// From this byte on the text is the end of the one before.
     behind: usize,
-    /// How many bytes it has grown by.
-    grown: i64,
+    /// How many bytes it has grown by, modulo 2^32, where it may have shrunk.
+    grown: u32,
     /// By the byte at which they begin in the text before.
-    nodes: Vec<(usize, Node<'a>)>,
+    nodes: Vec<(u32, Node<'a>)>,
 }
 
 #[derive(Clone, Copy)]
@@ -36,14 +36,14 @@ impl<'a> Known<'a> {
         let (before, same) = ends_in_common(old_text.as_bytes(), text.as_bytes());
         let mut nodes = Vec::new();
         for item in old.tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items) {
-            nodes.push((item.span.start as usize, Node::Item(item)));
+            nodes.push((item.span.start, Node::Item(item)));
             if let ItemKind::Ground { features } | ItemKind::Body { features, .. } = &item.kind {
-                nodes.extend(features.iter().map(|feature| (feature.span.start as usize, Node::Feature(feature))));
+                nodes.extend(features.iter().map(|feature| (feature.span.start, Node::Feature(feature))));
             }
         }
         // nearly all are in order
         nodes.sort_by_key(|(start, _)| *start);
-        let grown = text.len() as i64 - old_text.len() as i64;
+        let grown = (text.len() as u32).wrapping_sub(old_text.len() as u32);
         Known { file, before, behind: text.len() - same, grown, nodes }
     }
 
@@ -90,8 +90,8 @@ impl<'a> Known<'a> {
             () if stretch.start >= self.behind => self.grown,
             () => return None,
         };
-        let start = stretch.start as i64 - by;
-        let at = self.nodes.binary_search_by_key(&start, |(start, _)| *start as i64).ok()?;
+        let start = (stretch.start as u32).wrapping_sub(by);
+        let at = self.nodes.binary_search_by_key(&start, |(start, _)| *start).ok()?;
         Some((self.nodes[at].1, Move { file: self.file, by }))
     }
 }

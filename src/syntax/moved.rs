@@ -11,13 +11,13 @@ use crate::source::{FileId, Span};
 #[derive(Clone, Copy)]
 pub(super) struct Move {
     pub file: FileId,
-    /// How many bytes more are before it now; less, where it is negative.
-    pub by: i64,
+    /// How many bytes more are before it now, modulo 2^32, where there may be less.
+    pub by: u32,
 }
 
 impl Move {
     fn span(self, span: &mut Span) {
-        let at = |byte: u32| (i64::from(byte) + self.by) as u32;
+        let at = |byte: u32| byte.wrapping_add(self.by);
         *span = Span { file: self.file, start: at(span.start), end: at(span.end) };
     }
 
@@ -26,7 +26,9 @@ impl Move {
     }
 
     fn names(self, names: &mut [Name]) {
-        names.iter_mut().for_each(|name| self.name(name));
+        for name in names {
+            self.name(name);
+        }
     }
 
     /// A declaration; its documentation has no places.
@@ -44,11 +46,19 @@ impl Move {
                 self.rows(rows);
             }
             ItemKind::Part(part) => self.part(part),
-            ItemKind::Ground { features } => features.iter_mut().for_each(|feature| self.feature(feature)),
+            ItemKind::Ground { features } => {
+                for feature in features {
+                    self.feature(feature);
+                }
+            }
             ItemKind::Body { name, pose, features } => {
                 self.name(name);
-                pose.iter_mut().for_each(|pose| self.pose(pose));
-                features.iter_mut().for_each(|feature| self.feature(feature));
+                if let Some(pose) = pose {
+                    self.pose(pose);
+                }
+                for feature in features {
+                    self.feature(feature);
+                }
             }
             ItemKind::Joint { name, kind, arguments, call_span } => {
                 self.name(name);
@@ -64,10 +74,16 @@ impl Move {
             | ItemKind::Trace { name, point: value, unit }
             | ItemKind::Result { name, value, unit } => {
                 self.defined(name, value);
-                unit.iter_mut().for_each(|unit| self.unit(unit));
+                if let Some(unit) = unit {
+                    self.unit(unit);
+                }
             }
             ItemKind::Broken { names } => self.names(names),
-            ItemKind::Analysis { from, to, every } => [from, to, every].into_iter().for_each(|expr| self.expr(expr)),
+            ItemKind::Analysis { from, to, every } => {
+                for expr in [from, to, every] {
+                    self.expr(expr);
+                }
+            }
         }
     }
 
@@ -80,7 +96,9 @@ impl Move {
     pub fn head(self, head: &mut Head) {
         self.name(&mut head.name);
         self.ranges(&mut head.ranges);
-        head.pose.iter_mut().for_each(|pose| self.pose(pose));
+        if let Some(pose) = &mut head.pose {
+            self.pose(pose);
+        }
     }
 
     fn ranges(self, ranges: &mut [Range]) {
@@ -92,7 +110,9 @@ impl Move {
 
     fn pose(self, pose: &mut Pose) {
         self.expr(&mut pose.at);
-        pose.toward.iter_mut().for_each(|toward| self.expr(toward));
+        if let Some(toward) = &mut pose.toward {
+            self.expr(toward);
+        }
     }
 
     /// A feature of a body.
@@ -101,7 +121,11 @@ impl Move {
         self.name(&mut feature.name);
         match &mut feature.kind {
             FeatureKind::Broken => {}
-            FeatureKind::Point { at } => at.iter_mut().for_each(|at| self.expr(at)),
+            FeatureKind::Point { at } => {
+                if let Some(at) = at {
+                    self.expr(at);
+                }
+            }
             FeatureKind::AxisAlong { origin: one, direction: two }
             | FeatureKind::AxisTo { origin: one, target: two }
             | FeatureKind::Circle { center: one, radius: two } => {
@@ -110,7 +134,9 @@ impl Move {
             }
             FeatureKind::Curve { argument, at, estimate } => {
                 self.defined(argument, at);
-                estimate.iter_mut().for_each(|estimate| self.expr(estimate));
+                if let Some(estimate) = estimate {
+                    self.expr(estimate);
+                }
             }
         }
     }
@@ -120,8 +146,12 @@ impl Move {
             TableRows::Listed(rows) => self.exprs(rows),
             TableRows::File { path, columns, units } => {
                 self.name(path);
-                columns.iter_mut().flatten().for_each(|Column { kind: _, span }| self.span(span));
-                units.iter_mut().flatten().for_each(|unit| self.unit(unit));
+                for Column { kind: _, span } in columns.iter_mut().flatten() {
+                    self.span(span);
+                }
+                for unit in units.iter_mut().flatten() {
+                    self.unit(unit);
+                }
             }
         }
     }
@@ -129,15 +159,23 @@ impl Move {
     fn part(self, part: &mut Part) {
         let Part { name, mechanism: MechanismName { prefix, name: own }, bindings, on, at, mirrored, call_span } = part;
         self.name(name);
-        prefix.iter_mut().for_each(|prefix| self.name(prefix));
+        if let Some(prefix) = prefix {
+            self.name(prefix);
+        }
         self.name(own);
         for Binding { name, coordinate, value, span } in bindings {
             self.defined(name, value);
-            coordinate.iter_mut().for_each(|coordinate| self.name(coordinate));
+            if let Some(coordinate) = coordinate {
+                self.name(coordinate);
+            }
             self.span(span);
         }
-        on.iter_mut().chain(at).for_each(|expr| self.expr(expr));
-        mirrored.iter_mut().for_each(|mirrored| self.span(mirrored));
+        for expr in on.iter_mut().chain(at) {
+            self.expr(expr);
+        }
+        if let Some(mirrored) = mirrored {
+            self.span(mirrored);
+        }
         self.span(call_span);
     }
 
@@ -150,13 +188,19 @@ impl Move {
     }
 
     fn exprs(self, exprs: &mut [Expr]) {
-        exprs.iter_mut().for_each(|expr| self.expr(expr));
+        for expr in exprs {
+            self.expr(expr);
+        }
     }
 
     fn expr(self, expr: &mut Expr) {
         self.span(&mut expr.span);
         match &mut expr.kind {
-            ExprKind::Literal { value: _, unit } => unit.iter_mut().for_each(|(unit, _)| self.name(unit)),
+            ExprKind::Literal { value: _, unit } => {
+                if let Some((unit, _)) = unit {
+                    self.name(unit);
+                }
+            }
             ExprKind::Name(name) => self.name(name),
             ExprKind::Member { owner, feature } => {
                 self.name(owner);
@@ -176,11 +220,15 @@ impl Move {
             ExprKind::Tuple(list) | ExprKind::And(list) | ExprKind::Or(list) => self.exprs(list),
             ExprKind::Sum(first, rest) => {
                 self.expr(first);
-                rest.iter_mut().for_each(|(_, e)| self.expr(e));
+                for (_, e) in rest {
+                    self.expr(e);
+                }
             }
             ExprKind::Product(first, rest) => {
                 self.expr(first);
-                rest.iter_mut().for_each(|(_, e)| self.expr(e));
+                for (_, e) in rest {
+                    self.expr(e);
+                }
             }
             ExprKind::Power(a, b) | ExprKind::Compare(a, _, b) => {
                 self.expr(a);
