@@ -1,6 +1,6 @@
 //! The texts that the client has open.
 
-use super::lines::Lines;
+use super::lines::{Lines, Position};
 use super::uri;
 use crate::source::Encoding;
 use std::collections::BTreeMap;
@@ -24,9 +24,6 @@ pub(super) struct Document {
     /// Whether it begins with a byte-order mark, which the client counts and nobody else.
     has_mark: bool,
 }
-
-/// Line and column, from 0, as the client counts them.
-pub(super) type Position = (u32, u32);
 
 /// An edit of a text, in bytes: what goes, and how long what comes is.
 #[derive(Clone, PartialEq, Eq, Debug)]

@@ -2,9 +2,11 @@
 //!
 //! Messages on the terminal know line feeds alone, as editors there do: what they count is in `source`.
 
-use super::documents::Position;
 use crate::source::Encoding;
 use std::ops::Range;
+
+/// Line and column, from 0, as the client counts them.
+pub(super) type Position = (u32, u32);
 
 /// Where the lines of a text begin.
 #[derive(Clone, Debug)]

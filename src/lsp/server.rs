@@ -3,7 +3,8 @@
 use super::answers::{Failure, Method, TABLE};
 use super::capabilities::{self, Client};
 use super::convert::{self, Texts};
-use super::documents::{Document, Documents, Position};
+use super::documents::{Document, Documents};
+use super::lines::Position;
 use super::log::Log;
 use super::pool::{Kind, Pool, caught};
 use super::stages::{Found, Shown};

@@ -4,10 +4,9 @@
 //! seen anew. What is taken over is what the grammar makes of words that are the same. A declaration at fault is read again: what is
 //! said of it may depend on any other.
 
-use super::ast::{Feature, FeatureKind, Item, ItemKind};
+use super::ast::{Feature, FeatureKind, File, Item, ItemKind};
 use super::build::Head;
 use super::moved::Move;
-use super::parse::Parsed;
 use crate::source::FileId;
 use std::ops::Range;
 
@@ -32,10 +31,10 @@ enum Node<'a> {
 
 impl<'a> Known<'a> {
     /// What was read of a text that has become another one.
-    pub fn of(old: &'a Parsed, [old_text, text]: [&str; 2], file: FileId) -> Known<'a> {
+    pub fn of(old: &'a File, [old_text, text]: [&str; 2], file: FileId) -> Known<'a> {
         let (before, same) = ends_in_common(old_text.as_bytes(), text.as_bytes());
         let mut nodes = Vec::new();
-        for item in old.tree.mechanisms.iter().flat_map(|mechanism| &mechanism.items) {
+        for item in old.mechanisms.iter().flat_map(|mechanism| &mechanism.items) {
             nodes.push((item.span.start, Node::Item(item)));
             if let ItemKind::Ground { features } | ItemKind::Body { features, .. } = &item.kind {
                 nodes.extend(features.iter().map(|feature| (feature.span.start, Node::Feature(feature))));

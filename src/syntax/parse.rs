@@ -56,7 +56,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 pub fn reread(old: &Parsed, old_text: &str, sources: &Sources, file: FileId) -> Parsed {
     let source = sources.get(file);
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
-        by_declarations(source, file, Some(Known::of(old, [old_text, &source.text], file)))
+        by_declarations(source, file, Some(Known::of(&old.tree, [old_text, &source.text], file)))
     });
     with_all(sources, file, tree, faults)
 }
