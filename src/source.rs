@@ -26,7 +26,9 @@ impl Encoding {
         }
     }
 
-    fn width(self, c: char) -> usize {
+    /// How long a character is.
+    #[must_use]
+    pub fn width(self, c: char) -> usize {
         match self {
             Encoding::Utf8 => c.len_utf8(),
             Encoding::Utf16 => c.len_utf16(),

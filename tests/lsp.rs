@@ -5,6 +5,12 @@
 
 #[path = "lsp/client.rs"]
 mod client;
+#[path = "lsp/memory.rs"]
+mod memory;
+#[path = "lsp/pipe.rs"]
+mod pipe;
+#[path = "lsp/storms.rs"]
+mod storms;
 #[path = "lsp/writing.rs"]
 mod writing;
 

@@ -10,6 +10,7 @@
 #![allow(clippy::default_constructed_unit_structs)] // this four-bar has no parameters, others have
 
 mod closed_form;
+mod copies;
 #[allow(clippy::pedantic, dead_code)] // code of another hand
 #[rustfmt::skip]
 mod four_bar;

@@ -53,7 +53,7 @@ pub use outline::{Entry, outline};
 pub use place::{Change, Place, Stretch};
 pub use rename::{prepare_rename, rename};
 pub use signature::{Signature, Signatures, signatures};
-pub use snapshot::{Analysed, Moved, Proven, Snapshot};
+pub use snapshot::{Analysed, Moved, Proven, Snapshot, learn_names};
 pub use structure::{Fold, FoldKind, around, folds};
 pub use tokens::{Token, TokenKind, tokens};
 pub use workspace::{Found, files_in, is_mech, workspace_names};

@@ -6,11 +6,11 @@ use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::source::Sources;
-use crate::stages::{Assembly, Checked, Compiled, Parsed, Redundant, Run, RunOptions};
-use crate::world::World;
+use crate::stages::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions};
+use crate::world::{LARGEST, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::Arc;
 
 /// The texts at one moment. A clone is the same; what is made of it is kept, and kept on in the next snapshot where an edit leaves it
 /// as it is.
@@ -25,6 +25,8 @@ pub struct Snapshot {
 /// The stages of a file, as far as they were asked for.
 #[derive(Default)]
 struct Stages {
+    /// The tree of the text before the last edit, of which most is still so.
+    before: Option<Arc<Parsed>>,
     parsed: Kept<Parsed>,
     checked: Kept<Analysed>,
     proven: Kept<Vec<Proven>>,
@@ -51,8 +53,8 @@ pub struct Proven {
     pub compiled: Option<Compiled>,
     /// Where it can be assembled.
     pub assembly: Option<Assembly>,
-    /// The row of that.
-    first: First,
+    /// The row of that, once it was asked for.
+    first_row: Kept<Vec<f64>>,
 }
 
 /// What came of following a mechanism over the times of its analysis.
@@ -65,19 +67,15 @@ pub struct Moved {
     pub results: Vec<(String, Option<f64>, String)>,
 }
 
-/// The first row of a run, made when first asked for.
-#[derive(Default)]
-struct First {
-    run: Mutex<Option<Run>>,
-    row: Kept<Vec<f64>>,
-}
-
 impl Proven {
     /// The row of the position in which it was assembled, in SI, by [`Compiled::columns`]; nothing where it has none.
     #[must_use]
     pub fn first_row(&self) -> Option<Arc<Vec<f64>>> {
-        let run = || self.first.run.lock().unwrap_or_else(PoisonError::into_inner).take();
-        self.first.row.get_or(|| run()?.next()?.ok())
+        self.first_row.get_or(|| {
+            let (compiled, assembly) = (self.compiled.as_ref()?, self.assembly.as_ref()?);
+            let (run, _) = compiled.run(&Times::listed(assembly.t, vec![assembly.t]), &RunOptions::default());
+            run?.next()?.ok()
+        })
     }
 }
 
@@ -102,8 +100,11 @@ impl Snapshot {
     #[must_use]
     pub fn with_text(&self, path: &Arc<Path>, text: Option<Arc<str>>) -> Snapshot {
         let mut buffers = (*self.buffers).clone();
+        let before = text.as_ref().map(|_| self.stages(path).before_an_edit());
         buffers.set(path, text);
-        Snapshot { buffers: Arc::new(buffers), ..self.without(path) }
+        let mut next = Snapshot { buffers: Arc::new(buffers), ..self.without(path) };
+        next.files.insert(Arc::clone(path), Arc::new(before.unwrap_or_default()));
+        next
     }
 
     /// The same without what was known of a file, and of those that were made of it: what is behind it has changed.
@@ -195,6 +196,7 @@ impl Snapshot {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
         stages.moved.get_or(|| {
+            self.unless_cancelled(())?;
             let said = proven.iter().map(|proven| moved(proven, cancel)).collect::<Option<_>>()?;
             self.unless_cancelled(said)
         })
@@ -223,7 +225,12 @@ impl Snapshot {
 
     fn parsed_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Parsed>> {
         stages.parsed.get_or(|| {
-            let parsed = Parsed::read(path, &*self.buffers).ok()?;
+            self.unless_cancelled(())?;
+            let before = stages.before.as_ref().zip(self.buffers.open(path));
+            let parsed = match before.filter(|(_, text)| text.len() <= LARGEST) {
+                Some((before, text)) => before.edited(text),
+                None => Parsed::read(path, &*self.buffers).ok()?,
+            };
             self.unless_cancelled(parsed)
         })
     }
@@ -231,6 +238,7 @@ impl Snapshot {
     fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Analysed>> {
         let parsed = self.parsed_of(stages, path)?;
         stages.checked.get_or(|| {
+            self.unless_cancelled(())?;
             let mechanisms = parsed.check_each(&*self.buffers);
             let named = mechanisms.first().map(Checked::named_files).unwrap_or_default();
             let named = named.iter().map(|path| self.buffers.identity(path)).collect();
@@ -241,6 +249,7 @@ impl Snapshot {
     fn proven_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Vec<Proven>>> {
         let checked = self.checked_of(stages, path)?;
         stages.proven.get_or(|| {
+            self.unless_cancelled(())?;
             let proven = checked.mechanisms.iter().map(|checked| proven(checked, &self.cancel)).collect();
             self.unless_cancelled(proven)
         })
@@ -252,6 +261,11 @@ impl Snapshot {
 }
 
 impl Stages {
+    /// What helps to know the file once it is edited.
+    fn before_an_edit(&self) -> Stages {
+        Stages { before: self.parsed.get().or_else(|| self.before.clone()), ..self.without_text() }
+    }
+
     /// What is known by a file's own text.
     fn parsed_alone(&self) -> Stages {
         Stages { parsed: self.parsed.get().into(), ..self.without_text() }
@@ -264,10 +278,18 @@ impl Stages {
     }
 }
 
+/// Makes the list of names of each mechanism of a file, which is kept.
+pub fn learn_names(snapshot: &Snapshot, path: &Path) {
+    let checked = snapshot.checked(path);
+    for mechanism in checked.iter().flat_map(|checked| &checked.mechanisms).take_while(|_| !snapshot.is_cancelled()) {
+        let _ = mechanism.symbols();
+    }
+}
+
 /// Proves a mechanism and assembles it.
 fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
-    let (sources, said, first) = (checked.sources().clone(), Diagnostics::default(), First::default());
-    let mut proven = Proven { sources, said, compiled: None, assembly: None, first };
+    let (sources, said) = (checked.sources().clone(), Diagnostics::default());
+    let mut proven = Proven { sources, said, compiled: None, assembly: None, first_row: Kept::default() };
     if checked.is_part_of_another() {
         return proven;
     }
@@ -278,10 +300,9 @@ fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
     proven.said.extend(refused.unwrap_or_default());
     let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (run, said) = compiled.run(&Times::listed(from, vec![from]), &options);
+    let (assembly, said) = compiled.assembled(from, &options);
     proven.said.extend(said);
-    proven.assembly = run.as_ref().map(|run| run.assembly().clone());
-    proven.first.run = Mutex::new(run);
+    proven.assembly = assembly;
     proven.sources = compiled.sources().clone();
     proven.compiled = Some(compiled);
     proven

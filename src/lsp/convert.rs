@@ -110,7 +110,7 @@ impl Texts {
         }
         let bytes = self.snapshot.buffers().read(path).ok()?.bytes;
         let text = std::str::from_utf8(&bytes).ok()?;
-        Some(Arc::new(Document::new(String::new(), 0, text.to_owned())))
+        Some(Arc::new(Document::new(String::new(), 0, text)))
     }
 }
 

@@ -1,11 +1,15 @@
 //! The texts that the client has open.
 
+use super::lines::{Lines, Position};
 use super::uri;
-use crate::source::{Encoding, FileId, Source, Sources};
+use crate::source::Encoding;
 use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
+
+/// The byte-order mark.
+const MARK: char = '\u{feff}';
 
 /// A text with its lines.
 #[derive(Clone)]
@@ -14,14 +18,12 @@ pub(super) struct Document {
     pub uri: String,
     /// The client's number of it.
     pub version: i32,
-    sources: Sources,
-    file: FileId,
+    /// Without a byte-order mark.
+    text: Arc<str>,
+    lines: Lines,
     /// Whether it begins with a byte-order mark, which the client counts and nobody else.
     has_mark: bool,
 }
-
-/// Line and column, from 0, as the client counts them.
-pub(super) type Position = (u32, u32);
 
 /// An edit of a text, in bytes: what goes, and how long what comes is.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -31,61 +33,62 @@ pub(super) struct Moved {
 }
 
 impl Document {
-    pub fn new(uri: String, version: i32, text: String) -> Document {
-        let has_mark = text.starts_with('\u{feff}');
-        let mut sources = Sources::default();
-        let file = sources.add("", text);
-        Document { uri, version, sources, file, has_mark }
-    }
-
-    fn source(&self) -> &Source {
-        self.sources.get(self.file)
+    pub fn new(uri: String, version: i32, text: &str) -> Document {
+        let has_mark = text.starts_with(MARK);
+        let text: Arc<str> = text.strip_prefix(MARK).unwrap_or(text).into();
+        let lines = Lines::of(&text);
+        Document { uri, version, text, lines, has_mark }
     }
 
     /// Without a byte-order mark.
-    pub fn text(&self) -> &str {
-        &self.source().text
+    pub fn text(&self) -> &Arc<str> {
+        &self.text
     }
 
     /// The byte at a position, which need not be there.
     pub fn offset(&self, (line, column): Position, encoding: Encoding) -> u32 {
-        let column = (column as usize).saturating_sub(self.mark_on(line as usize, encoding));
-        self.source().offset_of(line as usize, column, encoding)
+        let column = column.saturating_sub(self.mark_on(line, encoding));
+        self.lines.offset(&self.text, (line, column), encoding)
     }
 
     /// The position of a byte, which need not be there.
     pub fn position(&self, offset: u32, encoding: Encoding) -> Position {
-        let (line, column) = self.source().position_in(self.character_at(offset), encoding);
-        (line as u32, (column + self.mark_on(line, encoding)) as u32)
+        let (line, column) = self.lines.position(&self.text, self.character_at(offset), encoding);
+        (line, column + self.mark_on(line, encoding))
     }
 
     /// The beginning of the character that a byte belongs to.
     fn character_at(&self, offset: u32) -> u32 {
-        let text = self.text();
+        let text = &self.text;
         let offset = (offset as usize).min(text.len());
         (0..=offset).rev().find(|&at| text.is_char_boundary(at)).unwrap_or(0) as u32
     }
 
-    fn mark_on(&self, line: usize, encoding: Encoding) -> usize {
-        if self.has_mark && line == 0 { encoding.length("\u{feff}") } else { 0 }
+    fn mark_on(&self, line: u32, encoding: Encoding) -> u32 {
+        if self.has_mark && line == 0 { encoding.width(MARK) as u32 } else { 0 }
+    }
+
+    fn replace_text(&mut self, text: &str) {
+        *self = Document::new(std::mem::take(&mut self.uri), self.version, text);
     }
 
     /// Another text in the place of a stretch, or of all.
     pub fn edit(&mut self, range: Option<[Position; 2]>, new: &str, encoding: Encoding) -> Moved {
         let Some(ends) = range else {
-            let moved = difference(self.text(), new.trim_start_matches('\u{feff}'));
-            *self = Document::new(std::mem::take(&mut self.uri), self.version, new.to_owned());
+            let moved = difference(&self.text, new.strip_prefix(MARK).unwrap_or(new));
+            self.replace_text(new);
             return moved;
         };
         let [start, end] = ends.map(|position| self.offset(position, encoding));
         let range = start.min(end)..start.max(end);
-        let mut text = self.text().to_owned();
         let takes_mark = ends[0] == (0, 0) && ends[1] != (0, 0);
-        text.replace_range(range.start as usize..range.end as usize, new);
-        if self.has_mark && !takes_mark {
-            text.insert(0, '\u{feff}');
-        }
-        *self = Document::new(std::mem::take(&mut self.uri), self.version, text);
+        let mark = if self.has_mark && !takes_mark { MARK.len_utf8() } else { 0 };
+        let mut text = String::with_capacity(mark + self.text.len() + new.len());
+        text.extend((mark > 0).then_some(MARK));
+        text += &self.text[..range.start as usize];
+        text += new;
+        text += &self.text[range.end as usize..];
+        self.replace_text(&text);
         Moved { range, length: new.len() as u32 }
     }
 }
@@ -100,6 +103,11 @@ fn difference(old: &str, new: &str) -> Moved {
 }
 
 impl Moved {
+    /// Whether the edit changes a stretch, or stands right beside it.
+    pub fn meets(&self, range: &Range<u32>) -> bool {
+        self.range.start <= range.end && range.start <= self.range.end
+    }
+
     /// Where a stretch is after the edit.
     pub fn applied(&self, range: &Range<u32>) -> Range<u32> {
         let at = |offset: u32, is_end: bool| match offset {
@@ -151,7 +159,7 @@ mod tests {
     use crate::source::Encoding;
 
     fn document(text: &str) -> Document {
-        Document::new("file:///a.mech".to_owned(), 1, text.to_owned())
+        Document::new("file:///a.mech".to_owned(), 1, text)
     }
 
     #[test]
@@ -172,24 +180,24 @@ mod tests {
     fn edits_change_the_text_and_say_what_moved() {
         let mut text = document("a𝛼µ\nx\n");
         let moved = text.edit(Some([(0, 1), (0, 3)]), "bc", Encoding::Utf16);
-        assert_eq!((text.text(), moved), ("abcµ\nx\n", Moved { range: 1..5, length: 2 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\nx\n", Moved { range: 1..5, length: 2 }));
         let moved = text.edit(Some([(9, 9), (9, 9)]), "end", Encoding::Utf16);
-        assert_eq!((text.text(), moved), ("abcµ\nx\nend", Moved { range: 8..8, length: 3 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\nx\nend", Moved { range: 8..8, length: 3 }));
         let moved = text.edit(None, "abcµ\ny\nend", Encoding::Utf16);
-        assert_eq!((text.text(), moved), ("abcµ\ny\nend", Moved { range: 6..7, length: 1 }));
+        assert_eq!((&**text.text(), moved), ("abcµ\ny\nend", Moved { range: 6..7, length: 1 }));
     }
 
     #[test]
     fn a_byte_order_mark_is_counted_on_its_line_alone() {
         let mut text = document("\u{feff}ab\ncd");
-        assert_eq!(text.text(), "ab\ncd");
+        assert_eq!(&**text.text(), "ab\ncd");
         assert_eq!(text.offset((0, 1), Encoding::Utf16), 0);
         assert_eq!(text.position(1, Encoding::Utf16), (0, 2));
         assert_eq!(text.position(4, Encoding::Utf8), (1, 1));
         text.edit(Some([(0, 1), (0, 2)]), "x", Encoding::Utf16);
-        assert_eq!((text.text(), text.position(0, Encoding::Utf16)), ("xb\ncd", (0, 1)));
+        assert_eq!((&**text.text(), text.position(0, Encoding::Utf16)), ("xb\ncd", (0, 1)));
         text.edit(Some([(0, 0), (0, 2)]), "y", Encoding::Utf16);
-        assert_eq!((text.text(), text.position(0, Encoding::Utf16)), ("yb\ncd", (0, 0)));
+        assert_eq!((&**text.text(), text.position(0, Encoding::Utf16)), ("yb\ncd", (0, 0)));
     }
 
     #[test]

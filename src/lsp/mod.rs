@@ -13,6 +13,7 @@ mod answers;
 mod capabilities;
 mod convert;
 mod documents;
+mod lines;
 mod log;
 mod pool;
 mod server;
@@ -25,6 +26,12 @@ pub use server::serve;
 
 use crate::world::World;
 use std::sync::Arc;
+
+/// The names of all requests that are answered, once a session has begun.
+pub fn methods() -> impl Iterator<Item = &'static str> {
+    let pull = std::iter::once(server::PULL);
+    answers::TABLE.iter().map(|method| method.name).chain(pull)
+}
 
 /// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone. Whether it ended as
 /// the protocol says.

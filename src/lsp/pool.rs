@@ -8,32 +8,40 @@ use std::thread;
 /// Stack of a thread (bytes): as much as a program's first one has.
 const STACK: usize = 8 << 20;
 
-/// As many threads for requests and quick stages; one more follows motions, which take long.
-const THREADS: usize = 2;
+/// What work is for; each kind has threads of its own, so that none waits for one that takes longer.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Kind {
+    /// What is said while somebody types.
+    Words,
+    /// What somebody asked for.
+    Request,
+    /// What is said right after; it is not cancelled at once.
+    Proof,
+    /// What may take long.
+    Motion,
+}
+
+/// Each kind with its number of threads.
+const THREADS: [(Kind, &str, usize); 4] =
+    [(Kind::Words, "words", 1), (Kind::Request, "request", 2), (Kind::Proof, "proof", 1), (Kind::Motion, "motion", 1)];
 
 type Work = Box<dyn FnOnce() + Send>;
 
 /// Where work is handed in.
 pub(super) struct Pool {
-    quick: Sender<Work>,
-    slow: Sender<Work>,
+    queues: [Sender<Work>; THREADS.len()],
 }
 
 impl Pool {
     /// Begins with its threads; they end when it is dropped and their work is done.
     pub fn new() -> Pool {
-        Pool { quick: workers("quick", THREADS), slow: workers("slow", 1) }
+        Pool { queues: THREADS.map(|(_, name, count)| workers(name, count)) }
     }
 
-    /// What somebody waits for.
-    pub fn soon(&self, work: impl FnOnce() + Send + 'static) {
+    /// Does something as soon as a thread of its kind is free.
+    pub fn begin(&self, kind: Kind, work: impl FnOnce() + Send + 'static) {
         // the threads are there as long as their channel
-        let _ = self.quick.send(Box::new(work));
-    }
-
-    /// What may take long.
-    pub fn later(&self, work: impl FnOnce() + Send + 'static) {
-        let _ = self.slow.send(Box::new(work));
+        let _ = self.queues[kind as usize].send(Box::new(work));
     }
 }
 
@@ -60,7 +68,7 @@ fn words(panic: &(dyn Any + Send)) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pool, caught};
+    use super::{Kind, Pool, THREADS, caught};
     use crossbeam_channel::unbounded;
 
     #[test]
@@ -68,7 +76,7 @@ mod tests {
         let (pool, (sender, receiver)) = (Pool::new(), unbounded());
         for k in 0..10 {
             let sender = sender.clone();
-            pool.soon(move || {
+            pool.begin(Kind::Request, move || {
                 let told = caught(|| assert!(k % 2 == 0, "odd {k}")).err();
                 sender.send((k, told)).expect("it is open");
             });
@@ -77,5 +85,23 @@ mod tests {
         told.sort();
         assert_eq!(told[3], (3, Some("odd 3".to_owned())));
         assert_eq!(told.iter().filter(|(_, told)| told.is_none()).count(), 5);
+    }
+
+    #[test]
+    fn each_kind_finds_its_threads() {
+        for (k, (kind, ..)) in THREADS.into_iter().enumerate() {
+            assert_eq!(kind as usize, k);
+        }
+    }
+
+    #[test]
+    fn words_do_not_wait_for_a_proof() {
+        let (pool, (sender, receiver)) = (Pool::new(), unbounded());
+        let (until, end) = unbounded::<()>();
+        // it takes until the words are there
+        pool.begin(Kind::Proof, move || assert!(end.recv().is_err()));
+        pool.begin(Kind::Words, move || sender.send("words").expect("it is open"));
+        assert_eq!(receiver.recv(), Ok("words"));
+        drop(until);
     }
 }

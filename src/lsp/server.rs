@@ -3,9 +3,10 @@
 use super::answers::{Failure, Method, TABLE};
 use super::capabilities::{self, Client, Refreshes};
 use super::convert::{self, Texts};
-use super::documents::{Document, Documents, Position};
+use super::documents::{Document, Documents};
+use super::lines::Position;
 use super::log::Log;
-use super::pool::{Pool, caught};
+use super::pool::{Kind, Pool, caught};
 use super::stages::{Found, Shown};
 use crate::cancel::Cancel;
 use crate::ide::{self, Snapshot, Stage};
@@ -21,8 +22,14 @@ use std::time::{Duration, Instant};
 /// A motion is followed for so long at most; of what comes later nothing is said.
 const MOTION_LIMIT: Duration = Duration::from_secs(10);
 
+/// The request for diagnostics, which may have to wait for them.
+pub(super) const PULL: &str = "textDocument/diagnostic";
+
 /// How often it is looked whether a motion takes too long.
 const TICK: Duration = Duration::from_millis(200);
+
+/// How long nothing at all is done where nobody says anything.
+const IDLE: Duration = Duration::from_secs(3600);
 
 /// Serves a client until that says that it is enough, or is gone. Whether it ended as the protocol says.
 #[must_use]
@@ -130,8 +137,9 @@ impl Server {
                     }
                 },
                 recv(tasks) -> task => task.map_or((), |task| self.task(task)),
-                default(TICK) => self.end_long_motions(),
+                default(if self.motions.is_empty() { IDLE } else { TICK }) => {}
             }
+            self.end_long_motions();
         }
     }
 
@@ -165,9 +173,10 @@ impl Server {
             (State::Running, "shutdown") => {
                 self.state = State::ShutDown;
                 self.end_work();
+                self.answer_pulls(None);
                 self.answer(id, Value::Null);
             }
-            (State::Running, "textDocument/diagnostic") => self.pull(id, &params),
+            (State::Running, PULL) => self.pull(id, &params),
             (State::Running, name) => match TABLE.iter().find(|method| method.name == name) {
                 Some(method) => self.begin(id, method, params),
                 None => self.refuse(id, ErrorCode::MethodNotFound, &format!("there is no method `{name}`")),
@@ -181,7 +190,7 @@ impl Server {
         let kept = if method.is_retried { params.clone() } else { Value::Null };
         self.pending.insert(id.clone(), Pending { method, params: kept });
         let (texts, done) = (self.texts(), self.done.clone());
-        self.pool.soon(move || {
+        self.pool.begin(Kind::Request, move || {
             let answer = caught(|| (method.answer)(&texts, params)).unwrap_or_else(|why| Err(Failure::Panicked(why)));
             // the server may have ended
             let _ = done.send(Task::Answered(id, answer));
@@ -219,8 +228,15 @@ impl Server {
         let (uri, text) = (given.get("uri")?.as_str()?, given.get("text")?.as_str()?);
         let version = version_of(given);
         let path = convert::identity(uri, &self.snapshot);
-        self.documents.set(Arc::clone(&path), Document::new(uri.to_owned(), version, text.to_owned()));
-        self.shown.insert(Arc::clone(&path), Shown::default());
+        let mut document = Document::new(uri.to_owned(), version, text);
+        if let Some(open) = self.documents.get(&path) {
+            // what is shown of it is still shown
+            document = Document::clone(open);
+            (document.uri, document.version) = (uri.to_owned(), version);
+            self.edit(&path, &mut document, None, text);
+        }
+        self.documents.set(Arc::clone(&path), document);
+        self.shown.entry(Arc::clone(&path)).or_default();
         self.replace(&path);
         Some(())
     }
@@ -230,18 +246,26 @@ impl Server {
         let path = convert::identity(given.get("uri")?.as_str()?, &self.snapshot);
         let mut document = Document::clone(self.documents.get(&path)?);
         document.version = version_of(given);
-        for change in params.get("contentChanges")?.as_array()? {
-            let range = change.get("range").filter(|range| !range.is_null());
-            let range = match range {
-                None => None,
-                Some(range) => Some([position(range.get("start")?)?, position(range.get("end")?)?]),
-            };
-            let moved = document.edit(range, change.get("text")?.as_str()?, self.client.encoding);
-            self.shown.get_mut(&path)?.edit(&moved);
+        let changes = params.get("contentChanges")?.as_array()?;
+        // all of them or none
+        for (range, text) in changes.iter().map(change).collect::<Option<Vec<_>>>()? {
+            self.edit(&path, &mut document, range, text);
         }
         self.documents.set(Arc::clone(&path), document);
         self.replace(&path);
         Some(())
+    }
+
+    /// Edits a text, and moves along what is shown of it.
+    fn edit(&mut self, path: &Path, document: &mut Document, range: Option<[Position; 2]>, text: &str) {
+        let moved = document.edit(range, text, self.client.encoding);
+        for (other, shown) in &mut self.shown {
+            if **other == *path {
+                shown.edit(path, &moved);
+            } else {
+                shown.edit_elsewhere(path, &moved);
+            }
+        }
     }
 
     fn closed(&mut self, params: &Value) -> Option<()> {
@@ -249,6 +273,7 @@ impl Server {
         let path = convert::identity(uri, &self.snapshot);
         self.documents.close(&path);
         self.shown.remove(&path)?;
+        self.answer_pulls(Some(&path));
         if !self.client.pulls_diagnostics {
             self.tell(uri, Value::Null, &[]);
         }
@@ -271,7 +296,7 @@ impl Server {
     fn look_for_files(&self) {
         let (folders, world, done) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()), self.done.clone());
         if !folders.is_empty() {
-            self.pool.later(move || {
+            self.pool.begin(Kind::Proof, move || {
                 let files = caught(|| ide::files_in(&folders, &*world, &Cancel::default())).unwrap_or_default();
                 let _ = done.send(Task::Files(files));
             });
@@ -316,7 +341,7 @@ impl Server {
     fn replace(&mut self, path: &Arc<Path>) {
         self.end_work();
         self.edited = Some(Arc::clone(path));
-        let text = self.documents.get(path).map(|document| Arc::from(document.text()));
+        let text = self.documents.get(path).map(|document| Arc::clone(document.text()));
         let before = self.snapshot.clone();
         self.snapshot = self.snapshot.with_text(path, text);
         self.revision += 1;
@@ -348,12 +373,15 @@ impl Server {
             let found = caught(|| found(&snapshot, &path, stage, &cancel));
             let _ = done.send(Task::Found { path, revision, stage, found, took: begin.elapsed() });
         };
+        let kind = match stage {
+            Stage::Words => Kind::Words,
+            Stage::Proof => Kind::Proof,
+            Stage::Motion => Kind::Motion,
+        };
         if stage == Stage::Motion {
             self.motions.push((motion, Instant::now() + MOTION_LIMIT));
-            self.pool.later(work);
-        } else {
-            self.pool.soon(work);
         }
+        self.pool.begin(kind, work);
     }
 
     fn end_long_motions(&mut self) {
@@ -370,7 +398,7 @@ impl Server {
                 self.snapshot = self.snapshot.with_files(files);
             }
             Task::Found { path, revision, stage, found, took } => {
-                if revision == self.revision {
+                if revision == self.revision && self.state == State::Running {
                     self.log.did(|| format!("{stage:?} of {} took {:.3} ms", path.display(), took.as_secs_f64() * 1e3));
                     self.take(&path, stage, found);
                 }
@@ -408,12 +436,7 @@ impl Server {
         self.refresh(path, stage);
         if self.client.pulls_diagnostics {
             if stage == Stage::Words {
-                let (now, later): (Vec<Pull>, _) =
-                    std::mem::take(&mut self.pulls).into_iter().partition(|pull| pull.path == *path);
-                self.pulls = later;
-                for pull in now {
-                    self.answer_pull(pull);
-                }
+                self.answer_pulls(Some(path));
             } else if is_new {
                 self.ask("workspace/diagnostic/refresh");
             }
@@ -421,6 +444,18 @@ impl Server {
             self.push(path);
         }
         self.look(path);
+        if stage == Stage::Words {
+            self.learn_names(path);
+        }
+    }
+
+    /// Makes the list of a text's names, which most requests ask for, before anybody does.
+    fn learn_names(&self, path: &Arc<Path>) {
+        let (path, snapshot) = (Arc::clone(path), self.snapshot.clone());
+        self.pool.begin(Kind::Request, move || {
+            // a mistake of ours is met again, and told, by who asks
+            let _ = caught(|| ide::learn_names(&snapshot, &path));
+        });
     }
 
     /// Has the client ask again for what a stage has changed, and it would not by itself.
@@ -452,6 +487,15 @@ impl Server {
             // until its words are known
             Some(Some(Stage::Words)) => self.pulls.push(pull),
             _ => self.answer_pull(pull),
+        }
+    }
+
+    /// Answers those who wait for the words of a text, or of all.
+    fn answer_pulls(&mut self, path: Option<&Path>) {
+        let is_it = |pull: &mut Pull| path.is_none_or(|path| *pull.path == *path);
+        let answered: Vec<Pull> = self.pulls.extract_if(.., is_it).collect();
+        for pull in answered {
+            self.answer_pull(pull);
         }
     }
 
@@ -510,6 +554,15 @@ fn found(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Cancel) -> Opt
         Stage::Motion => false,
     };
     Some(Found { said, goes_on })
+}
+
+/// A change of a text: where, and to what.
+fn change(given: &Value) -> Option<(Option<[Position; 2]>, &str)> {
+    let range = match given.get("range").filter(|range| !range.is_null()) {
+        None => None,
+        Some(range) => Some([position(range.get("start")?)?, position(range.get("end")?)?]),
+    };
+    Some((range, given.get("text")?.as_str()?))
 }
 
 fn version_of(document: &Value) -> i32 {

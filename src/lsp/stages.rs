@@ -4,7 +4,9 @@
 //! the edits; it goes at once where an earlier stage finds that there is nothing to prove or to follow.
 
 use super::documents::Moved;
-use crate::ide::{Said, Stage};
+use crate::ide::{Change, Said, Stage, Stretch};
+use std::ops::Range;
+use std::path::Path;
 
 /// What is said of a text.
 #[derive(Default)]
@@ -28,13 +30,33 @@ pub(super) struct Found {
 }
 
 impl Shown {
-    /// The text was edited.
-    pub fn edit(&mut self, moved: &Moved) {
-        for said in self.proof.iter_mut().chain(&mut self.motion) {
+    /// The text was edited, which is that of a file.
+    pub fn edit(&mut self, file: &Path, moved: &Moved) {
+        for said in self.late() {
             said.range = moved.applied(&said.range);
         }
+        self.edit_elsewhere(file, moved);
         self.has_moved = true;
         self.reached = None;
+    }
+
+    /// A text was edited that may be spoken of here: places in it move along, and a change of what is not the same any more is no
+    /// longer proposed.
+    pub fn edit_elsewhere(&mut self, file: &Path, moved: &Moved) {
+        for said in self.late() {
+            for related in said.related.iter_mut().filter(|related| *related.place.path == *file) {
+                move_along(&mut related.place, moved);
+            }
+            let is_there = |change: &Change| *change.place.path == *file;
+            said.fixes.retain(|fix| !fix.changes.iter().any(|c| is_there(c) && moved.meets(&c.place.range())));
+            let changes = said.fixes.iter_mut().flat_map(|fix| &mut fix.changes);
+            changes.filter(|change| is_there(change)).for_each(|change| move_along(&mut change.place, moved));
+        }
+    }
+
+    /// What the stages said that take longer than a keystroke.
+    fn late(&mut self) -> impl Iterator<Item = &mut Said> {
+        self.proof.iter_mut().chain(&mut self.motion)
     }
 
     /// What was found before need not hold any more, though the text is the same.
@@ -88,10 +110,16 @@ impl Shown {
     }
 }
 
+fn move_along(place: &mut Stretch, moved: &Moved) {
+    let Range { start, end } = moved.applied(&place.range());
+    (place.start, place.end) = (start, end);
+}
+
 #[cfg(test)]
 mod tests {
     use super::{Found, Moved, Said, Shown, Stage};
-    use crate::ide::Severity;
+    use crate::ide::{Change, ProposedFix, Related, Severity, Stretch};
+    use std::path::Path;
 
     fn said(message: &str, start: u32) -> Said {
         Said {
@@ -120,7 +148,7 @@ mod tests {
         assert!(!shown.take(Stage::Words, found(&[], true)), "nothing is nothing new");
         assert!(shown.take(Stage::Proof, found(&[("free", 10)], false)));
         assert_eq!(shown.next(), None);
-        shown.edit(&Moved { range: 2..2, length: 5 });
+        shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 5 });
         assert!(shown.take(Stage::Words, found(&[], true)), "it stands elsewhere");
         assert_eq!(all(&shown), [("free".to_owned(), 15)]);
         assert!(shown.take(Stage::Proof, found(&[], true)));
@@ -133,8 +161,33 @@ mod tests {
         shown.take(Stage::Words, found(&[], true));
         shown.take(Stage::Proof, found(&[("warning", 10)], true));
         shown.take(Stage::Motion, found(&[("lock-up", 20)], false));
-        shown.edit(&Moved { range: 2..2, length: 5 });
+        shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 5 });
         assert!(shown.take(Stage::Words, found(&[("unknown", 1)], false)));
         assert_eq!((all(&shown), shown.next()), (vec![("unknown".to_owned(), 1)], None));
+    }
+
+    #[test]
+    fn related_places_and_fixes_move_with_what_they_belong_to() {
+        let place = |path: &str, start| Stretch { path: Path::new(path).into(), start, end: start + 4 };
+        let related = |path: &str| Related { place: place(path, 20), text: String::new() };
+        let fix = |path: &str, start| ProposedFix {
+            message: format!("{path} {start}"),
+            is_certain: true,
+            changes: vec![Change { place: place(path, start), text: String::new() }],
+        };
+        let mut told = said("free", 30);
+        told.related = vec![related("a.mech"), related("b.mech")];
+        told.fixes = vec![fix("a.mech", 2), fix("a.mech", 30), fix("b.mech", 2)];
+        let mut shown = Shown::default();
+        shown.take(Stage::Words, found(&[], true));
+        shown.take(Stage::Proof, Found { said: vec![told], goes_on: false });
+        shown.edit(Path::new("a.mech"), &Moved { range: 4..5, length: 2 });
+        let told = shown.all().remove(0);
+        assert_eq!(told.related.iter().map(|related| related.place.start).collect::<Vec<_>>(), [21, 20]);
+        let fixes = told.fixes.iter().map(|fix| (fix.message.as_str(), fix.changes[0].place.start));
+        assert_eq!(fixes.collect::<Vec<_>>(), [("a.mech 30", 31), ("b.mech 2", 2)]);
+        shown.edit_elsewhere(Path::new("b.mech"), &Moved { range: 0..0, length: 7 });
+        let told = shown.all().remove(0);
+        assert_eq!((told.range.start, told.related[1].place.start, told.fixes[1].changes[0].place.start), (31, 27, 9));
     }
 }

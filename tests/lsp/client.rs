@@ -1,13 +1,13 @@
 //! A client in memory: what an editor would say, and what it would show.
 
 use lsp_server::{Connection, Message, Notification, Request, Response};
-use mechc::Memory;
 use mechc::rooms::lsp::{Log, serve};
+use mechc::{Memory, World};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::Arc;
 use std::thread::{self, JoinHandle};
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 /// What is not answered by then is not answered at all.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -25,15 +25,24 @@ pub struct Client {
 impl Client {
     /// An editor with some abilities, that has said `initialized`.
     pub fn new(capabilities: &Value, files: Memory) -> Client {
-        let mut client = Client::before_initialize(files);
+        Client::over(capabilities, Arc::new(files))
+    }
+
+    /// The same, over files that may change.
+    pub fn over(capabilities: &Value, files: Arc<dyn World>) -> Client {
+        let mut client = Client::serving(files);
         client.request("initialize", json!({ "processId": null, "rootUri": null, "capabilities": capabilities }));
         client.notify("initialized", json!({}));
         client
     }
 
     pub fn before_initialize(files: Memory) -> Client {
+        Client::serving(Arc::new(files))
+    }
+
+    fn serving(files: Arc<dyn World>) -> Client {
         let (connection, other) = Connection::memory();
-        let server = thread::spawn(move || serve(other, Arc::new(files), Log::none()));
+        let server = thread::spawn(move || serve(other, files, Log::none()));
         Client { connection, server, next_id: 0, waiting: VecDeque::new(), versions: BTreeMap::new() }
     }
 
@@ -115,6 +124,34 @@ impl Client {
     pub fn pulled(&mut self, uri: &str) -> Vec<String> {
         let report = self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
         report["items"].as_array().expect("a list").iter().map(line).collect()
+    }
+
+    /// Asks for the diagnostics of a text until they are what they should be: `line:column code message` of each.
+    pub fn pulls_until(&mut self, uri: &str, expected: &[String], patience: Duration) {
+        let begin = Instant::now();
+        loop {
+            let report = self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
+            let mut told: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
+            let mut expected = expected.to_vec();
+            (told.sort(), expected.sort());
+            if told == expected {
+                return;
+            }
+            assert!(begin.elapsed() < patience, "it says\n{}\nand not\n{}", told.join("\n"), expected.join("\n"));
+            thread::sleep(Duration::from_millis(5));
+        }
+    }
+
+    /// Answers that nobody has taken, and those that come while the server still works.
+    pub fn answers_left(&mut self) -> Vec<Response> {
+        // what was asked before this is answered before, or never
+        self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": "file:///none.mech" } }));
+        let (answers, others) =
+            std::mem::take(&mut self.waiting).into_iter().partition(|m| matches!(m, Message::Response(_)));
+        self.waiting = others;
+        let answers: VecDeque<Message> = answers;
+        let answer = |message| if let Message::Response(answer) = message { Some(answer) } else { None };
+        answers.into_iter().filter_map(answer).collect()
     }
 
     /// What the server asks, which is answered with nothing.
