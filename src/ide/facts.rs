@@ -196,11 +196,11 @@ fn dimension_of(unit: &str) -> Option<Dimension> {
 
 #[cfg(test)]
 mod tests {
-    use super::dimension_of;
+    use super::{Dimension, dimension_of};
 
     #[test]
     fn units_of_tables_have_dimensions() {
-        let words = |unit: &str| dimension_of(unit).map(|dimension| dimension.in_words());
+        let words = |unit: &str| dimension_of(unit).map(Dimension::in_words);
         assert_eq!(words("mm/s").as_deref(), Some("a speed (m/s)"));
         assert_eq!(words("m/s^2").as_deref(), Some("an acceleration (m/s^2)"));
         assert_eq!(words("1/s").as_deref(), Some("a rate (1/s)"));

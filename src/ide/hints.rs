@@ -117,7 +117,7 @@ mod tests {
         for hint in found.iter().rev() {
             text.insert_str(hint.offset as usize, &format!("⟨{}⟩", hint.label));
         }
-        text.lines().filter(|line| line.contains('⟨')).map(|line| format!("{}\n", line.trim())).collect()
+        text.lines().filter(|line| line.contains('⟨')).map(str::trim).collect::<Vec<&str>>().join("\n")
     }
 
     #[test]
