@@ -40,9 +40,12 @@ pub mod cli;
 mod diag;
 mod emit;
 mod expr;
+mod ide;
 mod import;
 mod ir;
 mod lower;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod math;
 mod model;
 mod output;
@@ -80,9 +83,12 @@ pub mod rooms {
     pub mod diag { pub use crate::diag::*; }
     pub mod emit { pub use crate::emit::*; }
     pub mod expr { pub use crate::expr::*; }
+    pub mod ide { pub use crate::ide::*; }
     pub mod import { pub use crate::import::*; }
     pub mod ir { pub use crate::ir::*; }
     pub mod lower { pub use crate::lower::*; }
+    #[cfg(feature = "lsp")]
+    pub mod lsp { pub use crate::lsp::*; }
     pub mod math { pub use crate::math::*; }
     pub mod model { pub use crate::model::*; }
     pub mod program { pub use crate::program::*; }

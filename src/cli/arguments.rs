@@ -102,6 +102,21 @@ pub(super) enum Command {
         after_help = "Examples:\n  mechc explain E0203\n  mechc explain step5\n  mechc explain joints | less\n  mechc explain"
     )]
     Explain(ExplainArguments),
+    /// The language server, which an editor starts
+    #[cfg(feature = "lsp")]
+    #[command(long_about = "The language server, which an editor starts.\n\n\
+        It speaks the language server protocol over standard input and output: diagnostics while you type, what a name or word is, \
+        the declarations of a file. Nobody types this command: an editor's extension or configuration names it.")]
+    Lsp(LspArguments),
+}
+
+/// Of the language server.
+#[cfg(feature = "lsp")]
+#[derive(Args, Debug)]
+pub(super) struct LspArguments {
+    /// Write every message with its time, and what the server did, into FILE
+    #[arg(long, value_name = "FILE")]
+    pub log: Option<PathBuf>,
 }
 
 /// What all commands that read a .mech file share.
@@ -134,7 +149,7 @@ pub(super) struct Input {
 }
 
 /// How a command speaks to its user.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 pub(super) struct Messages {
     /// How diagnostics are written
     #[arg(long, value_enum, default_value_t, value_name = "FORMAT")]

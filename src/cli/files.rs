@@ -77,7 +77,7 @@ impl World for Disk {
     }
 }
 
-fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
+pub(super) fn cannot_write(name: &str, error: &io::Error) -> Diagnostic {
     Diagnostic::new(Code::E0702, format!("cannot write `{name}`: {}", world::reason(error)))
 }
 

@@ -15,6 +15,8 @@ mod formula;
 mod import;
 mod input;
 mod interrupts;
+#[cfg(feature = "lsp")]
+mod lsp;
 mod progress;
 mod report;
 mod results;
@@ -42,7 +44,20 @@ pub fn main() -> ExitCode {
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
         Command::Explain(explain) => reported(&explain.messages, |_| explain::explain(&explain)),
         Command::Import(import) => reported(&import.messages, |reporter| import::import(&import, reporter)),
+        #[cfg(feature = "lsp")]
+        Command::Lsp(lsp) => serve(&lsp),
     })
+}
+
+/// Serves an editor; gives the exit code that the protocol wants.
+#[cfg(feature = "lsp")]
+fn serve(arguments: &arguments::LspArguments) -> u8 {
+    let mut ended_well = false;
+    let code = reported(&Messages::default(), |_| {
+        ended_well = lsp::lsp(arguments)?;
+        Ok(())
+    });
+    if ended_well { code } else { code.max(1) }
 }
 
 /// Does a command's work and says why it ended; gives the exit code.

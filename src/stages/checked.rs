@@ -63,6 +63,17 @@ impl Parsed {
         Checked::of(self, choice, world)
     }
 
+    /// Checks each of its mechanisms, in order; the files that it uses are read once. One alone without any mechanism where there is none.
+    #[must_use]
+    pub fn check_each(&self, world: &dyn World) -> Vec<Checked> {
+        if self.mechanisms().len() == 0 {
+            return vec![self.check(&Choice::default(), world)];
+        }
+        let used = used::read(self, world);
+        let of_number = |number| Checked::of_number(self, &used, number, &Choice::default(), world);
+        (0..self.mechanisms().len()).map(of_number).collect()
+    }
+
     /// The changes of its text that its diagnostics propose and that always apply: those of the syntax, and where there are none, those of
     /// what the declarations of all its mechanisms mean.
     #[must_use]
@@ -162,6 +173,30 @@ impl Checked {
     #[must_use]
     pub fn sources(&self) -> &Sources {
         self.parsed.sources()
+    }
+
+    /// Its own text among them.
+    #[must_use]
+    pub fn file(&self) -> FileId {
+        self.parsed.file()
+    }
+
+    /// The place of the mechanism: from its keyword to the brace that closes it.
+    #[must_use]
+    pub fn span(&self) -> Option<Span> {
+        Some(self.tree()?.span)
+    }
+
+    /// Whether another mechanism of its text has it for a part.
+    #[must_use]
+    pub fn is_part_of_another(&self) -> bool {
+        let Some(own) = self.tree() else { return false };
+        let is_it = |name: &ast::MechanismName| name.prefix.is_none() && name.name.text == own.name.text;
+        self.parsed.tree().mechanisms.iter().any(|other| other.name != own.name && parts(other).any(is_it))
+    }
+
+    fn tree(&self) -> Option<&ast::Mechanism> {
+        self.parsed.tree().mechanisms.get(self.number?)
     }
 
     /// All that is to be said of the text up to here, its faults included.

@@ -1,0 +1,117 @@
+//! Between places of files and the words of the protocol.
+
+use super::documents::{Document, Documents};
+use crate::check::NameKind;
+use crate::ide::{Place, Said, Severity, Snapshot, Stretch};
+use crate::source::Encoding;
+use crate::world::World;
+use gen_lsp_types as lsp;
+use std::ops::Range;
+use std::path::Path;
+use std::sync::Arc;
+
+/// What it takes to turn places of one moment into the client's: its open texts, and how it counts.
+#[derive(Clone)]
+pub(super) struct Texts {
+    pub snapshot: Snapshot,
+    pub documents: Documents,
+    pub encoding: Encoding,
+}
+
+impl Texts {
+    /// The file of a URI, by its identity.
+    pub fn path(&self, uri: &lsp::Uri) -> Arc<Path> {
+        identity(&uri.0, &self.snapshot)
+    }
+
+    /// A place that the client gives.
+    pub fn place(&self, given: &lsp::TextDocumentPositionParams) -> Option<Place> {
+        let path = self.path(&given.text_document.uri);
+        let document = self.text(&path)?;
+        let offset = document.offset((given.position.line, given.position.character), self.encoding);
+        Some(Place { path, offset })
+    }
+
+    /// A stretch of a file, for the client.
+    pub fn range(&self, path: &Path, range: &Range<u32>) -> Option<lsp::Range> {
+        Some(range_in(&*self.text(path)?, range, self.encoding))
+    }
+
+    /// A stretch with its file, for the client.
+    pub fn location(&self, place: &Stretch) -> Option<lsp::Location> {
+        let path: Arc<Path> = self.snapshot.buffers().identity(&place.path).into();
+        let range = self.range(&path, &place.range())?;
+        Some(lsp::Location { uri: lsp::Uri(self.documents.uri(&path)), range })
+    }
+
+    /// A diagnostic of a file.
+    pub fn diagnostic(&self, path: &Path, said: &Said) -> Option<lsp::Diagnostic> {
+        let related = said.related.iter().filter_map(|related| {
+            let message = if related.text.is_empty() { said.message.clone() } else { related.text.clone() };
+            Some(lsp::DiagnosticRelatedInformation { location: self.location(&related.place)?, message })
+        });
+        let related: Vec<_> = related.collect();
+        let lines: Vec<&str> = std::iter::once(&said.message).chain(&said.more).map(String::as_str).collect();
+        Some(lsp::Diagnostic {
+            range: self.range(path, &said.range)?,
+            severity: Some(match said.severity {
+                Severity::Error => lsp::DiagnosticSeverity::Error,
+                Severity::Warning => lsp::DiagnosticSeverity::Warning,
+                Severity::Note => lsp::DiagnosticSeverity::Information,
+            }),
+            code: Some(said.code.to_owned().into()),
+            code_description: None,
+            source: Some("mechc".to_owned()),
+            message: lines.join("\n").into(),
+            tags: None,
+            related_information: (!related.is_empty()).then_some(related),
+            data: None,
+        })
+    }
+
+    /// A file with its lines.
+    fn text(&self, path: &Path) -> Option<Arc<Document>> {
+        if let Some(open) = self.documents.get(path) {
+            return Some(Arc::clone(open));
+        }
+        let bytes = self.snapshot.buffers().read(path).ok()?.bytes;
+        let text = std::str::from_utf8(&bytes).ok()?;
+        Some(Arc::new(Document::new(String::new(), 0, text.to_owned())))
+    }
+}
+
+/// What tells the file of a URI from all others.
+pub(super) fn identity(uri: &str, snapshot: &Snapshot) -> Arc<Path> {
+    snapshot.buffers().identity(&super::uri::path_of(uri)).into()
+}
+
+fn range_in(document: &Document, range: &Range<u32>, encoding: Encoding) -> lsp::Range {
+    let position = |offset: u32| {
+        let (line, character) = document.position(offset, encoding);
+        lsp::Position { line, character }
+    };
+    lsp::Range { start: position(range.start), end: position(range.end) }
+}
+
+/// Text with formatting.
+pub(super) fn markdown(text: String) -> lsp::MarkupContent {
+    lsp::MarkupContent { kind: lsp::MarkupKind::Markdown, value: text }
+}
+
+/// What the client shows a declaration as.
+pub(super) fn symbol_kind(kind: NameKind) -> lsp::SymbolKind {
+    match kind {
+        NameKind::Mechanism => lsp::SymbolKind::Module,
+        NameKind::Prefix => lsp::SymbolKind::Namespace,
+        NameKind::Param => lsp::SymbolKind::Constant,
+        NameKind::Function => lsp::SymbolKind::Function,
+        NameKind::Argument | NameKind::Measure | NameKind::Trace | NameKind::Result => lsp::SymbolKind::Variable,
+        NameKind::Table => lsp::SymbolKind::Array,
+        NameKind::Input | NameKind::Driver => lsp::SymbolKind::Event,
+        NameKind::Ground | NameKind::Body => lsp::SymbolKind::Class,
+        NameKind::Part => lsp::SymbolKind::Object,
+        NameKind::Point | NameKind::Axis | NameKind::Circle | NameKind::Curve => lsp::SymbolKind::Field,
+        NameKind::Joint | NameKind::Constraint => lsp::SymbolKind::Interface,
+        NameKind::Broken => lsp::SymbolKind::Null,
+    }
+}

@@ -1,0 +1,37 @@
+//! The language server: what `ide` answers, in the words of the language server protocol.
+//!
+//! Thin: it keeps the open documents, hands requests to a pool with the snapshot of their moment, and says what is to be said of texts
+//! in stages. What a text means is for `ide`. It knows threads, the clock and its own pipe, and nobody else's files: these come through
+//! [`World`].
+//!
+//! ```text
+//! pipe ──transport──▶ server ──▶ pool: answers ──▶ ide ──▶ server ──transport──▶ pipe
+//!                       └─ documents, stages (what is said of each)
+//! ```
+
+mod answers;
+mod capabilities;
+mod convert;
+mod documents;
+mod log;
+mod pool;
+mod server;
+mod stages;
+mod transport;
+mod uri;
+
+pub use log::Log;
+pub use server::serve;
+
+use crate::world::World;
+use std::sync::Arc;
+
+/// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone. Whether it ended as
+/// the protocol says.
+#[must_use]
+pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> bool {
+    let (connection, transport) = transport::standard();
+    let ended_well = serve(connection, world, log);
+    transport.finish();
+    ended_well
+}

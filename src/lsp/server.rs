@@ -1,0 +1,442 @@
+//! The loop: messages and what the pool has done, one after the other. It alone owns what changes.
+
+use super::answers::{Failure, Method, TABLE};
+use super::capabilities::{self, Client};
+use super::convert::{self, Texts};
+use super::documents::{Document, Documents, Position};
+use super::log::Log;
+use super::pool::{Pool, caught};
+use super::stages::{Found, Shown};
+use crate::cancel::Cancel;
+use crate::ide::{self, Snapshot, Stage};
+use crate::world::World;
+use crossbeam_channel::{Receiver, Sender, select, unbounded};
+use lsp_server::{Connection, ErrorCode, Message, Notification, Request, RequestId, Response, ResponseError};
+use serde_json::{Value, json};
+use std::collections::{BTreeMap, HashMap};
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// A motion is followed for so long at most; of what comes later nothing is said.
+const MOTION_LIMIT: Duration = Duration::from_secs(10);
+
+/// How often it is looked whether a motion takes too long.
+const TICK: Duration = Duration::from_millis(200);
+
+/// Serves a client until that says that it is enough, or is gone. Whether it ended as the protocol says.
+#[must_use]
+pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
+    let Connection { sender, receiver } = connection;
+    let (done, tasks) = unbounded();
+    let mut server = Server {
+        client: Client::of(&Value::Null),
+        state: State::New,
+        sender,
+        done,
+        pool: Pool::new(),
+        log,
+        documents: Documents::default(),
+        snapshot: Snapshot::new(world),
+        shown: BTreeMap::new(),
+        revision: 0,
+        motions: Vec::new(),
+        pending: HashMap::new(),
+        pulls: Vec::new(),
+        next_id: 0,
+    };
+    server.run(&receiver, &tasks)
+}
+
+/// How far a session has come.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum State {
+    New,
+    Running,
+    ShutDown,
+}
+
+/// What the pool has done.
+enum Task {
+    Answered(RequestId, Result<Value, Failure>),
+    Found { path: Arc<Path>, revision: u64, stage: Stage, found: Result<Option<Found>, String>, took: Duration },
+}
+
+/// A request that is being answered.
+struct Pending {
+    method: &'static Method,
+    /// For those that are begun again.
+    params: Value,
+}
+
+/// A request for diagnostics that waits for the words of the text as it is.
+struct Pull {
+    id: RequestId,
+    path: Arc<Path>,
+    /// What the client has.
+    known: Option<String>,
+}
+
+struct Server {
+    client: Client,
+    state: State,
+    sender: Sender<Message>,
+    done: Sender<Task>,
+    pool: Pool,
+    log: Log,
+    documents: Documents,
+    snapshot: Snapshot,
+    shown: BTreeMap<Arc<Path>, Shown>,
+    /// Counts the changes of the snapshot.
+    revision: u64,
+    /// The motions that are being followed, and until when.
+    motions: Vec<(Cancel, Instant)>,
+    pending: HashMap<RequestId, Pending>,
+    pulls: Vec<Pull>,
+    /// Of the server's own requests.
+    next_id: i32,
+}
+
+impl Server {
+    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>) -> bool {
+        loop {
+            select! {
+                recv(receiver) -> message => match message {
+                    Err(_) => return false,
+                    Ok(message) => {
+                        self.log.message('<', &message);
+                        match message {
+                            Message::Request(request) => self.request(request),
+                            Message::Response(_) => {}
+                            Message::Notification(notification) if notification.method == "exit" => {
+                                return self.state == State::ShutDown;
+                            }
+                            Message::Notification(notification) => self.notification(notification),
+                        }
+                    }
+                },
+                recv(tasks) -> task => task.map_or((), |task| self.task(task)),
+                default(TICK) => self.end_long_motions(),
+            }
+        }
+    }
+
+    fn send(&self, message: impl Into<Message>) {
+        let message = message.into();
+        self.log.message('>', &message);
+        // a client that is gone is seen by the next message that it does not send
+        let _ = self.sender.send(message);
+    }
+
+    fn answer(&self, id: RequestId, result: Value) {
+        self.send(Response { id, response_result: Ok(result) });
+    }
+
+    fn refuse(&self, id: RequestId, code: ErrorCode, message: &str) {
+        let error = ResponseError { code: code as i32, message: message.to_owned(), data: None };
+        self.send(Response { id, response_result: Err(error) });
+    }
+
+    fn request(&mut self, request: Request) {
+        let Request { id, method, params } = request;
+        match (self.state, method.as_str()) {
+            (State::New, "initialize") => {
+                self.client = Client::of(&params);
+                self.state = State::Running;
+                self.answer(id, capabilities::of_server(&self.client));
+            }
+            (State::New, _) => self.refuse(id, ErrorCode::ServerNotInitialized, "the first request is `initialize`"),
+            (State::Running, "initialize") => self.refuse(id, ErrorCode::InvalidRequest, "it is initialized already"),
+            (State::Running, "shutdown") => {
+                self.state = State::ShutDown;
+                self.end_work();
+                self.answer(id, Value::Null);
+            }
+            (State::Running, "textDocument/diagnostic") => self.pull(id, &params),
+            (State::Running, name) => match TABLE.iter().find(|method| method.name == name) {
+                Some(method) => self.begin(id, method, params),
+                None => self.refuse(id, ErrorCode::MethodNotFound, &format!("there is no method `{name}`")),
+            },
+            (State::ShutDown, _) => self.refuse(id, ErrorCode::InvalidRequest, "it is shut down"),
+        }
+    }
+
+    /// Hands a request to the pool.
+    fn begin(&mut self, id: RequestId, method: &'static Method, params: Value) {
+        let kept = if method.is_retried { params.clone() } else { Value::Null };
+        self.pending.insert(id.clone(), Pending { method, params: kept });
+        let (texts, done) = (self.texts(), self.done.clone());
+        self.pool.soon(move || {
+            let answer = caught(|| (method.answer)(&texts, params)).unwrap_or_else(|why| Err(Failure::Panicked(why)));
+            // the server may have ended
+            let _ = done.send(Task::Answered(id, answer));
+        });
+    }
+
+    fn texts(&self) -> Texts {
+        let encoding = self.client.encoding;
+        Texts { snapshot: self.snapshot.clone(), documents: self.documents.clone(), encoding }
+    }
+
+    fn notification(&mut self, notification: Notification) {
+        let Notification { method, params } = notification;
+        if self.state != State::Running {
+            return;
+        }
+        let done = match method.as_str() {
+            "textDocument/didOpen" => self.opened(&params),
+            "textDocument/didChange" => self.changed(&params),
+            "textDocument/didClose" => self.closed(&params),
+            "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
+            "$/cancelRequest" => self.cancelled(&params),
+            _ => Some(()),
+        };
+        if done.is_none() {
+            self.log.did(|| format!("`{method}` is not as the protocol says: {params}"));
+        }
+    }
+
+    fn opened(&mut self, params: &Value) -> Option<()> {
+        let given = params.get("textDocument")?;
+        let (uri, text) = (given.get("uri")?.as_str()?, given.get("text")?.as_str()?);
+        let version = version_of(given);
+        let path = convert::identity(uri, &self.snapshot);
+        self.documents.set(Arc::clone(&path), Document::new(uri.to_owned(), version, text.to_owned()));
+        self.shown.insert(Arc::clone(&path), Shown::default());
+        self.replace(&path);
+        Some(())
+    }
+
+    fn changed(&mut self, params: &Value) -> Option<()> {
+        let given = params.get("textDocument")?;
+        let path = convert::identity(given.get("uri")?.as_str()?, &self.snapshot);
+        let mut document = Document::clone(self.documents.get(&path)?);
+        document.version = version_of(given);
+        for change in params.get("contentChanges")?.as_array()? {
+            let range = change.get("range").filter(|range| !range.is_null());
+            let range = match range {
+                None => None,
+                Some(range) => Some([position(range.get("start")?)?, position(range.get("end")?)?]),
+            };
+            let moved = document.edit(range, change.get("text")?.as_str()?, self.client.encoding);
+            self.shown.get_mut(&path)?.edit(&moved);
+        }
+        self.documents.set(Arc::clone(&path), document);
+        self.replace(&path);
+        Some(())
+    }
+
+    fn closed(&mut self, params: &Value) -> Option<()> {
+        let uri = params.get("textDocument")?.get("uri")?.as_str()?;
+        let path = convert::identity(uri, &self.snapshot);
+        self.documents.close(&path);
+        self.shown.remove(&path)?;
+        if !self.client.pulls_diagnostics {
+            self.tell(uri, Value::Null, &[]);
+        }
+        self.replace(&path);
+        Some(())
+    }
+
+    /// Files on the disk are others, or gone, or new.
+    fn changed_behind(&mut self, params: &Value) -> Option<()> {
+        for change in params.get("changes")?.as_array()? {
+            let path = convert::identity(change.get("uri")?.as_str()?, &self.snapshot);
+            if self.documents.get(&path).is_none() {
+                self.replace(&path);
+            }
+        }
+        Some(())
+    }
+
+    fn cancelled(&mut self, params: &Value) -> Option<()> {
+        let id: RequestId = serde_json::from_value(params.get("id")?.clone()).ok()?;
+        let pull = self.pulls.iter().position(|pull| pull.id == id);
+        let is_pending = self.pending.remove(&id).is_some() || pull.map(|at| self.pulls.remove(at)).is_some();
+        if is_pending {
+            self.refuse(id, ErrorCode::RequestCanceled, "the client cancelled it");
+        }
+        Some(())
+    }
+
+    /// A file's text is another one: what was begun for the old snapshot ends, and all open texts that this concerns are looked at.
+    fn replace(&mut self, path: &Arc<Path>) {
+        self.end_work();
+        let text = self.documents.get(path).map(|document| Arc::from(document.text()));
+        let before = self.snapshot.clone();
+        self.snapshot = self.snapshot.with_text(path, text);
+        self.revision += 1;
+        // the edited text first
+        let others: Vec<Arc<Path>> = self.documents.paths().filter(|other| *other != path).cloned().collect();
+        for path in std::iter::once(path).chain(&others) {
+            let is_same = self.snapshot.is_same(&before, path);
+            if let Some(shown) = self.shown.get_mut(path).filter(|shown| !is_same || shown.next().is_some()) {
+                shown.begin_again();
+                self.look(path);
+            }
+        }
+    }
+
+    /// Ends what is being done for the snapshot.
+    fn end_work(&mut self) {
+        self.snapshot.cancel();
+        self.motions.drain(..).for_each(|(cancel, _)| cancel.cancel());
+    }
+
+    /// Begins the next stage of a text.
+    fn look(&mut self, path: &Arc<Path>) {
+        let Some(stage) = self.shown.get(path).and_then(Shown::next) else { return };
+        let (path, revision, snapshot) = (Arc::clone(path), self.revision, self.snapshot.clone());
+        let (done, cancel) = (self.done.clone(), Cancel::default());
+        let motion = cancel.clone();
+        let work = move || {
+            let begin = Instant::now();
+            let found = caught(|| found(&snapshot, &path, stage, &cancel));
+            let _ = done.send(Task::Found { path, revision, stage, found, took: begin.elapsed() });
+        };
+        if stage == Stage::Motion {
+            self.motions.push((motion, Instant::now() + MOTION_LIMIT));
+            self.pool.later(work);
+        } else {
+            self.pool.soon(work);
+        }
+    }
+
+    fn end_long_motions(&mut self) {
+        let now = Instant::now();
+        self.motions.iter().filter(|(_, end)| *end < now).for_each(|(cancel, _)| cancel.cancel());
+        self.motions.retain(|(cancel, _)| !cancel.is_cancelled());
+    }
+
+    fn task(&mut self, task: Task) {
+        match task {
+            Task::Answered(id, answer) => self.answered(id, answer),
+            Task::Found { path, revision, stage, found, took } => {
+                if revision == self.revision {
+                    self.log.did(|| format!("{stage:?} of {} took {:.3} ms", path.display(), took.as_secs_f64() * 1e3));
+                    self.take(&path, stage, found);
+                }
+            }
+        }
+    }
+
+    fn answered(&mut self, id: RequestId, answer: Result<Value, Failure>) {
+        let Some(Pending { method, params }) = self.pending.remove(&id) else { return };
+        match answer {
+            Ok(answer) => self.answer(id, answer),
+            Err(Failure::Modified) if method.is_retried && self.state == State::Running => {
+                self.begin(id, method, params);
+            }
+            Err(Failure::Modified) => self.refuse(id, ErrorCode::ContentModified, "the text was changed"),
+            Err(Failure::Params(why)) => self.refuse(id, ErrorCode::InvalidParams, &why),
+            Err(Failure::Panicked(why)) => {
+                self.log.did(|| format!("`{}` panicked: {why}", method.name));
+                self.refuse(id, ErrorCode::InternalError, &format!("`{}` failed: {why}", method.name));
+            }
+        }
+    }
+
+    /// Takes in what a stage found of a text, shows it, and begins the next one.
+    fn take(&mut self, path: &Arc<Path>, stage: Stage, found: Result<Option<Found>, String>) {
+        let found = found.unwrap_or_else(|why| {
+            self.log.did(|| format!("{stage:?} of {} panicked: {why}", path.display()));
+            None
+        });
+        // a motion that took too long, a file that cannot be read, a mistake of ours: of that nothing is said
+        let found = found.unwrap_or(Found { said: Vec::new(), goes_on: false });
+        let Some(shown) = self.shown.get_mut(path) else { return };
+        let is_new = shown.take(stage, found);
+        if self.client.pulls_diagnostics {
+            if stage == Stage::Words {
+                let (now, later): (Vec<Pull>, _) =
+                    std::mem::take(&mut self.pulls).into_iter().partition(|pull| pull.path == *path);
+                self.pulls = later;
+                for pull in now {
+                    self.answer_pull(pull);
+                }
+            } else if is_new {
+                self.ask("workspace/diagnostic/refresh");
+            }
+        } else if is_new {
+            self.push(path);
+        }
+        self.look(path);
+    }
+
+    fn pull(&mut self, id: RequestId, params: &Value) {
+        let uri = params.pointer("/textDocument/uri").and_then(Value::as_str);
+        let Some(uri) = uri else {
+            self.refuse(id, ErrorCode::InvalidParams, "it names no text");
+            return;
+        };
+        let path = convert::identity(uri, &self.snapshot);
+        let known = params.get("previousResultId").and_then(Value::as_str).map(str::to_owned);
+        let pull = Pull { id, path, known };
+        match self.shown.get(&pull.path).map(Shown::next) {
+            // until its words are known
+            Some(Some(Stage::Words)) => self.pulls.push(pull),
+            _ => self.answer_pull(pull),
+        }
+    }
+
+    fn answer_pull(&self, pull: Pull) {
+        let Some(shown) = self.shown.get(&pull.path) else {
+            self.answer(pull.id, json!({ "kind": "full", "items": [] }));
+            return;
+        };
+        let version = shown.version().to_string();
+        let report = if pull.known.as_ref() == Some(&version) {
+            json!({ "kind": "unchanged", "resultId": version })
+        } else {
+            json!({ "kind": "full", "resultId": version, "items": self.diagnostics(&pull.path) })
+        };
+        self.answer(pull.id, report);
+    }
+
+    fn diagnostics(&self, path: &Path) -> Vec<Value> {
+        let texts = self.texts();
+        let said = self.shown.get(path).map(Shown::all).unwrap_or_default();
+        let said = said.iter().filter_map(|said| texts.diagnostic(path, said));
+        said.filter_map(|said| serde_json::to_value(said).ok()).collect()
+    }
+
+    fn push(&self, path: &Path) {
+        if let Some(document) = self.documents.get(path) {
+            self.tell(&document.uri, json!(document.version), &self.diagnostics(path));
+        }
+    }
+
+    fn tell(&self, uri: &str, version: Value, diagnostics: &[Value]) {
+        let mut params = json!({ "uri": uri, "diagnostics": diagnostics });
+        if !version.is_null() {
+            params["version"] = version;
+        }
+        self.send(Notification { method: "textDocument/publishDiagnostics".to_owned(), params });
+    }
+
+    /// A request of the server, whose answer says nothing.
+    fn ask(&mut self, method: &str) {
+        self.next_id += 1;
+        self.send(Request { id: self.next_id.into(), method: method.to_owned(), params: Value::Null });
+    }
+}
+
+/// What a stage finds of a text; nothing where it was cancelled.
+fn found(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Cancel) -> Option<Found> {
+    let said = ide::diagnostics(snapshot, path, stage, cancel)?;
+    let goes_on = match stage {
+        Stage::Words => snapshot.checked(path)?.mechanisms.iter().any(crate::stages::Checked::is_sound),
+        Stage::Proof => snapshot.proven(path)?.iter().any(|proven| proven.assembly.is_some()),
+        Stage::Motion => false,
+    };
+    Some(Found { said, goes_on })
+}
+
+fn version_of(document: &Value) -> i32 {
+    document.get("version").and_then(Value::as_i64).and_then(|version| version.try_into().ok()).unwrap_or_default()
+}
+
+fn position(given: &Value) -> Option<Position> {
+    let number = |name: &str| given.get(name)?.as_u64().map(|number| number.min(u64::from(u32::MAX)) as u32);
+    Some((number("line")?, number("character")?))
+}
