@@ -1,6 +1,7 @@
 //! Files of one editor that are made of those of another one, and what else agrees.
 
 use crate::holds;
+use mechc::{Cancel, Choice, Memory, Parsed, Redundant};
 use serde_json::Value;
 use std::collections::BTreeSet;
 use std::fs;
@@ -97,6 +98,46 @@ fn the_grammars_have_the_same_declarations() {
     items.extend(rule("item").into_iter().filter(|name| name != "plain_item"));
     assert_eq!(members("_item"), items);
     assert_eq!(members("_feature"), rule("feature"));
+}
+
+/// A snippet with the text of its stops: `${2:40 mm}` is `40 mm`, `$0` nothing.
+fn typed(snippet: &str) -> String {
+    let mut text = String::new();
+    let mut rest = snippet;
+    while let Some((before, stop)) = rest.split_once('$') {
+        text += before;
+        let (inner, behind) = match stop.strip_prefix('{') {
+            Some(stop) => stop.split_once('}').expect("the stop ends"),
+            None => ("", stop.trim_start_matches(|c: char| c.is_ascii_digit())),
+        };
+        text += inner.split_once(':').map_or("", |(_, proposed)| proposed);
+        rest = behind;
+    }
+    text + rest
+}
+
+#[test]
+fn every_snippet_follows_the_grammar() {
+    let snippets: Value = serde_json::from_str(&read("vscode/snippets/mech.json")).expect("JSON");
+    let snippets = snippets.as_object().expect("snippets by their names");
+    for (name, snippet) in snippets {
+        let body = &snippet["body"];
+        let lines = body.as_array().map_or_else(|| vec![body], |lines| lines.iter().collect());
+        let body = typed(&lines.iter().filter_map(|line| line.as_str()).collect::<Vec<_>>().join("\n"));
+        let text = match name.as_str() {
+            "mechanism" | "fourbar" => body,
+            "if" => format!("mechanism a {{ param b = {body} }}"),
+            _ => format!("mechanism a {{ {body} }}"),
+        };
+        let parsed = Parsed::of(name, &text);
+        assert!(parsed.faults().is_empty(), "{name}: {text}");
+        if name == "fourbar" {
+            let checked = parsed.check(&Choice::default(), &Memory::default());
+            let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+            assert!(compiled.is_some() && said.is_empty() && checked.diagnostics().is_empty(), "{text}");
+        }
+    }
+    assert!(snippets.len() > 5, "only {} snippets", snippets.len());
 }
 
 fn read(path: &str) -> String {

@@ -171,15 +171,14 @@ fn emacs() {
 fn in_text_mate(list_name: &str) -> String {
     let any = list(list_name).join("|");
     match list_name {
-        "declarations" | "formula" => format!(r"(?<![\w.])(?:{any})(?!\w)"),
+        // the ground is a body too, and has a rule of its own
+        "declarations" => format!(r"(?<![\w.])(?!ground)(?:{any})(?!\w)"),
+        "formula" => format!(r"(?<![\w.])(?:{any})(?!\w)"),
         "openers" => format!(r"(?<![\w.])({any})\s+([\p{{L}}_]\w*)(?=\s*[=:\[])"),
         "joints" => format!(r"(:)\s*({any})(?=\s*\()"),
         // as a name it stands before an operator or a bracket
         "separators" | "places" => {
-            format!(
-                r#"(?<![\w.])(?:{any})(?=\s+(?:[\w(.\["]|-\S)|\s*$)(?!\s+(?:{}|in)(?!\w))"#,
-                list("formula").join("|")
-            )
+            format!(r#"(?<![\w.])(?:{any})(?=\s+(?:[\w(.\["]|-\S))(?!\s+(?:{}|in)(?!\w))"#, list("formula").join("|"))
         }
         "sides" => format!(r"(,)\s*({any})(?=\s*\))"),
         "constants" | "units" => format!(r"(?<![\w.])(?:{any})(?!\w)(?!\s*[(=:])"),
