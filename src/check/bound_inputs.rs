@@ -3,7 +3,7 @@
 
 use super::formula::{Context, Dim, Value};
 use super::mentions::mentioned;
-use super::names::Entity;
+use super::names::{Entity, Ordered};
 use super::{Checker, errors, rates};
 use crate::source::Span;
 use crate::syntax::ast::{Binding, Expr, Name};
@@ -27,16 +27,14 @@ impl<'a> Checker<'a> {
         let mut bound = Vec::new();
         self.add_bound_inputs(&mut Vec::new(), &mut bound);
         let uses = self.uses_of_bound_inputs(&bound);
-        let order = self.ordered(&uses);
-        for &k in &order {
+        let Ordered { order, on_circles } = self.ordered(&uses);
+        for k in order {
             let BoundInput { around, part, input, binding, .. } = &bound[k];
             self.deep_within(around, |checker| checker.bind_input(*part, *input, binding));
         }
-        let is_ordered: FxHashSet<usize> = order.into_iter().collect();
         // those on a circle are nothing, which has been said
-        for (_, BoundInput { around, part, input, .. }) in
-            bound.iter().enumerate().filter(|(k, _)| !is_ordered.contains(k))
-        {
+        for k in on_circles {
+            let BoundInput { around, part, input, .. } = &bound[k];
             self.deep_within(around, |checker| checker.in_part(*part, |child| child.inputs[*input].value = None));
         }
         self.tell_inputs_of_parts();

@@ -148,7 +148,7 @@ impl<'a> Checker<'a> {
             }
         }
         let uses = self.uses_of_points(frame, &points);
-        for k in self.ordered(&uses) {
+        for k in self.ordered(&uses).order {
             let (name, at) = points[k];
             let drawn = self.at_site(Site::Inside(frame), Some(&name.text), |checker| match at {
                 Some(at) => checker.place_of(at, "point", "a point", None),

@@ -183,7 +183,7 @@ impl<'t> Builder<'t, '_> {
         let name = named(&part.name, numbers).text;
         let told = self.diagnostics.len();
         let instance = self.instance(mechanism, &format!("{path}{name}."), &bound);
-        self.diagnostics.label_from(told, part.name.span, &errors::in_part(&format!("{path}{name}")));
+        self.diagnostics.in_part_from(told, &format!("{path}{name}"), part.name.span);
         Some(instance)
     }
 

@@ -67,7 +67,7 @@ use formula::{Context, Dim, Value};
 use imports::Import;
 use lengths::Lengths;
 use mentions::mentioned;
-use names::{Entity, Space};
+use names::{Entity, Ordered, Space};
 use results::ResultState;
 use rustc_hash::{FxHashMap, FxHashSet};
 use samples::Samples;
@@ -460,7 +460,7 @@ impl<'a> Checker<'a> {
             None => diagnostic,
         };
         let parts = self.used_at.iter();
-        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.also(*span, errors::in_part(part))));
+        self.diagnostics.push(parts.fold(diagnostic, |said, (part, span)| said.in_part(part, *span)));
     }
 
     /// Names to look for the nearest one among; none once so much is wrong that the search would take long.
@@ -538,8 +538,8 @@ impl<'a> Checker<'a> {
         self.import_params();
         let uses = self.uses(&definitions, &entities);
         let (mut measures, mut results) = (Vec::new(), Vec::new());
-        let order = self.ordered(&uses);
-        self.define_parts_on_circles(&order, &entities);
+        let Ordered { order, on_circles } = self.ordered(&uses);
+        self.define_parts_on_circles(on_circles.iter().map(|&at| entities[at]));
         for at in order {
             let (name, formulas) = &definitions[at];
             match entities[at] {
@@ -573,14 +573,9 @@ impl<'a> Checker<'a> {
     }
 
     /// Parts whose definitions go in a circle are what they are alone, so that all that they have is there.
-    fn define_parts_on_circles(&mut self, order: &[usize], entities: &[Entity]) {
-        let mut is_ordered = vec![false; entities.len()];
-        for &at in order {
-            is_ordered[at] = true;
-        }
-        for (entity, is_ordered) in entities.iter().zip(is_ordered) {
-            if let Entity::Part(k) = *entity
-                && !is_ordered
+    fn define_parts_on_circles(&mut self, on_circles: impl Iterator<Item = Entity>) {
+        for entity in on_circles {
+            if let Entity::Part(k) = entity
                 && k < self.parts.len()
             {
                 self.definitions_of_part_alone(k);

@@ -90,6 +90,14 @@ pub(super) struct Space<T> {
     is_incomplete: bool,
 }
 
+/// Definitions by their positions.
+pub(super) struct Ordered {
+    /// Each after those that it uses.
+    pub order: Vec<usize>,
+    /// Those that use themselves, by way of others too.
+    pub on_circles: Vec<usize>,
+}
+
 impl<T: Copy> Space<T> {
     pub fn new() -> Space<T> {
         Space { entries: FxHashMap::default(), order: Vec::new(), is_incomplete: false }
@@ -268,11 +276,10 @@ impl Checker<'_> {
         }
     }
 
-    /// The definitions in an order in which each comes after those it uses; those on a circle are reported and left
-    /// out.
+    /// The definitions in an order in which each comes after those it uses; those on a circle are reported.
     ///
     /// `uses` lists, for each definition, the positions of those it needs with the place where it names them.
-    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Vec<usize> {
+    pub(super) fn ordered(&mut self, definitions: &[(&Name, Vec<(usize, Span)>)]) -> Ordered {
         #[derive(Clone, Copy, PartialEq)]
         enum Mark {
             New,
@@ -321,7 +328,8 @@ impl Checker<'_> {
                 }
             }
         }
-        order
+        let on_circles = (0..definitions.len()).filter(|&k| marks[k] == Mark::Broken).collect();
+        Ordered { order, on_circles }
     }
 }
 

@@ -1,6 +1,7 @@
 //! Where bodies are drawn: the poses behind `at`, which may follow from those of other bodies.
 
 use super::formula::Context;
+use super::names::Ordered;
 use super::sites::{Place, Site};
 use super::{Checker, errors, mends};
 use crate::expr::ExprId;
@@ -9,7 +10,7 @@ use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Name, Pose};
 use crate::syntax::keywords_in;
 use crate::vocabulary::Keyword;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashMap;
 
 /// For messages.
 const PLACE: &str = "the estimate of a pose";
@@ -27,8 +28,8 @@ impl<'a> Checker<'a> {
         }
         let uses = self.uses_of_poses(&poses);
         let mut is_sound = vec![false; poses.len()];
-        let order = self.ordered(&uses);
-        self.break_places_on_circles(&order, poses.len());
+        let Ordered { order, on_circles } = self.ordered(&uses);
+        self.break_places_of_parts(on_circles.iter().filter_map(|k| k.checked_sub(poses.len())));
         for k in order {
             // behind the bodies stand the parts
             let Some(&(item, _, pose)) = poses.get(k) else {
@@ -96,12 +97,9 @@ impl<'a> Checker<'a> {
     }
 
     /// Parts whose places go in a circle have none; those of bodies follow.
-    fn break_places_on_circles(&mut self, order: &[usize], bodies: usize) {
-        let is_ordered: FxHashSet<usize> = order.iter().copied().collect();
-        for (k, child) in self.parts.iter().enumerate() {
-            if let Some(id) = child.part.filter(|_| !is_ordered.contains(&(bodies + k))) {
-                self.broken_poses.insert(Frame::Part(id));
-            }
+    fn break_places_of_parts(&mut self, parts: impl Iterator<Item = usize>) {
+        for part in parts {
+            self.broken_poses.extend(self.parts[part].part.map(Frame::Part));
         }
     }
 

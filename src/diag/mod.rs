@@ -90,6 +90,12 @@ impl Diagnostic {
         self
     }
 
+    /// Where a part is used whose text, or whose copy of it, is at fault.
+    #[must_use]
+    pub fn in_part(self, path: &str, used_at: Span) -> Diagnostic {
+        self.also(used_at, format!("in part `{path}`, used here"))
+    }
+
     /// Moves the blame to a place that brought the faulty one in.
     #[must_use]
     pub fn raised_by(mut self, span: Span, text: impl Into<String>) -> Diagnostic {
@@ -219,11 +225,10 @@ impl Diagnostics {
         self.list.truncate(len);
     }
 
-    /// Adds a place that helps to understand all faults from one on.
-    pub fn label_from(&mut self, from: usize, span: Span, text: &str) {
-        for diagnostic in self.list.iter_mut().skip(from) {
-            diagnostic.labels.push(Label { span, text: text.to_owned(), primary: false });
-        }
+    /// Where a part is used that brought in all but the first ones.
+    pub fn in_part_from(&mut self, from: usize, path: &str, used_at: Span) {
+        let told = self.list.split_off(from.min(self.list.len()));
+        self.list.extend(told.into_iter().map(|diagnostic| diagnostic.in_part(path, used_at)));
     }
 
     /// By their place in the text, so that a reader meets them from top to bottom.

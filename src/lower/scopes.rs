@@ -194,7 +194,7 @@ impl Lowering<'_> {
         let asked = model.asked_in_parts.iter().filter(|(asking, _)| *asking == part);
         let mut places: Vec<_> = asked.map(|(_, span)| *span).collect();
         places.dedup();
-        let around = std::iter::successors(Some(part), |&part| model[part].within);
+        let around = model.parts_around(Some(part));
         let used_at = around.map(|part| (model[part].declared.name.clone(), model[part].declared.span)).collect();
         let (name, columns) = (model[part].declared.name.clone(), columns_of(model, part));
         let inputs = model[part].inputs.iter().map(|(_, id)| self.formula(*id)).collect();

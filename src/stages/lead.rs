@@ -396,7 +396,7 @@ fn not_led(
         ),
     };
     if let Some(of) = of {
-        diagnostic = diagnostic.also(of.span, format!("in part `{}`, used here", of.name));
+        diagnostic = diagnostic.in_part(&of.name, of.span);
     }
     diagnostic.note(tried).help(mend).datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
 }
@@ -426,7 +426,7 @@ fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, wh
         diagnostic = if is_first { diagnostic.at(label.span, text) } else { diagnostic.also(label.span, text) };
     }
     if let Some(of) = of {
-        diagnostic = diagnostic.also(of.span, format!("in part `{}`, used here", of.name));
+        diagnostic = diagnostic.in_part(&of.name, of.span);
     }
     diagnostic = what.notes.iter().cloned().fold(diagnostic, Diagnostic::note);
     diagnostic.datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)

@@ -43,7 +43,7 @@ impl UsedAt {
         for (part, span) in named {
             // copies stand in one place, and the first one is enough
             if told < MOST && diagnostic.labels.iter().all(|label| label.span != span) {
-                diagnostic = diagnostic.also(span, format!("in part `{part}`, used here"));
+                diagnostic = diagnostic.in_part(&part, span);
                 told += 1;
             }
         }

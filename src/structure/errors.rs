@@ -192,7 +192,7 @@ fn at_places(mut diagnostic: Diagnostic, part: &AskingPart) -> Diagnostic {
         diagnostic = if k == 0 { diagnostic.at(*place, text) } else { diagnostic.also(*place, "and here") };
     }
     for (name, span) in &part.used_at {
-        diagnostic = diagnostic.also(*span, format!("in part `{name}`, used here"));
+        diagnostic = diagnostic.in_part(name, *span);
     }
     diagnostic
 }

@@ -199,7 +199,8 @@ impl Reduced {
         }
         let is_integrated = self.integral.is_some();
         let [from, to] = [&stretch.from, &stretch.to].map(|state| self.formula.at(state.clone(), places));
-        for point in [&from, &to] {
+        // but for edges, a stretch begins where the one before has ended
+        for point in stretch.begins_at_edge.then_some(&from).into_iter().chain([&to]) {
             self.weight = self.weight.max(self.formula.weight(point));
         }
         let mut survey = self.survey(stretch, places, span);

@@ -5,11 +5,6 @@ use crate::diag::{Code, Diagnostic};
 use crate::source::Span;
 use crate::syntax::ast::{Binding, ItemKind, Mechanism, MechanismName, Name};
 
-/// Of a fault in the text of a part: which part it is.
-pub fn in_part(path: &str) -> String {
-    format!("in part `{path}`, used here")
-}
-
 pub fn contains_itself(wanted: &MechanismName, circle: &[&str]) -> Diagnostic {
     let name = &wanted.name.text;
     let mut way: Vec<String> = circle.iter().map(|name| format!("`{name}`")).collect();
