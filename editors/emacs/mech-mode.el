@@ -45,21 +45,35 @@
   "Words of the language.")
 ;; </words>
 
+(defun mech-mode-find-place (limit)
+  "Find a word before LIMIT that stands between the parts of a declaration.
+It may be a name too: where an operator follows, or a formula begins."
+  (let (found)
+    (while (and (not found) (re-search-forward (regexp-opt mech-mode-places 'symbols) limit t))
+      (setq found (save-match-data
+                    (and (looking-at-p "[ \t]+[^-+*/^=<> \t\n]\\|[ \t]*$")
+                         (save-excursion
+                           (goto-char (match-beginning 0))
+                           (skip-chars-backward " \t")
+                           (not (memq (char-before) (append ".=:,(+-*/^<>" nil))))))))
+    found))
+
 (defconst mech-mode-font-lock-keywords
   (let ((name "[[:alpha:]_][[:alnum:]_]*")
         (not-member "\\(?:^\\|[^.[:alnum:]_]\\)"))
-    `((,(concat not-member "\\(" (regexp-opt mech-mode-declarations) "\\)\\_>\\(?:[ \t]+\\(" name "\\)\\)?")
+    `(("\\_<analysis[ \t]+\\(from\\)\\_>" 1 font-lock-keyword-face)
+      ("=[ \t]*\\(?:\\(periodic\\)[ \t]+\\)?\\(spline\\)[ \t]*[[\"]"
+       (1 font-lock-keyword-face nil t) (2 font-lock-keyword-face))
+      (,(concat not-member "\\(" (regexp-opt mech-mode-declarations) "\\)\\_>\\(?:[ \t]+\\(" name "\\)\\)?")
        (1 font-lock-keyword-face) (2 font-lock-variable-name-face nil t))
       (,(concat not-member "\\(" (regexp-opt mech-mode-openers) "\\)[ \t]+\\(" name "\\)[ \t]*[[=:]")
        (1 font-lock-keyword-face) (2 font-lock-variable-name-face))
       (,(concat not-member "\\(use\\)[ \t]*\"") 1 font-lock-keyword-face)
       (,(regexp-opt mech-mode-formula 'symbols) . font-lock-keyword-face)
-      ;; names too, which something other than a formula follows
-      (,(concat "[^.=:,([:alnum:]_][ \t]*\\_<\\(" (regexp-opt mech-mode-places) "\\)\\_>\\(?:[ \t]+[^-+*/^=<> \t\n]\\|[ \t]*$\\)")
-       1 font-lock-keyword-face)
+      (mech-mode-find-place . font-lock-keyword-face)
       (,(concat ":[ \t]*\\(" (regexp-opt mech-mode-joints) "\\)[ \t]*(") 1 font-lock-type-face)
       (,(concat ",[ \t]*\\(" (regexp-opt mech-mode-sides) "\\)[ \t]*)") 1 font-lock-constant-face)
-      (,(concat not-member "\\(" (regexp-opt mech-mode-called) "\\)[ \t]*(") 1 font-lock-builtin-face)
+      (,(concat "\\_<\\(" (regexp-opt mech-mode-called) "\\)[ \t]*(") 1 font-lock-builtin-face)
       (,(concat not-member "\\(" (regexp-opt mech-mode-constants) "\\)\\_>") 1 font-lock-constant-face)
       (,(concat "\\(?:[0-9]\\|" not-member "\\)[ \t]*\\(" (regexp-opt mech-mode-units) "\\)\\_>") 1 font-lock-type-face)))
   "What gets which colour.")
@@ -98,6 +112,7 @@
 ;;;###autoload
 (add-to-list 'auto-mode-alist '("\\.mech\\'" . mech-mode))
 
+(defvar eglot-server-programs)
 (with-eval-after-load 'eglot
   (add-to-list 'eglot-server-programs '(mech-mode . ("mechc" "lsp"))))
 

@@ -28,7 +28,6 @@ fn list(name: &str) -> Vec<&'static str> {
         "openers" => with_role(Role::Opener),
         "places" => keywords(|keyword| matches!(keyword.role, Role::Separator | Role::Place)),
         "sides" => with_role(Role::Side),
-        "contextual" => keywords(|keyword| !keyword.is_reserved()),
         "joints" => JOINTS.iter().map(|joint| joint.word.name).collect(),
         "quantities" => QUANTITIES.iter().map(|quantity| quantity.word.name).collect(),
         "reductions" => REDUCTIONS.iter().map(|reduction| reduction.word.name).collect(),
@@ -123,32 +122,32 @@ fn tree_sitter_highlights() {
 fn vim() {
     holds("vim/syntax/mech.vim", |text| {
         filled(text, |name| {
-            let (group, options) = match name {
-                "declarations" => ("mechDeclaration", ""),
-                "formula" => ("mechFormula", ""),
-                "called" => ("mechFunction", ""),
-                "joints" => ("mechJoint", ""),
-                "constants" => ("mechConstant", ""),
-                "units" => ("mechUnit", ""),
-                "contextual" => return contextual_in_vim(),
+            let keywords = |group: &str| lines(list(name), " ", &format!("syntax keyword {group} "));
+            // a call is told by its parenthesis
+            let calls = |group: &str| format!("syntax match {group} /\\v<%({})>\\ze\\s*\\(/", list(name).join("|"));
+            match name {
+                "declarations" => keywords("mechDeclaration"),
+                "formula" => keywords("mechFormula"),
+                "constants" => keywords("mechConstant"),
+                "units" => keywords("mechUnit"),
+                "called" => calls("mechFunction"),
+                "joints" => calls("mechJoint"),
+                "contextual" => contextual_in_vim(),
                 _ => panic!("{name}"),
-            };
-            let command = match name {
-                // a call is told by its parenthesis
-                "called" | "joints" => {
-                    return format!("syntax match {group} /\\v<%({})>\\ze\\s*\\(/{options}", list(name).join("|"));
-                }
-                _ => format!("syntax keyword {group} "),
-            };
-            let lines = lines(list(name), " ", &command);
-            if options.is_empty() { lines } else { format!("{lines} {options}") }
+            }
         })
     });
 }
 
 /// What follows tells whether such a word is one or a name.
 fn contextual_in_vim() -> String {
-    format!("syntax match mechPlace /\\v<%({})>\\ze%(\\s+[^-+*\\/^=<>: \\t]|\\s*$)/", list("contextual").join("|"))
+    let places = [list("openers"), list("places")].concat().join("|");
+    let sides = list("sides").join("|");
+    format!(
+        "syntax match mechPlace /\\v<%({places})>\\ze\\s+[^-+*\\/^=<>: \\t]/\n\
+         syntax match mechPlace /\\v[^=,(]\\s\\zsmirrored>\\ze\\s*$/\n\
+         syntax match mechConstant /\\v,\\s*\\zs%({sides})>\\ze\\s*\\)/"
+    )
 }
 
 #[test]
