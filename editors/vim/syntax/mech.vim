@@ -23,11 +23,6 @@ syntax keyword mechDeclaration constraint measure analysis
 syntax keyword mechFormula if then else and or not
 " </words>
 
-" names too, which are none of these words where they are declared, called or set
-" <words contextual>
-syntax match mechPlace /\v<%(use|trace|result|input|part|to|every|along|at|toward|radius|from|spline|in|on|mirrored|as|columns|periodic|left|right)>\ze%(\s+[^-+*\/^=<>: \t]|\s*$)/
-" </words>
-
 " <words called>
 syntax match mechFunction /\v<%(abs|acos|angle|argmax|argmin|asin|at|atan|atan2|cos|cosh|curvature|cycloidal|der|direction|displacement|distance|exp|first|harmonic|hypot|integral|last|length|ln|log10|max|mean|mid|min|mod|modsine|polar|pole_x|pole_y|poly|pressure_angle|rms|rotation|sign|sin|sinh|slip|speed|sqrt|step|step5|step7|tan|tanh|x|y)>\ze\s*\(/
 " </words>
@@ -41,7 +36,16 @@ syntax keyword mechConstant t pi tau
 " </words>
 
 " <words units>
-syntax keyword mechUnit m mm cm um µm km in ft rad mrad deg rev s ms us µs Hz rpm
+syntax keyword mechUnit m mm cm um µm km ft rad mrad deg rev s ms us µs Hz rpm
+" </words>
+
+" the inch, unless another unit follows, in which something is printed
+syntax match mechUnit /\v[0-9.]\s*\zsin>/
+" names too, which are none of these words where they are declared, called or set
+" <words contextual>
+syntax match mechPlace /\v<%(use|trace|result|input|part|to|every|along|at|toward|radius|from|spline|in|on|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
+syntax match mechPlace /\v[^=,(]\s\zsmirrored>\ze\s*$/
+syntax match mechConstant /\v,\s*\zs%(left|right)>\ze\s*\)/
 " </words>
 
 highlight default link mechNumber Number
