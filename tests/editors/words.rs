@@ -122,10 +122,11 @@ fn tree_sitter_highlights() {
 fn vim() {
     holds("vim/syntax/mech.vim", |text| {
         filled(text, |name| {
-            // a word that is a keyword too is told by what is around it
-            let words: Vec<&str> =
-                list(name).into_iter().filter(|word| name != "units" || !list("places").contains(word)).collect();
-            let keywords = |group: &str| lines(words.iter().copied(), " ", &format!("syntax keyword {group} "));
+            let keywords = |group: &str| {
+                // a word that stands between parts too is told by what is around it
+                let words = list(name).into_iter().filter(|word| !list("places").contains(word));
+                lines(words, " ", &format!("syntax keyword {group} "))
+            };
             // a call is told by its parenthesis
             let calls = |group: &str| format!("syntax match {group} /\\v<%({})>\\ze\\s*\\(/", list(name).join("|"));
             match name {
