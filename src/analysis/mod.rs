@@ -96,7 +96,7 @@ pub struct Started {
     moved: Moved,
     /// Why this may not be the position that the estimates mean.
     doubt: Option<Doubt>,
-    /// What solves for the rows; none where it would be too large.
+    /// What solves for the rows; none where it would be too large, or nobody asks for them.
     solver: Option<Arc<Solver>>,
 }
 
@@ -126,6 +126,31 @@ pub fn start_from(
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
+    started((determined, program), t, estimates, (tolerance, cancel), Kinematics::solver)
+}
+
+/// As [`start_from`], without what solves for rows, which takes longer than all else: for who only asks for the position.
+///
+/// # Errors
+/// It cannot be assembled, starts in a singular position, or a formula has no value there.
+pub fn assemble_from(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    t: f64,
+    estimates: Option<&[f64]>,
+    tolerance: f64,
+    cancel: &Cancel,
+) -> Result<Started, Box<Diagnostic>> {
+    started((determined, program), t, estimates, (tolerance, cancel), |_| None)
+}
+
+fn started(
+    (determined, program): (Arc<Determined>, Arc<Program>),
+    t: f64,
+    estimates: Option<&[f64]>,
+    (tolerance, cancel): (f64, &Cancel),
+    solver: impl FnOnce(&Kinematics) -> Option<Solver>,
+) -> Result<Started, Box<Diagnostic>> {
     let mut kinematics = Kinematics::new(determined, program, tolerance, cancel.clone());
     if let Some(estimates) = estimates {
         kinematics.begin_from(estimates);
@@ -133,7 +158,7 @@ pub fn start_from(
     let (state, moved) = assembly::assemble(&mut kinematics, t)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
-    let solver = kinematics.solver().map(Arc::new);
+    let solver = solver(&kinematics).map(Arc::new);
     let estimates = kinematics.estimates();
     let doubt = if moved.perturbed { None } else { branches::doubt(&mut kinematics, &estimates, &state) };
     Ok(Started { kinematics, state, moved, doubt, solver })
@@ -177,7 +202,7 @@ impl Started {
         self.kinematics.worst().sigma
     }
 
-    /// What solves for rows; none where it would be too large.
+    /// What solves for rows; none where it would be too large, or is left out.
     #[must_use]
     pub fn solver(&self) -> Option<&Solver> {
         self.solver.as_deref()

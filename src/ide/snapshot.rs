@@ -2,12 +2,11 @@
 
 use super::buffers::Buffers;
 use super::kept::Kept;
-use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::source::Sources;
 use crate::stages::{Assembly, Checked, Compiled, Parsed, Redundant, RunOptions};
-use crate::world::World;
+use crate::world::{LARGEST, World};
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -25,6 +24,8 @@ pub struct Snapshot {
 /// The stages of a file, as far as they were asked for.
 #[derive(Default)]
 struct Stages {
+    /// The tree of the text before the last edit, of which most is still so.
+    before: Option<Arc<Parsed>>,
     parsed: Kept<Parsed>,
     checked: Kept<Analysed>,
     proven: Kept<Vec<Proven>>,
@@ -72,8 +73,11 @@ impl Snapshot {
     #[must_use]
     pub fn with_text(&self, path: &Arc<Path>, text: Option<Arc<str>>) -> Snapshot {
         let mut buffers = (*self.buffers).clone();
+        let before = text.as_ref().map(|_| self.stages(path).before_an_edit());
         buffers.set(path, text);
-        Snapshot { buffers: Arc::new(buffers), ..self.without(path) }
+        let mut next = Snapshot { buffers: Arc::new(buffers), ..self.without(path) };
+        next.files.insert(Arc::clone(path), Arc::new(before.unwrap_or_default()));
+        next
     }
 
     /// The same without what was known of a file, and of those that were made of it: what is behind it has changed.
@@ -160,7 +164,11 @@ impl Snapshot {
 
     fn parsed_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Parsed>> {
         stages.parsed.get_or(|| {
-            let parsed = Parsed::read(path, &*self.buffers).ok()?;
+            let before = stages.before.as_ref().zip(self.buffers.open(path));
+            let parsed = match before.filter(|(_, text)| text.len() <= LARGEST) {
+                Some((before, text)) => before.edited(text),
+                None => Parsed::read(path, &*self.buffers).ok()?,
+            };
             self.unless_cancelled(parsed)
         })
     }
@@ -189,6 +197,11 @@ impl Snapshot {
 }
 
 impl Stages {
+    /// What helps to know the file once it is edited.
+    fn before_an_edit(&self) -> Stages {
+        Stages { before: self.parsed.get().or_else(|| self.before.clone()), ..Stages::default() }
+    }
+
     /// What is known by a file's own text.
     fn parsed_alone(&self) -> Stages {
         Stages { parsed: self.parsed.get().into(), ..Stages::default() }
@@ -209,9 +222,9 @@ fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
     proven.said.extend(refused.unwrap_or_default());
     let options = RunOptions { cancel: cancel.clone(), ..RunOptions::default() };
     let from = compiled.analysis().map_or(0.0, |[from, ..]| from);
-    let (run, said) = compiled.run(&Times::listed(from, vec![from]), &options);
+    let (assembly, said) = compiled.assembled(from, &options);
     proven.said.extend(said);
-    proven.assembly = run.map(|run| run.assembly().clone());
+    proven.assembly = assembly;
     proven.sources = compiled.sources().clone();
     proven.compiled = Some(compiled);
     proven

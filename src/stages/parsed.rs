@@ -51,6 +51,17 @@ impl Parsed {
         Parsed { sources, file, path: path.into(), read }
     }
 
+    /// The same file with another text. Of what the edit does not touch nothing is read again; what comes out is what
+    /// [`Parsed::of`] makes of the text.
+    #[must_use]
+    pub fn edited(&self, text: &str) -> Parsed {
+        let own = self.sources.get(self.file);
+        let mut sources = Sources::default();
+        let file = sources.add(&own.name, text);
+        let read = Arc::new(syntax::reread(&self.read, &own.text, &sources, file));
+        Parsed { sources, file, path: Arc::clone(&self.path), read }
+    }
+
     /// The texts that its diagnostics speak of.
     #[must_use]
     pub fn sources(&self) -> &Sources {

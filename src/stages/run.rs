@@ -5,6 +5,8 @@ use super::used_at::UsedAt;
 use crate::analysis::{self, Answers, Asked, ColumnUnit, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::program::Program;
+use crate::structure::Determined;
 use std::sync::Arc;
 
 /// How a motion is followed.
@@ -73,6 +75,9 @@ pub struct Run {
     used_at: UsedAt,
 }
 
+/// One of the ways to assemble a mechanism.
+type Start = fn(Arc<Determined>, Arc<Program>, f64, Option<&[f64]>, f64, &Cancel) -> Result<Started, Box<Diagnostic>>;
+
 impl Compiled {
     /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
     /// be assembled, starts in a singular position, a formula has no value there, or it is cancelled.
@@ -84,9 +89,47 @@ impl Compiled {
         Run::of(self, times, options)
     }
 
+    /// Where it stands at a time (s), as [`Compiled::run`] begins there, with what is to be said of that; in less time, as nothing will
+    /// follow.
+    ///
+    /// ```
+    /// # use mechc::{Cancel, Choice, Memory, Parsed, Redundant, RunOptions};
+    /// # let text = "mechanism disc {
+    /// #     ground { point O = (0, 0) }
+    /// #     body wheel { point O = (0, 0) }
+    /// #     joint axle: revolute(ground.O, wheel.O)
+    /// #     driver motor: rotation(axle) = 90 deg/s * t
+    /// # }";
+    /// # let checked = Parsed::of("disc.mech", text).check(&Choice::default(), &Memory::default());
+    /// # let (compiled, _) = checked.compile(Redundant::Refused, &Cancel::default());
+    /// # let compiled = compiled.expect("it is determined");
+    /// let (assembly, said) = compiled.assembled(1.0, &RunOptions::default());
+    /// assert!(said.is_empty());
+    /// assert_eq!(assembly.expect("it assembles").coordinates[2].1, std::f64::consts::FRAC_PI_2);
+    /// ```
+    #[must_use]
+    pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
+        let (started, mut said) = self.started(t, options, analysis::assemble_from);
+        match started {
+            _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
+            Ok(mut started) => {
+                said.extend(self.used_at().told(started.remarks()));
+                (Some(assembly(self, &mut started, t)), said)
+            }
+            Err(why) => {
+                said.push(self.used_at().tell(*why));
+                (None, said)
+            }
+        }
+    }
+
     /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
     /// said of the way.
     pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        self.started(t, options, analysis::start_from)
+    }
+
+    fn started(&self, t: f64, options: &RunOptions, start: Start) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
         let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
         let (from, said) = match self.leading() {
             None => (None, Diagnostics::default()),
@@ -97,7 +140,7 @@ impl Compiled {
             }
         };
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        (analysis::start_from(determined, program, t, from.as_deref(), tolerance, cancel), said)
+        (start(determined, program, t, from.as_deref(), tolerance, cancel), said)
     }
 }
 

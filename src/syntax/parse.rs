@@ -10,6 +10,7 @@ use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Na
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
+use super::known::Known;
 use super::outline::Outline;
 use super::trivia::{self, Trivia};
 use crate::diag::{Diagnostic, Diagnostics};
@@ -43,23 +44,39 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
     let source = sources.get(file);
     let whole = Piece { source, file, range: 0..source.text.len() };
     // once for the whole text: a stack of its own takes longer than most declarations
-    let (tree, mut faults) = stacker::maybe_grow(STACK, STACK, || {
+    let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
         let at_once = whole.read(Rule::file, |reader, pair| reader.file(pair));
-        at_once.map_or_else(|_| by_declarations(source, file), |tree| (tree, Diagnostics::default()))
+        at_once.map_or_else(|_| by_declarations(source, file, None), |tree| (tree, Diagnostics::default()))
     });
+    with_all(sources, file, tree, faults)
+}
+
+/// Reads a file that was read before it was edited; what comes out is what [`parse`] makes of it.
+#[must_use]
+pub fn reread(old: &Parsed, old_text: &str, sources: &Sources, file: FileId) -> Parsed {
+    let source = sources.get(file);
+    let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
+        by_declarations(source, file, Some(Known::of(old, [old_text, &source.text], file)))
+    });
+    with_all(sources, file, tree, faults)
+}
+
+/// With what is to be known of a text beside its tree.
+fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics) -> Parsed {
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
     faults.sort_by_place();
-    Parsed { tree, trivia: trivia::of(&source.text, file), faults }
+    Parsed { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
 }
 
-/// The tree of a text that may have faults, with those.
-fn by_declarations(source: &Source, file: FileId) -> (File, Diagnostics) {
+/// The tree of a text that may have faults, with those; what is known of it is not read again.
+fn by_declarations(source: &Source, file: FileId, known: Option<Known<'_>>) -> (File, Diagnostics) {
     let mut reading = Reading {
         source,
         file,
         outline: Outline::new(&source.text),
+        known,
         at: 0,
         faults: Diagnostics::default(),
         bad_names: FxHashSet::default(),
@@ -86,6 +103,8 @@ struct Reading<'a> {
     source: &'a Source,
     file: FileId,
     outline: Outline<'a>,
+    /// What need not be read again.
+    known: Option<Known<'a>>,
     /// The token that is to be read next.
     at: usize,
     faults: Diagnostics,
@@ -233,6 +252,8 @@ impl Reading<'_> {
         let brace = self.outline.block_behind(first);
         let head = if rule == Rule::ground_head {
             self.head(rule, brace, |_, _| Ok(None))
+        } else if let Some(known) = self.known_head(brace) {
+            Ok(Some(known))
         } else {
             self.head(rule, brace, |reader, pair| reader.head(pair).map(Some))
         };
@@ -319,12 +340,14 @@ impl Reading<'_> {
     /// A declaration of the mechanism that has no block, or what stands in its place.
     fn plain_item(&mut self) -> Item {
         let first = self.at;
-        let read = if self.outline.begins_large_declaration(first) {
+        let read = if !self.outline.begins_large_declaration(first) {
+            Err(self.fault_of(Rule::item_or_close))
+        } else if let Some(known) = self.known_item() {
+            Ok(known)
+        } else {
             self.declaration([Rule::only_item, Rule::item_and_next], |reader, pair| {
                 reader.plain_item(reader.only(pair)?)
             })
-        } else {
-            Err(self.fault_of(Rule::item_or_close))
         };
         match read {
             Ok(item) => {
@@ -341,12 +364,14 @@ impl Reading<'_> {
 
     fn feature(&mut self) -> Feature {
         let first = self.at;
-        let read = if self.outline.is_feature(first) {
+        let read = if !self.outline.is_feature(first) {
+            Err(self.fault_of(Rule::feature_or_close))
+        } else if let Some(known) = self.known_feature() {
+            Ok(known)
+        } else {
             self.declaration([Rule::only_feature, Rule::feature_and_next], |reader, pair| {
                 reader.feature(reader.only(pair)?)
             })
-        } else {
-            Err(self.fault_of(Rule::feature_or_close))
         };
         match read {
             Ok(feature) => {
@@ -369,6 +394,36 @@ impl Reading<'_> {
         }
     }
 
+    /// The declaration without a block that begins here, if it is known.
+    fn known_item(&self) -> Option<Item> {
+        let (stretch, next) = self.plain();
+        let mut item = self.known.as_ref()?.item(&stretch)?;
+        item.docs = docs_above(&self.source.text, stretch.start);
+        (self.outline.index_at(item.span.end as usize) == next).then_some(item)
+    }
+
+    /// The feature that begins here, if it is known.
+    fn known_feature(&self) -> Option<Feature> {
+        let (stretch, next) = self.plain();
+        let mut feature = self.known.as_ref()?.feature(&stretch)?;
+        feature.docs = docs_above(&self.source.text, stretch.start);
+        (self.outline.index_at(feature.span.end as usize) == next).then_some(feature)
+    }
+
+    /// From here to where the next declaration begins, and the token there.
+    fn plain(&self) -> (Range<usize>, usize) {
+        let next = self.outline.end_of_plain(self.at);
+        (self.outline.start(self.at)..self.outline.start(next), next)
+    }
+
+    /// The head of the body that begins here, up to its brace, if it is known.
+    fn known_head(&mut self, brace: Option<usize>) -> Option<Head> {
+        let brace = brace?;
+        let known = self.known.as_ref()?.head(&(self.outline.start(self.at)..self.outline.end(brace)))?;
+        self.at = brace + 1;
+        Some(known)
+    }
+
     /// Reads the declaration that begins here, up to where the next one does; what is wrong with it is told as it is seen from what
     /// follows.
     fn declaration<T>(
@@ -376,8 +431,8 @@ impl Reading<'_> {
         [alone, with_next]: [Rule; 2],
         make: impl Fn(&Reader<'_>, Pair<'_, Rule>) -> Built<T>,
     ) -> Built<T> {
-        let (start, next) = (self.outline.start(self.at), self.outline.end_of_plain(self.at));
-        let read = self.piece(start..self.outline.start(next)).read(alone, &make).or_else(|_| {
+        let (Range { start, end }, next) = self.plain();
+        let read = self.piece(start..end).read(alone, &make).or_else(|_| {
             let piece = self.piece(start..self.outline.end(next));
             piece.read(with_next, &make).map_err(|refused| piece.fault(refused, self.sees_mends()))
         });
@@ -529,7 +584,7 @@ mod tests {
         for text in [TEXT, MORE, USES, include_str!("../../tests/stages/everything/input.mech")] {
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text);
-            let (tree, faults) = super::by_declarations(sources.get(file), file);
+            let (tree, faults) = super::by_declarations(sources.get(file), file, None);
             assert!(faults.is_empty(), "{faults:?}");
             assert_eq!(parse(&sources, file).tree, tree);
         }
@@ -543,7 +598,7 @@ mod tests {
             let is_in_the_grammar = Grammar::parse(Rule::file, &text).is_ok();
             let mut sources = Sources::default();
             let file = sources.add("text.mech", text.as_str());
-            let (_, faults) = super::by_declarations(sources.get(file), file);
+            let (_, faults) = super::by_declarations(sources.get(file), file, None);
             // what the grammar lets pass may still be no formula
             let is_let_pass = faults
                 .iter()

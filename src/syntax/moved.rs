@@ -1,0 +1,198 @@
+//! What was read of a text, where it stands after an edit before it.
+
+use super::ast::{
+    Binding, Column, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, MechanismName, Name, Part, Pose, Range,
+    Segment, TableRows, UnitFactor, WrittenUnit,
+};
+use super::build::Head;
+use crate::source::{FileId, Span};
+
+/// From the places of one text to those of another one.
+#[derive(Clone, Copy)]
+pub(super) struct Move {
+    pub file: FileId,
+    /// How many bytes more are before it now; less, where it is negative.
+    pub by: i64,
+}
+
+impl Move {
+    fn span(self, span: &mut Span) {
+        let at = |byte: u32| (i64::from(byte) + self.by) as u32;
+        *span = Span { file: self.file, start: at(span.start), end: at(span.end) };
+    }
+
+    fn name(self, name: &mut Name) {
+        self.span(&mut name.span);
+    }
+
+    fn names(self, names: &mut [Name]) {
+        names.iter_mut().for_each(|name| self.name(name));
+    }
+
+    /// A declaration; its documentation has no places.
+    pub fn item(self, item: &mut Item) {
+        self.span(&mut item.span);
+        self.ranges(&mut item.ranges);
+        match &mut item.kind {
+            ItemKind::Param { name, value } | ItemKind::Input { name, value } => self.defined(name, value),
+            ItemKind::Function { name, argument, value } => {
+                self.name(argument);
+                self.defined(name, value);
+            }
+            ItemKind::Table { name, periodic: _, rows } => {
+                self.name(name);
+                self.rows(rows);
+            }
+            ItemKind::Part(part) => self.part(part),
+            ItemKind::Ground { features } => features.iter_mut().for_each(|feature| self.feature(feature)),
+            ItemKind::Body { name, pose, features } => {
+                self.name(name);
+                pose.iter_mut().for_each(|pose| self.pose(pose));
+                features.iter_mut().for_each(|feature| self.feature(feature));
+            }
+            ItemKind::Joint { name, kind, arguments, call_span } => {
+                self.name(name);
+                self.name(kind);
+                self.exprs(arguments);
+                self.span(call_span);
+            }
+            ItemKind::Equation { driver: _, name, left, right } => {
+                self.defined(name, left);
+                self.expr(right);
+            }
+            ItemKind::Measure { name, value, unit }
+            | ItemKind::Trace { name, point: value, unit }
+            | ItemKind::Result { name, value, unit } => {
+                self.defined(name, value);
+                unit.iter_mut().for_each(|unit| self.unit(unit));
+            }
+            ItemKind::Broken { names } => self.names(names),
+            ItemKind::Analysis { from, to, every } => [from, to, every].into_iter().for_each(|expr| self.expr(expr)),
+        }
+    }
+
+    fn defined(self, name: &mut Name, value: &mut Expr) {
+        self.name(name);
+        self.expr(value);
+    }
+
+    /// What stands before the brace of a body.
+    pub fn head(self, head: &mut Head) {
+        self.name(&mut head.name);
+        self.ranges(&mut head.ranges);
+        head.pose.iter_mut().for_each(|pose| self.pose(pose));
+    }
+
+    fn ranges(self, ranges: &mut [Range]) {
+        for Range { index, from, to, is_closed: _ } in ranges {
+            self.defined(index, from);
+            self.expr(to);
+        }
+    }
+
+    fn pose(self, pose: &mut Pose) {
+        self.expr(&mut pose.at);
+        pose.toward.iter_mut().for_each(|toward| self.expr(toward));
+    }
+
+    /// A feature of a body.
+    pub fn feature(self, feature: &mut Feature) {
+        self.span(&mut feature.span);
+        self.name(&mut feature.name);
+        match &mut feature.kind {
+            FeatureKind::Broken => {}
+            FeatureKind::Point { at } => at.iter_mut().for_each(|at| self.expr(at)),
+            FeatureKind::AxisAlong { origin: one, direction: two }
+            | FeatureKind::AxisTo { origin: one, target: two }
+            | FeatureKind::Circle { center: one, radius: two } => {
+                self.expr(one);
+                self.expr(two);
+            }
+            FeatureKind::Curve { argument, at, estimate } => {
+                self.defined(argument, at);
+                estimate.iter_mut().for_each(|estimate| self.expr(estimate));
+            }
+        }
+    }
+
+    fn rows(self, rows: &mut TableRows) {
+        match rows {
+            TableRows::Listed(rows) => self.exprs(rows),
+            TableRows::File { path, columns, units } => {
+                self.name(path);
+                columns.iter_mut().flatten().for_each(|Column { kind: _, span }| self.span(span));
+                units.iter_mut().flatten().for_each(|unit| self.unit(unit));
+            }
+        }
+    }
+
+    fn part(self, part: &mut Part) {
+        let Part { name, mechanism: MechanismName { prefix, name: own }, bindings, on, at, mirrored, call_span } = part;
+        self.name(name);
+        prefix.iter_mut().for_each(|prefix| self.name(prefix));
+        self.name(own);
+        for Binding { name, coordinate, value, span } in bindings {
+            self.defined(name, value);
+            coordinate.iter_mut().for_each(|coordinate| self.name(coordinate));
+            self.span(span);
+        }
+        on.iter_mut().chain(at).for_each(|expr| self.expr(expr));
+        mirrored.iter_mut().for_each(|mirrored| self.span(mirrored));
+        self.span(call_span);
+    }
+
+    fn unit(self, unit: &mut WrittenUnit) {
+        self.span(&mut unit.span);
+        for UnitFactor { name, power: _, factor: _, span } in &mut unit.factors {
+            self.name(name);
+            self.span(span);
+        }
+    }
+
+    fn exprs(self, exprs: &mut [Expr]) {
+        exprs.iter_mut().for_each(|expr| self.expr(expr));
+    }
+
+    fn expr(self, expr: &mut Expr) {
+        self.span(&mut expr.span);
+        match &mut expr.kind {
+            ExprKind::Literal { value: _, unit } => unit.iter_mut().for_each(|(unit, _)| self.name(unit)),
+            ExprKind::Name(name) => self.name(name),
+            ExprKind::Member { owner, feature } => {
+                self.name(owner);
+                self.name(feature);
+            }
+            ExprKind::Path(segments) => {
+                for Segment { name, indices } in segments {
+                    self.name(name);
+                    self.exprs(indices);
+                }
+            }
+            ExprKind::Call { name, arguments } => {
+                self.name(name);
+                self.exprs(arguments);
+            }
+            ExprKind::Paren(e) | ExprKind::Negate(e) | ExprKind::Not(e) => self.expr(e),
+            ExprKind::Tuple(list) | ExprKind::And(list) | ExprKind::Or(list) => self.exprs(list),
+            ExprKind::Sum(first, rest) => {
+                self.expr(first);
+                rest.iter_mut().for_each(|(_, e)| self.expr(e));
+            }
+            ExprKind::Product(first, rest) => {
+                self.expr(first);
+                rest.iter_mut().for_each(|(_, e)| self.expr(e));
+            }
+            ExprKind::Power(a, b) | ExprKind::Compare(a, _, b) => {
+                self.expr(a);
+                self.expr(b);
+            }
+            ExprKind::If { arms, otherwise } => {
+                for (condition, value) in arms {
+                    self.expr(condition);
+                    self.expr(value);
+                }
+                self.expr(otherwise);
+            }
+        }
+    }
+}
