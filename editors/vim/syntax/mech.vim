@@ -40,7 +40,7 @@ syntax keyword mechUnit m mm cm um µm km ft rad mrad deg rev s ms us µs Hz rpm
 " </words>
 
 " the inch, unless another unit follows, in which something is printed
-syntax match mechUnit /\v[0-9.]\s*\zsin>/
+syntax match mechUnit /\v%([0-9.]\s*)@8<=in>/
 " names too, which are none of these words where they are declared, called or set
 " <words contextual>
 syntax match mechPlace /\v<%(use|trace|result|input|part|to|every|along|at|toward|radius|from|spline|in|on|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
