@@ -1,0 +1,26 @@
+-- How a .mech file is edited; starts the language server.
+vim.bo.commentstring = '// %s'
+vim.bo.expandtab, vim.bo.shiftwidth, vim.bo.softtabstop, vim.bo.smartindent = true, 4, 4, true
+
+-- colours, once parser/mech.so is there; vim/ has some without
+if #vim.api.nvim_get_runtime_file('parser/mech.so', false) > 0 then
+  local _, treesitter = pcall(require, 'vim.treesitter.highlighter')
+  if vim.treesitter.start then
+    pcall(vim.treesitter.start)
+  else
+    pcall(function() treesitter.new(vim.treesitter.get_parser(0, 'mech')) end)
+  end
+end
+
+if vim.fn.executable('mechc') == 1 then
+  local folder = vim.fn.expand('%:p:h')
+  local repository = vim.fn.finddir('.git', folder .. ';')
+  local root = repository ~= '' and vim.fn.fnamemodify(repository, ':p:h:h') or folder
+  local server = { name = 'mechc', cmd = { 'mechc', 'lsp' }, root_dir = root }
+  if vim.lsp.start then
+    vim.lsp.start(server)
+  else -- before 0.8
+    _G.mechc_client = _G.mechc_client or vim.lsp.start_client(server)
+    vim.lsp.buf_attach_client(0, _G.mechc_client)
+  end
+end

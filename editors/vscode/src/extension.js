@@ -1,0 +1,111 @@
+// Starts `mechc lsp` for .mech files, and runs mechc's commands as tasks.
+
+const vscode = require('vscode');
+const { LanguageClient } = require('vscode-languageclient/node');
+const { argumentsOf, serverOf } = require('./commands');
+
+/** @type {LanguageClient | undefined} */
+let client;
+
+/** @returns {string} */
+function path() {
+  return vscode.workspace.getConfiguration('mechc').get('path') || 'mechc';
+}
+
+async function start() {
+  // in a folder that nobody trusts nothing is run
+  if (!vscode.workspace.isTrusted) {
+    return;
+  }
+  const log = vscode.workspace.getConfiguration('mechc').get('log', '');
+  client = new LanguageClient('mechc', 'mechc', serverOf(path(), log), {
+    documentSelector: [{ language: 'mech', scheme: 'file' }, { language: 'mech', scheme: 'untitled' }],
+    synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{mech,csv}') },
+  });
+  try {
+    await client.start();
+  } catch (fault) {
+    client = undefined;
+    const settings = 'Say Where It Is';
+    const chosen = await vscode.window.showErrorMessage(`\`${path()} lsp\` does not start: ${fault}`, settings);
+    if (chosen === settings) {
+      await vscode.commands.executeCommand('workbench.action.openSettings', 'mechc.path');
+    }
+  }
+}
+
+async function stop() {
+  const running = client;
+  client = undefined;
+  await running?.stop();
+}
+
+async function restart() {
+  await stop();
+  await start();
+}
+
+/**
+ * A task that runs mechc on a file.
+ * @param {'check' | 'run'} command
+ * @param {string} file
+ * @param {string | undefined} mechanism
+ */
+function task(command, file, mechanism) {
+  const definition = { type: 'mechc', command, file, ...(mechanism ? { mechanism } : {}) };
+  // without a shell: no name of a file means anything to it
+  const execution = new vscode.ProcessExecution(path(), argumentsOf(command, file, mechanism));
+  const made = new vscode.Task(definition, vscode.TaskScope.Workspace, `${command} ${mechanism ?? file}`, 'mechc', execution, '$mechc');
+  made.presentationOptions = { clear: true, showReuseMessage: false };
+  return made;
+}
+
+/**
+ * The command of a code lens, of the palette or of the button above the text.
+ * @param {'check' | 'run'} command
+ */
+function executed(command) {
+  /** @param {string | vscode.Uri | undefined} place @param {unknown} mechanism */
+  return async (place, mechanism) => {
+    const uri = typeof place === 'string' ? vscode.Uri.parse(place) : place ?? vscode.window.activeTextEditor?.document.uri;
+    if (uri?.scheme !== 'file') {
+      await vscode.window.showInformationMessage('mechc reads files: save this text first.');
+      return;
+    }
+    const document = vscode.workspace.textDocuments.find((one) => one.uri.toString() === uri.toString());
+    if (document?.isDirty && !(await document.save())) {
+      return;
+    }
+    await vscode.tasks.executeTask(task(command, uri.fsPath, typeof mechanism === 'string' ? mechanism : undefined));
+  };
+}
+
+/** @param {vscode.TaskDefinition & { command?: 'check' | 'run', file?: string, mechanism?: string }} definition */
+function resolved({ command, file, mechanism }) {
+  return command && file ? task(command, file, mechanism) : undefined;
+}
+
+/** @param {vscode.ExtensionContext} context */
+async function activate(context) {
+  context.subscriptions.push(
+    vscode.commands.registerCommand('mechc.run', executed('run')),
+    vscode.commands.registerCommand('mechc.check', executed('check')),
+    vscode.commands.registerCommand('mechc.restart', restart),
+    vscode.commands.registerCommand('mechc.new', async () => {
+      await vscode.window.showTextDocument(await vscode.workspace.openTextDocument({ language: 'mech' }));
+    }),
+    vscode.tasks.registerTaskProvider('mechc', {
+      provideTasks: () => [],
+      resolveTask: (one) => resolved(/** @type {any} */ (one.definition)),
+    }),
+    vscode.workspace.onDidGrantWorkspaceTrust(start),
+    vscode.workspace.onDidChangeConfiguration(async (change) => {
+      if (change.affectsConfiguration('mechc.path') || change.affectsConfiguration('mechc.log')) {
+        await restart();
+      }
+    }),
+  );
+  await start();
+}
+
+module.exports = { activate, deactivate: stop };
