@@ -8,6 +8,7 @@ pub mod listed;
 pub mod random;
 pub mod reading;
 pub mod shape;
+pub mod table;
 pub mod tex;
 
 use mechc::{

@@ -59,6 +59,8 @@ struct Groups {
 
 struct Grouping<'a> {
     words: &'a [Word],
+    /// By lexeme, and behind the last: where what stands before it ends, comments not counted.
+    ends: Vec<usize>,
     groups: Groups,
     frames: Vec<Frame>,
     /// Where the operand begins that was read last, by open bracket or conditional.
@@ -73,7 +75,11 @@ fn groups(words: &[Word]) -> Groups {
         is_gap: vec![false; count + 1],
         is_list: vec![false; count],
     };
-    let mut grouping = Grouping { words, groups, frames: Vec::new(), operands: vec![None] };
+    let mut ends = vec![0];
+    for (k, word) in words.iter().enumerate() {
+        ends.push(if word.class == Class::Comment { ends[k] } else { k + 1 });
+    }
+    let mut grouping = Grouping { words, ends, groups, frames: Vec::new(), operands: vec![None] };
     for k in 0..count {
         grouping.take(k);
     }
@@ -142,7 +148,9 @@ impl Grouping<'_> {
         }
     }
 
+    /// A comment behind a group is not in it: where a comma is put before the comment, it would not be either.
     fn end_group(&mut self, first: usize, behind: usize, style: Style) {
+        let behind = self.ends[behind];
         if first < behind {
             self.groups.begin[first].push(style);
             self.groups.end[behind - 1] += 1;
