@@ -7,6 +7,7 @@ use super::names::{each, formulas};
 use super::place::{Change, Place, Stretch};
 use super::snapshot::Snapshot;
 use crate::cancel::Cancel;
+use crate::source::Span;
 use crate::syntax::ast::{ExprKind, Item, ItemKind, Mechanism};
 use std::ops::Range;
 use std::path::Path;
@@ -109,7 +110,7 @@ fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> O
     // a param that is only this number has a name already
     let is_named = |span| matches!(&item.kind, ItemKind::Param { value, .. } if value.bare().span == span);
     let literal = literal.filter(|literal| !is_named(*literal))?;
-    let name = free_name(mechanism, names_for(item));
+    let name = free_name(mechanism, names_for(item, literal));
     let text = text_of(snapshot, path)?;
     let value = text.get(literal.start as usize..literal.end as usize)?;
     let (at, before, behind) = place_for_param(mechanism, item, &text)?;
@@ -126,48 +127,51 @@ fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> O
 }
 
 /// Names for a number of a declaration.
-fn names_for(item: &Item) -> &'static [&'static str] {
-    match item.kind {
-        ItemKind::Analysis { .. } => &["duration", "time_step"],
+fn names_for(item: &Item, literal: Span) -> &'static [&'static str] {
+    match &item.kind {
+        ItemKind::Analysis { every, .. } if every.span.start <= literal.start => &["time_step"],
+        ItemKind::Analysis { from, .. } if literal.end <= from.span.end => &["start_time"],
+        ItemKind::Analysis { .. } => &["end_time"],
         ItemKind::Equation { .. } | ItemKind::Input { .. } => &["rate", "start", "amount"],
         _ => &["size", "width", "height", "distance_along"],
     }
 }
 
-/// Where a param goes: behind the last one before a declaration, else in front of what comes first; with what stands around it.
+/// Where a param goes, and what stands around it: behind the last one before a declaration, else in front of what comes first.
 fn place_for_param(mechanism: &Mechanism, item: &Item, text: &str) -> Option<(u32, String, String)> {
     let is_before = |other: &&Item| matches!(other.kind, ItemKind::Param { .. }) && other.span.end <= item.span.start;
-    let (other, is_behind) = match mechanism.items.iter().rfind(is_before) {
-        Some(param) => (param, true),
-        None => (mechanism.items.first()?, false),
-    };
-    let line = text.get(..other.span.start as usize)?.rfind('\n').map_or(0, |end| end + 1);
-    let indent = text.get(line..other.span.start as usize)?;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
-    if indent.trim().is_empty() && line > 0 {
-        // the lines of documentation above belong to the declaration
-        let docs = text.get(..line)?.lines().rev().take_while(|line| line.trim_start().starts_with("///"));
-        let above: usize = if is_behind { 0 } else { docs.map(|line| line.len() + end.len()).sum() };
-        let behind = text.get(other.span.end as usize..)?;
-        let rest = behind.find('\n').map_or(behind.len(), |at| at + 1);
-        return Some(match is_behind {
-            // a comment behind the param stays there
-            true if behind.get(..rest)?.trim_start().starts_with("//") || behind.get(..rest)?.trim().is_empty() => {
-                let at = other.span.end as usize + rest;
-                if rest > 0 && behind.get(..rest)?.ends_with('\n') {
-                    (at as u32, indent.to_owned(), end.to_owned())
-                } else {
-                    (at as u32, format!("{end}{indent}"), String::new())
-                }
-            }
-            true => (other.span.end, format!("{end}{indent}"), String::new()),
-            false => ((line - above) as u32, indent.to_owned(), end.to_owned()),
-        });
+    if let Some(param) = mechanism.items.iter().rfind(is_before) {
+        let Some(indent) = indent_of(text, param.span) else {
+            return Some((param.span.end, " ".to_owned(), String::new()));
+        };
+        // a comment behind the param stays on its line
+        return Some((end_of_line(text, param.span)?, format!("{end}{indent}"), String::new()));
     }
-    match is_behind {
-        true => Some((other.span.end, " ".to_owned(), String::new())),
-        false => Some((other.span.start, String::new(), " ".to_owned())),
-    }
+    let first = mechanism.items.first()?;
+    let Some(indent) = indent_of(text, first.span) else {
+        return Some((first.span.start, String::new(), " ".to_owned()));
+    };
+    // the lines of documentation above belong to the declaration
+    let line = first.span.start as usize - indent.len();
+    let lines = text.get(..line)?.split_inclusive('\n').rev();
+    let docs = lines.take_while(|line| line.trim_start().starts_with("///")).map(str::len).sum::<usize>();
+    Some(((line - docs) as u32, indent.to_owned(), end.to_owned()))
+}
+
+/// What stands before a declaration on its line, where that is only white space.
+fn indent_of(text: &str, declaration: Span) -> Option<&str> {
+    let before = text.get(..declaration.start as usize)?;
+    let indent = before.get(before.rfind('\n')? + 1..)?;
+    indent.trim().is_empty().then_some(indent)
+}
+
+/// The end of a declaration, or of the comment behind it.
+fn end_of_line(text: &str, declaration: Span) -> Option<u32> {
+    let behind = text.get(declaration.end as usize..)?;
+    let rest = behind.find(['\n', '\r']).unwrap_or(behind.len());
+    let is_comment = behind.get(..rest)?.trim_start().starts_with("//");
+    Some(declaration.end + if is_comment { rest as u32 } else { 0 })
 }
 
 /// A driver for the joint at a place, where the proof says that it would take what is left free.
@@ -182,15 +186,10 @@ fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Action> {
         .find(|(driven, _)| driven.split_once('(').is_some_and(|(_, of)| of.trim_end_matches(')') == name.text))?;
     let text = text_of(snapshot, &place.path)?;
     let last = mechanism.items.iter().rfind(|item| matches!(item.kind, ItemKind::Joint { .. }))?;
-    let line = text.get(..last.span.start as usize)?.rfind('\n').map_or(0, |end| end + 1);
-    let indent = text.get(line..last.span.start as usize)?;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
-    let before = if indent.trim().is_empty() { format!("{end}{indent}") } else { " ".to_owned() };
+    let before = indent_of(&text, last.span).map_or(" ".to_owned(), |indent| format!("{end}{indent}"));
     let driver = free_name(mechanism, &["motor", "drive", "feed"]);
-    // a comment behind the joint stays on its line
-    let behind = text.get(last.span.end as usize..)?;
-    let rest = behind.find(['\n', '\r']).unwrap_or(behind.len());
-    let at = last.span.end + if behind.get(..rest)?.trim_start().starts_with("//") { rest as u32 } else { 0 };
+    let at = end_of_line(&text, last.span)?;
     let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
     let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
     let title = format!("drive `{}`", name.text);
@@ -257,8 +256,8 @@ mod tests {
         ");
         insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @r"
         Extract extract `0.1 s` into a param
-            param duration = 0.1 s
-            analysis from 0 s to 4 s every duration
+            param time_step = 0.1 s
+            analysis from 0 s to 4 s every time_step
         ");
         insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @r"
         Extract extract `30 mm` into a param

@@ -70,8 +70,7 @@ impl Here<'_> {
             return self.inside(&path);
         }
         let is_open = cursor.call().is_some();
-        let may_begin = cursor.head().is_empty() || cursor.is_first_on_line() && !is_open && cursor.is_behind_operand();
-        if may_begin || cursor.is_first_on_line() && cursor.block == Block::File {
+        if cursor.may_begin() || cursor.is_first_on_line() && cursor.block == Block::File {
             let mut items = self.declarations();
             items.extend(if cursor.head().is_empty() { Vec::new() } else { self.joining() });
             return items;
@@ -111,20 +110,17 @@ impl Here<'_> {
         let words: &[&str] = match cursor.head() {
             "use" => &["as"],
             "body" if cursor.has("at") => &["toward"],
-            "body" => &["at"],
-            "axis" if cursor.has("along") || cursor.has("to") => &[],
-            "axis" => &["along", "to"],
+            "body" | "curve" => &["at"],
+            "axis" if !cursor.has("along") && !cursor.has("to") => &["along", "to"],
             "circle" => &["radius"],
-            "curve" => &["at"],
-            "measure" | "trace" | "result" if cursor.has("in") => &[],
-            "measure" | "trace" | "result" => &["in"],
+            "measure" | "trace" | "result" if !cursor.has("in") => &["in"],
             "part" if cursor.has("at") => &["mirrored"],
             "part" if cursor.has("on") => &["at", "mirrored"],
             "part" if cursor.last() == Some(")") => &["on", "at", "mirrored"],
             "table" => &["columns"],
             "analysis" if !cursor.has("from") => &["from"],
             "analysis" if !cursor.has("to") => &["to"],
-            "analysis" => &["every"],
+            "analysis" if !cursor.has("every") => &["every"],
             _ => &[],
         };
         let is_new = |word: &&&str| cursor.word.is_empty() || !cursor.has(word);
@@ -151,8 +147,7 @@ impl Here<'_> {
             ("table", Some("=" | "periodic")) => {
                 ["spline", "periodic"].iter().filter_map(|word| Some(joining(Keyword::named(word)?))).collect()
             }
-            ("table", Some("spline")) => Vec::new(),
-            ("part", Some("at")) => Vec::new(),
+            ("table", Some("spline")) | ("part", Some("at")) => Vec::new(),
             _ => self.formula(&wanted(cursor)),
         }
     }
@@ -254,7 +249,7 @@ impl Here<'_> {
         });
         if is_number && cursor.head() != "joint" {
             items.extend(called(cursor.head()).map(|word| Item::word(word, 4)));
-            items.extend(Keyword::named("if").map(|keyword| declaration(keyword)));
+            items.extend(Keyword::named("if").map(declaration));
         }
         let mut seen = std::collections::BTreeSet::new();
         items.retain(|item| seen.insert((item.label.clone(), item.kind as u8)));

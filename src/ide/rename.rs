@@ -137,7 +137,7 @@ impl Renaming {
                 let Bytes { start, end } = self.bytes(at, Role::Declares, &declared.path);
                 Target::Name(Stretch { path: Arc::clone(&declared.path), start, end })
             }
-            file => file.clone(),
+            file @ Target::File(_) => file.clone(),
         };
         Occurrence { range: self.bytes(one.range, one.role, path), role: one.role, target }
     }

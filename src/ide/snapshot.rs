@@ -134,14 +134,6 @@ impl Snapshot {
         Snapshot { files, ..self.clone() }
     }
 
-    /// The same without a file that is gone.
-    #[must_use]
-    pub fn without_file(&self, path: &Arc<Path>) -> Snapshot {
-        let mut after = self.without(path);
-        after.files.remove(path);
-        after
-    }
-
     /// Ends all work on it, soon: it gives nothing then.
     pub fn cancel(&self) {
         self.cancel.cancel();

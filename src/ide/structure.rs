@@ -95,7 +95,8 @@ fn comments(parsed: &Parsed) -> Vec<Fold> {
 pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
     let parsed = snapshot.parsed(&place.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let mut found: Vec<Range<u32>> = vec![0..text.len() as u32];
+    let whole = 0..text.len() as u32;
+    let mut found: Vec<Range<u32>> = Vec::from([whole]);
     let mut add = |range: Range<u32>| {
         if range.start <= place.offset && place.offset <= range.end && !range.is_empty() {
             found.push(range);
@@ -104,7 +105,9 @@ pub fn around(snapshot: &Snapshot, place: &Place) -> Option<Vec<Range<u32>>> {
     for token in tokens(text).into_iter().filter(|token| token.text.starts_with(is_of_word)) {
         add(token.start as u32..token.end() as u32);
     }
-    between_brackets(text).into_iter().for_each(|fold| add(fold.range));
+    for fold in between_brackets(text) {
+        add(fold.range);
+    }
     for mechanism in &parsed.tree().mechanisms {
         spans_of(mechanism, place.offset, &mut |span| add(span.start..span.end));
     }
@@ -140,13 +143,23 @@ fn spans_of_item(item: &Item, add: &mut impl FnMut(Span)) {
         ItemKind::Joint { call_span, .. } => add(*call_span),
         ItemKind::Part(part) => {
             add(part.call_span);
-            part.bindings.iter().for_each(|binding| add(binding.span));
+            for binding in &part.bindings {
+                add(binding.span);
+            }
         }
         ItemKind::Body { features, pose, .. } => {
-            pose.iter().for_each(|pose| add(pose.span()));
-            features.iter().for_each(|feature| spans_of_feature(feature, add));
+            if let Some(pose) = pose {
+                add(pose.span());
+            }
+            for feature in features {
+                spans_of_feature(feature, add);
+            }
         }
-        ItemKind::Ground { features } => features.iter().for_each(|feature| spans_of_feature(feature, add)),
+        ItemKind::Ground { features } => {
+            for feature in features {
+                spans_of_feature(feature, add);
+            }
+        }
         ItemKind::Table { rows: TableRows::File { path, .. }, .. } => add(path.span),
         _ => {}
     }

@@ -12,14 +12,8 @@ pub(super) struct Client {
     pub encoding: Encoding,
     /// Whether it asks for diagnostics, and can be told to ask again; else it is told them.
     pub pulls_diagnostics: bool,
-    /// Whether what is completed may have places to fill in.
-    pub has_snippets: bool,
-    /// Whether it shows from where a name leads to its declaration.
-    pub has_links: bool,
-    /// Whether it folds whole lines alone.
-    pub folds_lines: bool,
-    /// Whether it can be asked to tell which files have changed.
-    pub watches_files: bool,
+    /// What else.
+    abilities: Vec<Ability>,
     /// Whether it has the commands `mechc.run` and `mechc.check`, each called with a URI and the name of a mechanism.
     pub can_run: bool,
     /// What it can be told to ask for again.
@@ -33,6 +27,27 @@ pub(super) struct Refreshes {
     pub lenses: bool,
     pub tokens: bool,
 }
+
+/// What a client may be able to do.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Ability {
+    /// It folds whole lines alone.
+    LineFolding,
+    /// It shows from where a name leads to its declaration.
+    Links,
+    /// What is completed may have places to fill in.
+    Snippets,
+    /// It can be asked to tell which files have changed.
+    WatchedFiles,
+}
+
+/// Where a client says it.
+const ABILITIES: &[(Ability, &str)] = &[
+    (Ability::LineFolding, "/capabilities/textDocument/foldingRange/lineFoldingOnly"),
+    (Ability::Links, "/capabilities/textDocument/definition/linkSupport"),
+    (Ability::Snippets, "/capabilities/textDocument/completion/completionItem/snippetSupport"),
+    (Ability::WatchedFiles, "/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"),
+];
 
 impl Client {
     /// By the params of `initialize`.
@@ -50,10 +65,7 @@ impl Client {
             encoding: if offers("utf-8") { Encoding::Utf8 } else { Encoding::Utf16 },
             pulls_diagnostics: is("/capabilities/textDocument/diagnostic")
                 && is("/capabilities/workspace/diagnostics/refreshSupport"),
-            has_snippets: is("/capabilities/textDocument/completion/completionItem/snippetSupport"),
-            has_links: is("/capabilities/textDocument/definition/linkSupport"),
-            folds_lines: is("/capabilities/textDocument/foldingRange/lineFoldingOnly"),
-            watches_files: is("/capabilities/workspace/didChangeWatchedFiles/dynamicRegistration"),
+            abilities: ABILITIES.iter().filter(|(_, path)| is(path)).map(|(ability, _)| *ability).collect(),
             can_run: has_command("mechc.run") && has_command("mechc.check"),
             refreshes: Refreshes {
                 hints: is("/capabilities/workspace/inlayHint/refreshSupport"),
@@ -61,6 +73,11 @@ impl Client {
                 tokens: is("/capabilities/workspace/semanticTokens/refreshSupport"),
             },
         }
+    }
+
+    /// Whether it can do something.
+    pub fn can(&self, ability: Ability) -> bool {
+        self.abilities.contains(&ability)
     }
 }
 

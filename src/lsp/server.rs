@@ -1,7 +1,7 @@
 //! The loop: messages and what the pool has done, one after the other. It alone owns what changes.
 
 use super::answers::{Failure, Method, TABLE};
-use super::capabilities::{self, Client, Refreshes};
+use super::capabilities::{self, Ability, Client, Refreshes};
 use super::convert::{self, Texts};
 use super::documents::{Document, Documents};
 use super::lines::Position;
@@ -209,11 +209,17 @@ impl Server {
             return;
         }
         let done = match method.as_str() {
-            "initialized" => self.began(),
+            "initialized" => {
+                self.began();
+                Some(())
+            }
             "textDocument/didOpen" => self.opened(&params),
             "textDocument/didChange" => self.changed(&params),
             "textDocument/didClose" => self.closed(&params),
-            "workspace/didChangeWorkspaceFolders" => self.changed_folders(&params),
+            "workspace/didChangeWorkspaceFolders" => {
+                self.changed_folders(&params);
+                Some(())
+            }
             "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
             "$/cancelRequest" => self.cancelled(&params),
             _ => Some(()),
@@ -282,15 +288,14 @@ impl Server {
     }
 
     /// The session has begun: the files of the client's folders are looked for.
-    fn began(&mut self) -> Option<()> {
-        if self.client.watches_files {
+    fn began(&mut self) {
+        if self.client.can(Ability::WatchedFiles) {
             let watchers = json!([{ "globPattern": "**/*.mech" }, { "globPattern": "**/*.csv" }]);
             let method = "workspace/didChangeWatchedFiles";
             let registration = json!({ "id": "files", "method": method, "registerOptions": { "watchers": watchers } });
             self.ask_with("client/registerCapability", json!({ "registrations": [registration] }));
         }
         self.look_for_files();
-        Some(())
     }
 
     fn look_for_files(&self) {
@@ -303,7 +308,7 @@ impl Server {
         }
     }
 
-    fn changed_folders(&mut self, params: &Value) -> Option<()> {
+    fn changed_folders(&mut self, params: &Value) {
         let paths = |name: &str| {
             let list = params.pointer(&format!("/event/{name}")).and_then(Value::as_array);
             let uris = list.into_iter().flatten().filter_map(|folder| folder.get("uri")?.as_str());
@@ -313,7 +318,6 @@ impl Server {
         self.folders.retain(|folder| !removed.contains(folder));
         self.folders.extend(paths("added"));
         self.look_for_files();
-        Some(())
     }
 
     /// Files on the disk are others, or gone, or new.

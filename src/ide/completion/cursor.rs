@@ -40,21 +40,21 @@ impl<'t> Cursor<'t> {
     /// Nothing in a comment.
     pub fn at(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
         let line = text.get(..offset)?.rfind('\n').map_or(0, |end| end + 1);
-        let string = string_at(&text[line..offset])?.map(|at| line + at);
-        let (word, end) = match string {
-            Some(quote) => {
+        let within = within(&text[line..offset]);
+        let mut word = word_at(text, offset);
+        let mut end = word.start;
+        match within {
+            Within::Code => {}
+            Within::Comment => return None,
+            Within::String(quote) => {
                 let rest = &text[offset..];
-                let end = offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
-                (quote + 1..end, quote)
+                word = line + quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
+                end = line + quote;
             }
-            None => {
-                let word = word_at(text, offset);
-                (word.clone(), word.start)
-            }
-        };
+        }
         let tokens = tokens(&text[..end]);
         let (first, block) = declaration(&text[..end], &tokens);
-        Some(Cursor { text, word, is_in_string: string.is_some(), tokens, first, block })
+        Some(Cursor { text, word, is_in_string: matches!(within, Within::String(_)), tokens, first, block })
     }
 
     /// The tokens of the declaration.
@@ -62,9 +62,16 @@ impl<'t> Cursor<'t> {
         &self.tokens[self.first..]
     }
 
-    /// The byte where the declaration begins.
+    /// The byte where the declaration begins; that of the word, where it may begin a new one.
     pub fn start(&self) -> usize {
-        self.declaration().first().map_or(self.word.start, |token| token.start)
+        let first = self.declaration().first().filter(|_| !self.may_begin());
+        first.map_or(self.word.start, |token| token.start)
+    }
+
+    /// Whether a declaration may begin with the word: the one before can end there.
+    pub fn may_begin(&self) -> bool {
+        let can_end = || self.is_first_on_line() && self.is_behind_operand() && self.call().is_none();
+        self.head().is_empty() || can_end()
     }
 
     /// Its keyword.
@@ -177,18 +184,26 @@ impl<'t> Cursor<'t> {
     }
 }
 
-/// Whether a line ends within a string, and where that begins; nothing where it ends within a comment.
-fn string_at(line: &str) -> Option<Option<usize>> {
+/// In what a line ends.
+#[derive(Clone, Copy)]
+enum Within {
+    Code,
+    Comment,
+    /// By the byte where it begins.
+    String(usize),
+}
+
+fn within(line: &str) -> Within {
     let mut string = None;
     for (at, c) in line.char_indices() {
         match (c, string) {
             ('"', None) => string = Some(at),
             ('"', Some(_)) => string = None,
-            ('/', None) if line[at..].starts_with("//") => return None,
+            ('/', None) if line[at..].starts_with("//") => return Within::Comment,
             _ => {}
         }
     }
-    Some(string)
+    string.map_or(Within::Code, Within::String)
 }
 
 /// The word that holds a place or touches it; digits before it are a number.

@@ -71,6 +71,7 @@ impl Template {
     }
 
     /// Places stand between `«` and `»`.
+    #[must_use]
     pub fn marked(marked: &str) -> Template {
         let (mut template, mut open) = (Template::default(), 0);
         for c in marked.chars() {
@@ -84,15 +85,14 @@ impl Template {
     }
 
     /// By a form of the vocabulary, `revolute(P, Q)`: all words are places but its first one, and keywords outside of parentheses.
+    #[must_use]
     pub fn of_form(form: &str) -> Template {
         let mut marked = String::new();
         let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '…';
         let (mut rest, mut depth) = (form, 0_usize);
         while let Some(first) = rest.chars().next() {
-            let length = match is_part(first) {
-                true => rest.find(|c| !is_part(c)).unwrap_or(rest.len()),
-                false => first.len_utf8(),
-            };
+            let length =
+                if is_part(first) { rest.find(|c| !is_part(c)).unwrap_or(rest.len()) } else { first.len_utf8() };
             let (word, behind) = rest.split_at(length);
             match first {
                 '(' => depth += 1,
@@ -150,7 +150,7 @@ impl Item {
             && let Some(form) = word.forms.first()
         {
             item.insert = Template::of_form(form);
-            item.signature = form.strip_prefix(word.name).unwrap_or_default().to_owned();
+            form.strip_prefix(word.name).unwrap_or_default().clone_into(&mut item.signature);
         }
         item
     }

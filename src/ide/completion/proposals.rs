@@ -139,7 +139,8 @@ pub(in crate::ide) fn free_name(tree: &Mechanism, names: &[&str]) -> String {
     let plain = names.iter().find(|name| is_free(name)).map(|name| (*name).to_owned());
     plain.unwrap_or_else(|| {
         let base = names.first().copied().unwrap_or("name");
-        (2..).map(|k| format!("{base}_{k}")).find(|name| is_free(name)).unwrap_or_default()
+        // more than there are declarations
+        (2..tree.items.len() + 3).map(|k| format!("{base}_{k}")).find(|name| is_free(name)).unwrap_or_default()
     })
 }
 

@@ -57,7 +57,7 @@ impl Scope<'_> {
         }
         let at = cursor.start() as u32;
         let around = self.tree.items.iter().find(|item| item.span.start <= at && at <= item.span.end);
-        let features = around.map(|item| features(item)).unwrap_or_default();
+        let features = around.map(features).unwrap_or_default();
         let others = features.iter().filter(|feature| feature.span.start != at && wanted.is(&feature.kind));
         others.map(|feature| self.feature(feature, "this body", 1)).collect()
     }
@@ -85,7 +85,7 @@ impl Scope<'_> {
             found.insert = Template::marked(&format!("{}(«{argument}»)", name.text));
         } else if !item.ranges.is_empty() {
             found.insert = Template::marked(&with_indices(item, &name.text));
-            found.signature = "[…]".to_owned();
+            "[…]".clone_into(&mut found.signature);
         }
         Some(found)
     }
@@ -163,27 +163,13 @@ impl Scope<'_> {
             _ => None,
         };
         let mut found: Vec<Item> = items.filter_map(|item| self.named(item, rank(item)?)).collect();
-        found.extend(self.arguments(cursor));
+        found.extend(arguments(cursor));
         for constant in CONSTANTS.iter().filter(|constant| constant.word.name != "ground") {
             if constant.word.name != "t" || has_time {
                 found.push(Item::word(&constant.word, 3));
             }
         }
         found
-    }
-
-    /// The argument of the function or curve, and the numbers of the repetition around the cursor.
-    fn arguments(&self, cursor: &Cursor<'_>) -> Vec<Item> {
-        let tokens = cursor.declaration();
-        let is_called = matches!(cursor.head(), "fn" | "curve");
-        let argument = tokens.get(3).filter(|_| is_called && tokens.get(2).is_some_and(|token| token.text == "("));
-        let indices = tokens
-            .windows(2)
-            .filter(|pair| matches!(pair[0].text, "[" | ",") && tokens.get(2).is_some_and(|token| token.text == "["));
-        let behind = tokens.iter().position(|token| matches!(token.text, ":" | "=")).unwrap_or(tokens.len());
-        let indices = indices.filter(|pair| tokens[..behind].iter().any(|token| token.start == pair[1].start));
-        let names = argument.into_iter().copied().chain(indices.map(|pair| pair[1]));
-        names.map(|token| Item::new(token.text, ItemKind::Value, 0).detail("of this declaration")).collect()
     }
 
     /// What stands behind a path with a dot; all of it where nothing is wanted.
@@ -216,13 +202,10 @@ impl Scope<'_> {
         };
         let fits = |wanted: &Wanted| match (wanted, &item.kind) {
             (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(&kind.text, quantity),
-            (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. }) => true,
+            (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. })
+            | (Wanted::Number(_), Declared::Measure { .. } | Declared::Result { .. })
+            | (Wanted::Number(_) | Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
             (Wanted::Point, Declared::Param { .. }) => is_point(item),
-            (
-                Wanted::Number(_),
-                Declared::Param { .. } | Declared::Input { .. } | Declared::Measure { .. } | Declared::Result { .. },
-            ) => true,
-            (Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
             _ => false,
         };
         if !wanted.is_empty() && !wanted.iter().any(|wanted| fits(wanted) || leads_on(wanted)) {
@@ -277,6 +260,20 @@ impl Scope<'_> {
         };
         tree.items.iter().filter(is_bindable).filter_map(item).collect()
     }
+}
+
+/// The argument of the function or curve, and the numbers of the repetition around the cursor.
+fn arguments(cursor: &Cursor<'_>) -> Vec<Item> {
+    let tokens = cursor.declaration();
+    let is_called = matches!(cursor.head(), "fn" | "curve");
+    let argument = tokens.get(3).filter(|_| is_called && tokens.get(2).is_some_and(|token| token.text == "("));
+    let indices = tokens
+        .windows(2)
+        .filter(|pair| matches!(pair[0].text, "[" | ",") && tokens.get(2).is_some_and(|token| token.text == "["));
+    let behind = tokens.iter().position(|token| matches!(token.text, ":" | "=")).unwrap_or(tokens.len());
+    let indices = indices.filter(|pair| tokens[..behind].iter().any(|token| token.start == pair[1].start));
+    let names = argument.into_iter().copied().chain(indices.map(|pair| pair[1]));
+    names.map(|token| Item::new(token.text, ItemKind::Value, 0).detail("of this declaration")).collect()
 }
 
 /// The features of a body or of the ground.

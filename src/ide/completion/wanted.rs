@@ -139,13 +139,9 @@ fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Wanted {
 
 /// Outside of all parentheses.
 fn at_top(cursor: &Cursor<'_>) -> Vec<Wanted> {
-    let point = Wanted::Point;
     match cursor.head() {
-        "trace" | "point" => vec![point],
-        "axis" => vec![point],
         "circle" if cursor.has("radius") => vec![Wanted::Number(Some(Dimension::LENGTH))],
-        "circle" | "curve" => vec![point],
-        "body" => vec![point],
+        "trace" | "point" | "axis" | "circle" | "curve" | "body" => vec![Wanted::Point],
         "part" if cursor.has("on") && !cursor.has("at") => vec![Wanted::Body],
         "analysis" => vec![Wanted::Number(Some(Dimension::TIME))],
         "driver" | "constraint" => vec![Wanted::Number(driven(cursor))],

@@ -1,6 +1,7 @@
 //! What could be written at a place.
 
 use crate::ide::{self, ItemKind, Template};
+use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::{Texts, markdown};
 use gen_lsp_types as lsp;
 
@@ -9,12 +10,12 @@ pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Optio
     let items = ide::completions(&texts.snapshot, &place)?;
     // all of them replace the same
     let range = texts.range(&place.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
-    let items = items.into_iter().enumerate().map(|(number, item)| item_of(texts, number, item, range.clone()));
+    let items = items.into_iter().enumerate().map(|(number, item)| item_of(texts, number, item, range));
     Some(items.collect::<Vec<_>>().into())
 }
 
 fn item_of(texts: &Texts, number: usize, item: ide::Item, range: lsp::Range) -> lsp::CompletionItem {
-    let has_snippets = texts.client.has_snippets;
+    let has_snippets = texts.client.can(Ability::Snippets);
     let is_snippet = has_snippets && !item.insert.holes.is_empty();
     let new_text = match has_snippets {
         true if is_snippet => snippet(&item.insert),

@@ -59,7 +59,7 @@ pub(super) fn brace_formatting(
     texts: &Texts,
     params: &lsp::DocumentOnTypeFormattingParams,
 ) -> Option<Vec<lsp::TextEdit>> {
-    let (text_document, position) = (params.text_document.clone(), params.position.clone());
+    let (text_document, position) = (params.text_document.clone(), params.position);
     let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position })?;
     formatted(texts, &params.text_document, &Formatted::AtBrace(place.offset))
 }

@@ -2,6 +2,7 @@
 
 use super::Failure;
 use crate::ide;
+use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::{Texts, symbol_kind};
 use gen_lsp_types as lsp;
 
@@ -9,14 +10,14 @@ pub(super) fn definition(texts: &Texts, params: &lsp::DefinitionParams) -> Optio
     let place = texts.place(&params.text_document_position_params)?;
     let link = ide::definition(&texts.snapshot, &place)?;
     let to = texts.location(&link.to)?;
-    if !texts.client.has_links {
+    if !texts.client.can(Ability::Links) {
         return Some(lsp::Definition::from(to).into());
     }
     let from = texts.range(&place.path, &link.from.range());
     let link = lsp::LocationLink {
         origin_selection_range: from,
         target_uri: to.uri,
-        target_range: to.range.clone(),
+        target_range: to.range,
         target_selection_range: to.range,
     };
     Some(vec![link].into())
@@ -67,7 +68,7 @@ pub(super) fn workspace_symbols(
         let location = texts.location(&found.place)?;
         Some(lsp::WorkspaceSymbol { location: location.into(), data: None, base_symbol_information })
     };
-    Some(found.iter().filter_map(of).collect::<Vec<_>>().into())
+    (!texts.snapshot.is_cancelled()).then(|| found.iter().filter_map(of).collect::<Vec<_>>().into())
 }
 
 pub(super) fn prepare_rename(

@@ -1,6 +1,7 @@
 //! The shape of a text.
 
 use crate::ide::{self, FoldKind};
+use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::Texts;
 use gen_lsp_types as lsp;
 use std::ops::Range;
@@ -10,7 +11,7 @@ pub(super) fn folds(texts: &Texts, params: &lsp::FoldingRangeParams) -> Option<V
     let of = |fold: &ide::Fold| {
         let lsp::Range { start, end } = texts.range(&path, &fold.range)?;
         // who folds whole lines still sees the brace that closes
-        let is_cut = texts.client.folds_lines && fold.kind == FoldKind::Inside;
+        let is_cut = texts.client.can(Ability::LineFolding) && fold.kind == FoldKind::Inside;
         let end_line = end.line - u32::from(is_cut);
         let kind = match fold.kind {
             FoldKind::Inside => None,
@@ -33,7 +34,7 @@ pub(super) fn folds(texts: &Texts, params: &lsp::FoldingRangeParams) -> Option<V
 pub(super) fn selections(texts: &Texts, params: &lsp::SelectionRangeParams) -> Option<Vec<lsp::SelectionRange>> {
     let of = |position: &lsp::Position| {
         let text_document = params.text_document.clone();
-        let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position: position.clone() })?;
+        let place = texts.place(&lsp::TextDocumentPositionParams { text_document, position: *position })?;
         nested(texts, &place.path, &ide::around(&texts.snapshot, &place)?)
     };
     params.positions.iter().map(of).collect()
