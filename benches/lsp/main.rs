@@ -87,8 +87,8 @@ impl Session {
             times.push(step(self, k).as_secs_f64() * 1e3);
         }
         times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[((times.len() - 1) as f64 * part).round() as usize];
-        println!("{what:<52} {:9.3} {:9.3} {:9.3}", at(0.5), at(0.95), at(1.0));
+        let at = |percent: usize| times[(times.len() - 1) * percent / 100];
+        println!("{what:<52} {:9.3} {:9.3} {:9.3}", at(50), at(95), at(100));
     }
 
     /// Where the words of some mechanism stand in the text.
