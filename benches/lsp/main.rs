@@ -26,10 +26,12 @@ const REST: Duration = Duration::from_millis(300);
 
 fn main() {
     // `cargo bench` adds an argument of its own
-    let binary = std::env::args().skip(1).find(|argument| !argument.starts_with("--")).map(PathBuf::from);
+    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let sizes: Vec<usize> = arguments.iter().filter_map(|argument| argument.parse().ok()).collect();
+    let binary = arguments.iter().find(|argument| argument.parse::<usize>().is_err()).map(PathBuf::from);
     let binary = binary.unwrap_or_else(|| PathBuf::from(env!("CARGO_BIN_EXE_mechc")));
     println!("{:<52} {:>9} {:>9} {:>9}", "milliseconds", "median", "95 %", "longest");
-    for bodies in [20, 2000] {
+    for bodies in if sizes.is_empty() { vec![20, 2000] } else { sizes } {
         let mut session = Session::open(&binary, bodies);
         session.print_all(bodies);
         assert!(session.pipe.end(), "it ends as the protocol says");
@@ -87,8 +89,8 @@ impl Session {
             times.push(step(self, k).as_secs_f64() * 1e3);
         }
         times.sort_by(f64::total_cmp);
-        let at = |part: f64| times[((times.len() - 1) as f64 * part).round() as usize];
-        println!("{what:<52} {:9.3} {:9.3} {:9.3}", at(0.5), at(0.95), at(1.0));
+        let at = |percent: usize| times[(times.len() - 1) * percent / 100];
+        println!("{what:<52} {:9.3} {:9.3} {:9.3}", at(50), at(95), at(100));
     }
 
     /// Where the words of some mechanism stand in the text.

@@ -25,6 +25,9 @@ const MOTION_LIMIT: Duration = Duration::from_secs(10);
 /// The request for diagnostics, which may have to wait for them.
 pub(super) const PULL: &str = "textDocument/diagnostic";
 
+/// A motion is followed once nobody has typed for so long: what has begun does not end at once, and takes from the next keystroke's words.
+const MOTION_DELAY: Duration = Duration::from_millis(250);
+
 /// How often it is looked whether a motion takes too long.
 const TICK: Duration = Duration::from_millis(200);
 
@@ -49,6 +52,7 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
         edited: None,
         revision: 0,
         motions: Vec::new(),
+        due: Vec::new(),
         pending: HashMap::new(),
         pulls: Vec::new(),
         next_id: 0,
@@ -110,6 +114,8 @@ struct Server {
     revision: u64,
     /// The motions that are being followed, and until when.
     motions: Vec<(Cancel, Instant)>,
+    /// Those that are to be followed, and from when on.
+    due: Vec<(Arc<Path>, Instant)>,
     pending: HashMap<RequestId, Pending>,
     pulls: Vec<Pull>,
     /// Of the server's own requests.
@@ -137,9 +143,10 @@ impl Server {
                     }
                 },
                 recv(tasks) -> task => task.map_or((), |task| self.task(task)),
-                default(if self.motions.is_empty() { IDLE } else { TICK }) => {}
+                default(self.patience()) => {}
             }
             self.end_long_motions();
+            self.begin_due_motions();
         }
     }
 
@@ -364,11 +371,19 @@ impl Server {
     fn end_work(&mut self) {
         self.snapshot.cancel();
         self.motions.drain(..).for_each(|(cancel, _)| cancel.cancel());
+        self.due.clear();
     }
 
     /// Begins the next stage of a text.
     fn look(&mut self, path: &Arc<Path>) {
-        let Some(stage) = self.shown.get(path).and_then(Shown::next) else { return };
+        match self.shown.get(path).and_then(Shown::next) {
+            Some(Stage::Motion) => self.due.push((Arc::clone(path), Instant::now() + MOTION_DELAY)),
+            Some(stage) => self.begin_stage(path, stage),
+            None => {}
+        }
+    }
+
+    fn begin_stage(&mut self, path: &Arc<Path>, stage: Stage) {
         let (path, revision, snapshot) = (Arc::clone(path), self.revision, self.snapshot.clone());
         let (done, cancel) = (self.done.clone(), Cancel::default());
         let motion = cancel.clone();
@@ -386,6 +401,21 @@ impl Server {
             self.motions.push((motion, Instant::now() + MOTION_LIMIT));
         }
         self.pool.begin(kind, work);
+    }
+
+    /// How long nothing need be done if nobody says anything.
+    fn patience(&self) -> Duration {
+        let now = Instant::now();
+        let next = self.due.iter().map(|(_, from)| from.saturating_duration_since(now)).min();
+        next.unwrap_or(IDLE).min(if self.motions.is_empty() { IDLE } else { TICK })
+    }
+
+    fn begin_due_motions(&mut self) {
+        let now = Instant::now();
+        let due: Vec<_> = self.due.extract_if(.., |(_, from)| *from <= now).collect();
+        for (path, _) in due {
+            self.begin_stage(&path, Stage::Motion);
+        }
     }
 
     fn end_long_motions(&mut self) {

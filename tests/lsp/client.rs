@@ -133,7 +133,8 @@ impl Client {
             let report = self.request("textDocument/diagnostic", json!({ "textDocument": { "uri": uri } }));
             let mut told: Vec<String> = report["items"].as_array().expect("a list").iter().map(line).collect();
             let mut expected = expected.to_vec();
-            (told.sort(), expected.sort());
+            told.sort();
+            expected.sort();
             if told == expected {
                 return;
             }
