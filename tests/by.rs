@@ -8,6 +8,7 @@ use mechc::rooms::math;
 use mechc::{Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, Times};
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fs;
+use support::change_points::parallelogram_of_names;
 use support::{Disk, Outcome, all_rows, follow};
 
 /// A row that is right may be off by this part of a number.
@@ -176,22 +177,9 @@ fn the_shift_of_a_switch_counts_nothing_and_at_an_edge_the_later_side_does() {
     near(back.column("jolt"), [-6.0, 0.0, 0.0]);
 }
 
-/// A parallelogram whose crank is varied: it folds at 1.5 s, where the derivative by that has a pole.
-const PARALLELOGRAM: &str = "mechanism m {
-    param crank_length = 1 m
-    input turn = 45 deg + 90 deg/s * t
-    ground { point A = (0, 0)  point B = (2 m, 0) }
-    body crank at (0, 0, 45 deg) { point A = (0, 0)  point C = (crank_length, 0) }
-    body coupler at (0.7 m, 0.7 m, 0) { point C = (0, 0)  point D = (2 m, 0) }
-    body rocker at (2 m, 0, 45 deg) { point B = (0, 0)  point D = (1 m, 0) }
-    joint A: revolute(ground.A, crank.A)
-    joint C: revolute(crank.C, coupler.C)
-    joint D: revolute(coupler.D, rocker.D)
-    joint B: revolute(ground.B, rocker.B)
-    driver motor: rotation(A) = turn
-    measure both = der(der(angle(rocker), crank_length), turn)
-    analysis from 0 s to 3 s every 10 ms
-}";
+/// Where a parallelogram folds, the derivative by its crank has a pole.
+const ASKED_OF_PARALLELOGRAM: &str = "measure both = der(der(angle(rocker), crank_length), turn)
+    analysis from 0 s to 3 s every 10 ms";
 
 #[test]
 fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
@@ -199,7 +187,7 @@ fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
     let away = [0.7, 0.2, 0.05, 0.01, 6e-3, 4e-3, 3e-3, 2e-3, 1.5e-3, 1e-3, 5e-4, 1e-4, 1e-5, 1e-6, 0.0];
     let mut times: Vec<f64> = away.iter().map(|away| 1.5 - away).collect();
     times.extend(away.iter().rev().skip(1).map(|away| 1.5 + away));
-    let outcome = rows_at(PARALLELOGRAM, &["crank_length"], &times, &options);
+    let outcome = rows_at(&parallelogram_of_names(ASKED_OF_PARALLELOGRAM), &["crank_length"], &times, &options);
     let columns = ["", ".d", ".dd"].map(|end| {
         let first = outcome.column(&format!("rocker.phi{end}.by.crank_length"));
         let second = outcome.column(&format!("both{end}"));
@@ -233,7 +221,7 @@ fn beside_a_change_point_numbers_are_those_of_the_closed_form_or_missing() {
 
 #[test]
 fn what_would_break_an_equation_that_was_left_out_has_no_derivative() {
-    let text = PARALLELOGRAM
+    let text = parallelogram_of_names(ASKED_OF_PARALLELOGRAM)
         .replace(
             "point A = (0, 0)  point B = (2 m, 0) }\n    body crank",
             "point A = (0, 0)  point B = (2 m, 0)  point E = (1 m, 0) }\n    body crank",

@@ -8,12 +8,11 @@ mod support;
 #[path = "emitted/compiling.rs"]
 mod compiling;
 
-use compiling::{Emitted, compile};
+use compiling::{Emitted, printed};
 use mechc::{Choice, Memory, Parsed, RustOptions};
 use std::fmt::Write;
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use support::all_rows;
 
 fn text_of(name: &str) -> String {
@@ -22,23 +21,6 @@ fn text_of(name: &str) -> String {
 
 fn emitted(text: &str) -> Emitted {
     Emitted::of("machine".to_owned(), text, Path::new("machine.mech"), 0).expect("determined")
-}
-
-/// What a program prints that has a module, which firmware could have, and that module's names.
-fn printed(module: &str, program: &str) -> Vec<String> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let [firmware, source, binary] = ["firmware.rs", "main.rs", "main"].map(|name| folder.path().join(name));
-    fs::write(&firmware, format!("#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n{module}"))
-        .expect("written");
-    let out = folder.path().join("firmware.rmeta");
-    let arguments = ["--crate-type", "lib", "--emit", "metadata", "-o", &out.to_string_lossy()];
-    compile("rustc", &arguments, &firmware).unwrap_or_else(|why| panic!("{why}"));
-    fs::write(folder.path().join("machine.rs"), module).expect("written");
-    fs::write(&source, format!("#![allow(dead_code)]\nmod machine;\nuse machine::*;\n{program}")).expect("written");
-    compile("rustc", &["-o", &binary.to_string_lossy()], &source).unwrap_or_else(|why| panic!("{why}"));
-    let output = Command::new(&binary).output().expect("it runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    String::from_utf8(output.stdout).expect("text").lines().map(str::to_owned).collect()
 }
 
 /// Numbers of a line.

@@ -73,8 +73,12 @@ fn translated(formula: &str) -> Result<String, String> {
     let imported = imported(&with_formula(formula), None);
     match imported.text {
         Some(text) => {
-            let line = text.lines().find(|line| line.contains(" c: ")).expect("the equation").to_owned();
-            Ok(line.split_once(" = ").expect("an equation").1.to_owned())
+            // with the lines into which it is broken
+            let mut lines = text.lines().skip_while(|line| !line.contains(" c: "));
+            let first = lines.next().expect("the equation").to_owned();
+            let whole =
+                lines.take_while(|line| line.starts_with("     ")).fold(first, |all, line| all + " " + line.trim());
+            Ok(whole.split_once(" = ").expect("an equation").1.to_owned())
         }
         None => Err(imported.said(Format::Human)),
     }

@@ -7,6 +7,7 @@ mod support;
 use mechc::rooms::math::{cos, sin};
 use mechc::{Cancel, Choice, Compiled, Diagnostics, Memory, Parsed, Redundant, RunOptions, Times};
 use support::all_rows;
+use support::table::Table;
 
 const CLOSE: f64 = 1e-9;
 
@@ -38,27 +39,14 @@ fn compile(text: &str) -> Result<Compiled, Diagnostics> {
     compiled.ok_or(said)
 }
 
-struct Table {
-    columns: Vec<String>,
-    rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    fn column(&self, name: &str) -> Vec<f64> {
-        let at = self.columns.iter().position(|column| column == name);
-        let at = at.unwrap_or_else(|| panic!("no column {name} in {:?}", self.columns));
-        self.rows.iter().map(|row| row[at]).collect()
-    }
-
-    /// Each row of a column is what a formula makes of some others.
-    #[track_caller]
-    fn holds(&self, name: &str, of: &[&str], wanted: impl Fn(&[f64]) -> f64) {
-        let given: Vec<Vec<f64>> = of.iter().map(|name| self.column(name)).collect();
-        for (k, found) in self.column(name).into_iter().enumerate() {
-            let values: Vec<f64> = given.iter().map(|column| column[k]).collect();
-            let wanted = wanted(&values);
-            assert!((found - wanted).abs() <= CLOSE * wanted.abs().max(1.0), "{name}: {found} instead of {wanted}");
-        }
+/// Each row of a column is what a formula makes of some others.
+#[track_caller]
+fn holds(table: &Table, name: &str, of: &[&str], wanted: impl Fn(&[f64]) -> f64) {
+    let given: Vec<Vec<f64>> = of.iter().map(|name| table.column(name)).collect();
+    for (k, found) in table.column(name).into_iter().enumerate() {
+        let values: Vec<f64> = given.iter().map(|column| column[k]).collect();
+        let wanted = wanted(&values);
+        assert!((found - wanted).abs() <= CLOSE * wanted.abs().max(1.0), "{name}: {found} instead of {wanted}");
     }
 }
 
@@ -87,13 +75,13 @@ fn lifted(mount: &str, more: &str) -> String {
 /// What the lever says of itself, by its own angle and that angle's rate.
 fn is_as_alone(table: &Table, angle: &str) {
     let rate = format!("{angle}.d");
-    table.holds("p.gain", &[angle], |x| cos(x[0]));
-    table.holds("p.gain.d", &[angle, &rate], |x| -sin(x[0]) * x[1]);
-    table.holds("p.by_turn", &[angle], |x| cos(x[0]));
-    table.holds("p.both", &[angle], |x| -sin(x[0]));
-    table.holds("p.both.d", &[angle, &rate], |x| -cos(x[0]) * x[1]);
-    table.holds("p.rate", &[angle, &rate], |x| -sin(x[0]) * x[1]);
-    table.holds("p.itself", &[angle], |x| cos(x[0]) - x[0] * sin(x[0]));
+    holds(table, "p.gain", &[angle], |x| cos(x[0]));
+    holds(table, "p.gain.d", &[angle, &rate], |x| -sin(x[0]) * x[1]);
+    holds(table, "p.by_turn", &[angle], |x| cos(x[0]));
+    holds(table, "p.both", &[angle], |x| -sin(x[0]));
+    holds(table, "p.both.d", &[angle, &rate], |x| -cos(x[0]) * x[1]);
+    holds(table, "p.rate", &[angle, &rate], |x| -sin(x[0]) * x[1]);
+    holds(table, "p.itself", &[angle], |x| cos(x[0]) - x[0] * sin(x[0]));
 }
 
 #[test]
@@ -112,10 +100,10 @@ fn where_the_whole_decides_what_its_input_is_a_part_is_as_it_is_alone() {
     is_as_alone(&table, "angle_of_arm");
     // by all equations the tip stays at its height: φ' = −tan φ / r
     let tan = |x: f64| sin(x) / cos(x);
-    table.holds("by_all", &["angle_of_arm"], |x| cos(x[0]) + sin(x[0]) * tan(x[0]));
-    table.holds("of_gain", &["angle_of_arm"], |x| sin(x[0]) * tan(x[0]));
+    holds(&table, "by_all", &["angle_of_arm"], |x| cos(x[0]) + sin(x[0]) * tan(x[0]));
+    holds(&table, "of_gain", &["angle_of_arm"], |x| sin(x[0]) * tan(x[0]));
     // φ' = t / (r cos φ)
-    table.holds("of_gain_by_half", &["angle_of_arm", "t"], |x| -tan(x[0]) * x[1]);
+    holds(&table, "of_gain_by_half", &["angle_of_arm", "t"], |x| -tan(x[0]) * x[1]);
     let mut run =
         compiled.run(&Times::grid(0.0, 1.0, 0.5).expect("a grid"), &RunOptions::default()).0.expect("it runs");
     while run.next_row().is_some() {}
@@ -155,7 +143,7 @@ fn an_input_that_follows_the_part_itself_is_held() {
 }}\n{LEVER}"
     );
     let (table, _) = table(&text);
-    table.holds("angle_of_arm", &["t"], |x| 0.6 + 0.2 * x[0]);
+    holds(&table, "angle_of_arm", &["t"], |x| 0.6 + 0.2 * x[0]);
     is_as_alone(&table, "angle_of_arm");
 }
 
@@ -181,11 +169,11 @@ mechanism outer {{
     );
     let (table, _) = table(&text);
     let angle = ["angle_of_arm"];
-    table.holds("o.p.gain", &angle, |x| cos(x[0]));
-    table.holds("o.p.both", &angle, |x| -sin(x[0]));
-    table.holds("o.by_more", &angle, |x| -sin(x[0]) * x[0]);
-    table.holds("o.by_reach", &angle, |x| sin(x[0]));
-    table.holds("o.of_gain", &angle, |x| -sin(x[0]));
+    holds(&table, "o.p.gain", &angle, |x| cos(x[0]));
+    holds(&table, "o.p.both", &angle, |x| -sin(x[0]));
+    holds(&table, "o.by_more", &angle, |x| -sin(x[0]) * x[0]);
+    holds(&table, "o.by_reach", &angle, |x| sin(x[0]));
+    holds(&table, "o.of_gain", &angle, |x| -sin(x[0]));
 }
 
 #[test]

@@ -9,6 +9,7 @@ use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Sources, Times};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use support::random::Random;
+use support::table::Table;
 use support::{Disk, files};
 
 /// How far a number of a part may be from what it is alone: of the larger of its range and the distance of the mount.
@@ -16,20 +17,6 @@ const SAME: f64 = 1e-10;
 
 /// The name under which a part stands in the tests.
 const PART: &str = "p";
-
-/// A table of a run.
-struct Table {
-    columns: Vec<String>,
-    rows: Vec<Vec<f64>>,
-}
-
-impl Table {
-    fn column(&self, name: &str) -> Vec<f64> {
-        let at = self.columns.iter().position(|column| column == name);
-        let at = at.unwrap_or_else(|| panic!("no column `{name}` among {:?}", self.columns));
-        self.rows.iter().map(|row| row[at]).collect()
-    }
-}
 
 /// Runs a mechanism of a text; of one that is refused, or stops, the codes.
 fn run(text: &str, file: &Path, mechanism: &str, times: Option<&Times>) -> Result<(Table, Times), String> {

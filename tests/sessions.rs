@@ -7,6 +7,7 @@ mod support;
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use support::blocks::blocks;
 use support::listed::Tests;
 use support::{Span, files, run, stem};
 
@@ -15,18 +16,6 @@ const PAGES: [&str; 1] = ["README.md"];
 
 /// Blocks of `text` that nobody can hold to anything: timings of one machine.
 const TIMINGS: &str = "speed";
-
-/// The language and the text of each fenced block of a page.
-fn blocks(page: &str) -> Vec<(String, String)> {
-    let (mut blocks, mut lines) = (Vec::new(), page.lines());
-    while let Some(line) = lines.next() {
-        if let Some(language) = line.strip_prefix("```") {
-            let text = lines.by_ref().take_while(|line| *line != "```").map(|line| line.to_owned() + "\n");
-            blocks.push((language.to_owned(), text.collect()));
-        }
-    }
-    blocks
-}
 
 fn has_sessions(path: &Path) -> bool {
     let text = fs::read_to_string(path).expect("a text");

@@ -8,12 +8,11 @@ mod support;
 #[path = "emitted/compiling.rs"]
 mod compiling;
 
-use compiling::{bits_of, compile};
+use compiling::{bits_of, printed};
 use mechc::rooms::expr::Symbol;
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, RustOptions, Times};
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use support::{Disk, all_rows};
 
 /// Rows that are looked at.
@@ -53,24 +52,9 @@ fn compiled(path: &Path, text: &str, choice: &Choice) -> Compiled {
 }
 
 /// What a program with a module prints, line by line, as bits.
-fn printed(module: &str, program: &str) -> Vec<Vec<u64>> {
-    let folder = tempfile::tempdir().expect("a folder");
-    let [firmware, source, binary] = ["firmware.rs", "main.rs", "main"].map(|name| folder.path().join(name));
-    // what firmware could have
-    fs::write(&firmware, format!("#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n{module}"))
-        .expect("written");
-    let out = folder.path().join("firmware.rmeta");
-    let arguments = ["--crate-type", "lib", "--emit", "metadata", "-o", &out.to_string_lossy()];
-    compile("clippy-driver", &arguments, &firmware).unwrap_or_else(|why| panic!("{why}"));
-    fs::write(folder.path().join("machine.rs"), module).expect("written");
-    let head = "#![allow(dead_code, unused_imports)]\nmod machine;\nuse machine::*;\n";
-    fs::write(&source, format!("{head}{program}")).expect("written");
-    compile("rustc", &["-o", &binary.to_string_lossy()], &source).unwrap_or_else(|why| panic!("{why}"));
-    let output = Command::new(&binary).output().expect("it runs");
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    let text = String::from_utf8(output.stdout).expect("text");
+fn bits(module: &str, program: &str) -> Vec<Vec<u64>> {
     let number = |word: &str| word.parse().expect("bits");
-    text.lines().map(|line| line.split_whitespace().map(number).collect()).collect()
+    printed(module, program).iter().map(|line| line.split_whitespace().map(number).collect()).collect()
 }
 
 /// Holds the first mechanism of a file against its interpreter; gives how many derivatives were alike that are not 0.
@@ -106,7 +90,7 @@ fn holds((path, text): (&str, &str), largest_straight: usize) -> usize {
         )
         // time may be a signal behind them
         .replace("COUNT", &inputs.len().to_string());
-    let found = printed(&module, &program);
+    let found = bits(&module, &program);
 
     let param = |name: &str| system.params.iter().position(|param| param.name == name).map(|k| Symbol::Param(k as u32));
     let moves_an_input = |name: &str| {
@@ -231,7 +215,7 @@ fn where_the_order_of_elimination_loses_digits_measures_that_are_derivatives_are
         .lines()
         .filter(|line| !line.contains("sensitivity("))
         .fold(String::new(), |text, line| text + line + "\n");
-    let found = printed(&module, &program);
+    let found = bits(&module, &program);
     assert_eq!(found.len(), 2 * rows.len());
     let (mut alike, mut other_bits) = (0, 0);
     for (line, row) in found.iter().zip(rows.iter().chain(&rows)) {
@@ -282,7 +266,7 @@ fn main() {
     }
 }
 "#;
-    let found = printed(&module, program);
+    let found = bits(&module, program);
     let columns = compiled.columns();
     let place = |name: &str| columns.iter().position(|column| column == name).expect("a column");
     let (mut alike, mut without) = (0, 0);

@@ -8,6 +8,7 @@ use mechc::rooms::math::{cos, sin};
 use mechc::{Answers, Cancel, Choice, Compiled, Memory, Parsed, Redundant, RunOptions, RustOptions, Times};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use support::all_rows;
+use support::change_points::parallelogram_of_names;
 
 fn compile(text: &str, redundant: Redundant) -> Compiled {
     let checked = Parsed::of("m.mech", text).check(&Choice::default(), &Memory::default());
@@ -277,30 +278,17 @@ fn at_an_edge_both_sides_count_and_the_later_one_is_its_value() {
     );
 }
 
-/// A parallelogram that folds at 1.5 s, where the derivative by the crank's length has a pole.
-const PARALLELOGRAM: &str = "mechanism m {
-    param crank_length = 1 m
-    input turn = 45 deg + 90 deg/s * t
-    ground { point A = (0, 0)  point B = (2 m, 0) }
-    body crank at (0, 0, 45 deg) { point A = (0, 0)  point C = (crank_length, 0) }
-    body coupler at (0.7 m, 0.7 m, 0) { point C = (0, 0)  point D = (2 m, 0) }
-    body rocker at (2 m, 0, 45 deg) { point B = (0, 0)  point D = (1 m, 0) }
-    joint A: revolute(ground.A, crank.A)
-    joint C: revolute(crank.C, coupler.C)
-    joint D: revolute(coupler.D, rocker.D)
-    joint B: revolute(ground.B, rocker.B)
-    driver motor: rotation(A) = turn
-    result pole = max(der(angle(rocker), crank_length))
+/// Where a parallelogram folds, the derivative by its crank has a pole.
+const ASKED_OF_PARALLELOGRAM: &str = "result pole = max(der(angle(rocker), crank_length))
     result mean_of_pole = mean(der(angle(rocker), crank_length))
     result before = first(der(angle(rocker), crank_length))
     result beyond = last(der(angle(rocker), crank_length))
-    result place = max(y(coupler.C))
-}";
+    result place = max(y(coupler.C))";
 
 #[test]
 fn over_a_pole_there_is_no_number() {
     let options = RunOptions { pass_bifurcations: true, ..RunOptions::default() };
-    let compiled = compile(PARALLELOGRAM, Redundant::Refused);
+    let compiled = compile(&parallelogram_of_names(ASKED_OF_PARALLELOGRAM), Redundant::Refused);
     let found = answers_of(&compiled, [2.0, 0.1], &options);
     assert_eq!(found.values[..2], [None, None], "{:?}", found.notes);
     assert!(found.notes.iter().all(|note| note.code.as_str() == "N0604"));
@@ -314,7 +302,7 @@ fn over_a_pole_there_is_no_number() {
         assert!((value.expect("a number") - wanted).abs() < 1e-9, "{value:?} instead of {wanted}");
     }
     // in a part it is told whose it is
-    let whole = format!("mechanism whole {{\n    part p: m() at (0, 0, 0)\n}}\n{PARALLELOGRAM}");
+    let whole = parallelogram_of_names(ASKED_OF_PARALLELOGRAM) + "mechanism whole {\n    part p: m() at (0, 0, 0)\n}\n";
     let choice = Choice { mechanism: Some("whole".to_owned()), ..Choice::default() };
     let checked = Parsed::of("m.mech", &whole).check(&choice, &Memory::default());
     let in_part = checked.compile(Redundant::Refused, &Cancel::default()).0.expect("it is determined");
@@ -329,7 +317,7 @@ fn over_a_pole_there_is_no_number() {
 
 #[test]
 fn what_would_break_an_equation_that_was_left_out_has_no_number() {
-    let text = PARALLELOGRAM
+    let text = parallelogram_of_names(ASKED_OF_PARALLELOGRAM)
         .replace("point B = (2 m, 0) }\n    body crank", "point B = (2 m, 0)  point E = (1 m, 0) }\n    body crank")
         .replace("point D = (2 m, 0) }", "point D = (2 m, 0)  point F = (1 m, 0) }")
         .replace("    driver", "    constraint mid: distance(ground.E, coupler.F) = 1 m\n    driver")

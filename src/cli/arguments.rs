@@ -43,6 +43,21 @@ pub(super) enum Command {
         mechc check - --fix < draft.mech > linkage.mech"
     )]
     Check(CheckArguments),
+    /// Lays files out in the one style that `examples/` show
+    #[command(
+        long_about = "Lays files out in the one style that `examples/` show.\n\n\
+        A declaration a line, indented by four spaces; `=`, and what stands behind `:`, in columns where declarations of one kind \
+        follow each other; formulas that are too long for a line of 100 columns broken behind an operator. A body that was written on \
+        one line stays there if it fits. Comments stay where they stand, blank lines too, but never two. Only spaces, line ends and the \
+        comma behind the last item of a list change, so the mechanism stays what it was; parentheses stay as well.\n\n\
+        A folder means all .mech files in it and in its folders; hidden ones, and links, are passed over. A file with syntax errors \
+        stays as it is, with the errors, and the others are formatted. Files are replaced whole or not at all, and those that are \
+        formatted already are not written. Line ends are those of the file's first line; a byte-order mark stays.\n\n\
+        With --check nothing is written: what would change is printed as a diff, which `patch` takes, and the exit code is 1.",
+        after_help = "Examples:\n  mechc fmt linkage.mech\n  mechc fmt .\n  mechc fmt --check examples tests\n  \
+        mechc fmt - < draft.mech > linkage.mech"
+    )]
+    Fmt(FmtArguments),
     /// The kinematic analysis, as a table
     #[command(
         long_about = "The kinematic analysis, as a table.\n\n\
@@ -192,6 +207,20 @@ pub(super) struct CheckArguments {
     /// Write what the text can only have meant into FILE, say what was changed, and check that
     #[arg(long)]
     pub fix: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct FmtArguments {
+    /// The .mech files, or folders of them; `-` is standard input, which goes to standard output
+    #[arg(value_name = "FILE", required = true)]
+    pub files: Vec<String>,
+
+    /// Write nothing; print what would change, and exit with 1 if anything would
+    #[arg(long)]
+    pub check: bool,
+
+    #[command(flatten)]
+    pub messages: Messages,
 }
 
 #[derive(Args, Debug)]

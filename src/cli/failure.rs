@@ -3,8 +3,8 @@
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::source::Sources;
 
-/// The input has errors.
-const INPUT: u8 = 1;
+/// The input has errors, or is not as it should be.
+pub(super) const INPUT: u8 = 1;
 /// Wrong usage.
 const USAGE: u8 = 2;
 /// The analysis could not be completed.

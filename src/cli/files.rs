@@ -17,8 +17,18 @@ pub(super) fn read(name: &str, sources: &mut Sources) -> Result<FileId, Failure>
 
 /// As [`read`], and whether the text begins with a byte-order mark.
 pub(super) fn read_with_mark(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
-    let (path, shown) = (Path::new(name), Disk.shown(Path::new(name)));
-    let bytes = given(path).map_err(|error| world::cannot_read(&shown, &error))?;
+    take_in_with_mark(name, given(Path::new(name)), sources)
+}
+
+/// The same of what can be written again in its place: of standard input for `-`, or of a file.
+pub(super) fn read_to_replace(name: &str, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
+    let path = Path::new(name);
+    take_in_with_mark(name, if name == "-" { given(path) } else { named(path) }, sources)
+}
+
+fn take_in_with_mark(name: &str, bytes: io::Result<Vec<u8>>, sources: &mut Sources) -> Result<(FileId, bool), Failure> {
+    let shown = Disk.shown(Path::new(name));
+    let bytes = bytes.map_err(|error| world::cannot_read(&shown, &error))?;
     let has_mark = bytes.starts_with("\u{feff}".as_bytes());
     world::take_in(&shown, &bytes, sources).map(|file| (file, has_mark)).map_err(Failure::from)
 }

@@ -11,6 +11,8 @@ mod explain;
 mod failure;
 mod files;
 mod fix;
+mod fmt;
+mod folders;
 mod formula;
 mod import;
 mod input;
@@ -38,6 +40,7 @@ pub fn main() -> ExitCode {
     let arguments = Arguments::try_parse().unwrap_or_else(|error| usage::with_tip(error).exit());
     ExitCode::from(match arguments.command {
         Command::Check(check) => reported(&check.input.messages, |reporter| check::check(&check, reporter)),
+        Command::Fmt(fmt) => reported(&fmt.messages, |reporter| fmt::fmt(&fmt, reporter)),
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),

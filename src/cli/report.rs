@@ -96,6 +96,11 @@ impl Reporter {
         Reporter::say(&text);
     }
 
+    /// Ends the command with an exit code, although it did its work.
+    pub fn end_with(&self, code: u8) {
+        self.exit.set(code);
+    }
+
     /// Says something that is no diagnostic.
     pub fn say(text: &str) {
         let _ = std::io::stderr().lock().write_all(text.as_bytes());

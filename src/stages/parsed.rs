@@ -1,8 +1,8 @@
 //! The first stage: a text with its tree.
 
-use crate::diag::Diagnostics;
-use crate::source::{FileId, Sources};
-use crate::syntax::{self, Trivia, ast};
+use crate::diag::{Diagnostics, Edit};
+use crate::source::{FileId, Sources, Span};
+use crate::syntax::{self, Trivia, ast, format};
 use crate::world::{self, World};
 use std::path::Path;
 use std::sync::Arc;
@@ -86,7 +86,27 @@ impl Parsed {
     pub fn formatted(&self) -> Option<String> {
         let text = &self.sources.get(self.file).text;
         let is_whole = self.read.faults.is_empty();
-        is_whole.then(|| syntax::format_with_comments(&self.read.tree, &self.read.trivia, text))
+        is_whole.then(|| syntax::formatted(&self.read, text))
+    }
+
+    /// What to change in the text so that it is formatted; where it does not follow the grammar, in what is whole of it. Only spaces,
+    /// line ends and commas behind the last item of a list change. The edits are in order and do not overlap.
+    #[must_use]
+    pub fn formatting(&self) -> Vec<Edit> {
+        format::edits(&self.read, &self.sources.get(self.file).text, self.file)
+    }
+
+    /// The same, in the lines that have a part in a span; their columns are those that the whole text would have.
+    #[must_use]
+    pub fn formatting_in(&self, span: Span) -> Vec<Edit> {
+        format::edits_in(&self.read, &self.sources.get(self.file).text, span)
+    }
+
+    /// The same, in the block that is closed by the brace which ends at a byte, as when somebody has just typed it; nothing if there is
+    /// none.
+    #[must_use]
+    pub fn formatting_at_brace(&self, end: u32) -> Vec<Edit> {
+        format::edits_at_brace(&self.read, &self.sources.get(self.file).text, self.file, end)
     }
 
     /// What was read.

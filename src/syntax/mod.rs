@@ -19,7 +19,7 @@ mod trivia;
 
 pub use build::{is_name, normalized};
 pub use depth::DEEPEST;
-pub use format::{format, format_with_comments};
+pub use format::{format, formatted};
 pub use parse::{Parsed, parse, parse_expression};
 pub use tokens::keywords_in;
 pub use trivia::{Comment, Trivia};

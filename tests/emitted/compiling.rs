@@ -150,3 +150,21 @@ pub fn interpreted(compiled: &Compiled, seed: u64) -> Vec<u64> {
 pub fn bits_of(value: f64) -> u64 {
     if value.is_nan() { f64::NAN.to_bits() } else { (value + 0.0).to_bits() }
 }
+
+/// What a program prints that has a module and its names. The module is what firmware could have, and clippy has nothing to say of it.
+pub fn printed(module: &str, program: &str) -> Vec<String> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let [firmware, source, binary] = ["firmware.rs", "main.rs", "main"].map(|name| folder.path().join(name));
+    fs::write(&firmware, format!("#![no_std]\n#![forbid(unsafe_code)]\n#![deny(warnings)]\n{module}"))
+        .expect("written");
+    let out = folder.path().join("firmware.rmeta");
+    let arguments = ["--crate-type", "lib", "--emit", "metadata", "-o", &out.to_string_lossy()];
+    compile("clippy-driver", &arguments, &firmware).unwrap_or_else(|why| panic!("{why}"));
+    fs::write(folder.path().join("machine.rs"), module).expect("written");
+    let head = "#![allow(dead_code, unused_imports)]\nmod machine;\nuse machine::*;\n";
+    fs::write(&source, format!("{head}{program}")).expect("written");
+    compile("rustc", &["-o", &binary.to_string_lossy()], &source).unwrap_or_else(|why| panic!("{why}"));
+    let output = Command::new(&binary).output().expect("it runs");
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    String::from_utf8(output.stdout).expect("text").lines().map(str::to_owned).collect()
+}

@@ -44,3 +44,23 @@ pub fn parallelogram(length: f64, base: f64, angle: &str, start: f64, analysis: 
         length * sin
     )
 }
+
+/// A parallelogram whose crank is a param and whose turn is an input: it folds 1.5 s after its begin, in half a turn.
+pub fn parallelogram_of_names(declarations: &str) -> String {
+    format!(
+        "mechanism m {{
+    param crank_length = 1 m
+    input turn = 45 deg + 90 deg/s * t
+    ground {{ point A = (0, 0)  point B = (2 m, 0) }}
+    body crank at (0, 0, 45 deg) {{ point A = (0, 0)  point C = (crank_length, 0) }}
+    body coupler at (0.7 m, 0.7 m, 0) {{ point C = (0, 0)  point D = (2 m, 0) }}
+    body rocker at (2 m, 0, 45 deg) {{ point B = (0, 0)  point D = (1 m, 0) }}
+    joint A: revolute(ground.A, crank.A)
+    joint C: revolute(crank.C, coupler.C)
+    joint D: revolute(coupler.D, rocker.D)
+    joint B: revolute(ground.B, rocker.B)
+    driver motor: rotation(A) = turn
+    {declarations}
+}}"
+    )
+}

@@ -2,11 +2,13 @@
 
 #![allow(dead_code)] // each test file uses its part
 
+pub mod blocks;
 pub mod change_points;
 pub mod listed;
 pub mod random;
 pub mod reading;
 pub mod shape;
+pub mod table;
 pub mod tex;
 
 use mechc::{

@@ -1,0 +1,60 @@
+//! The `.mech` files that are meant by what a command names: files, and folders with all that is in them.
+
+use super::failure::Failure;
+use crate::world;
+use rustc_hash::FxHashSet;
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// The files that some names mean, each once, in the order of the names and within a folder by theirs; with why a name means none.
+pub(super) fn files_of(names: &[String]) -> Vec<Result<String, Failure>> {
+    let (mut files, mut seen) = (Vec::new(), FxHashSet::default());
+    for name in names {
+        let found = if name != "-" && Path::new(name).is_dir() { in_folder(name) } else { Ok(vec![name.clone()]) };
+        match found {
+            // by whatever path or link
+            Ok(found) => files.extend(found.into_iter().filter(|file| seen.insert(identity(file))).map(Ok)),
+            Err(why) => files.push(Err(why)),
+        }
+    }
+    files
+}
+
+fn identity(file: &str) -> PathBuf {
+    let path = Path::new(file);
+    if file == "-" { path.to_owned() } else { path.canonicalize().unwrap_or_else(|_| path.to_owned()) }
+}
+
+fn in_folder(name: &str) -> Result<Vec<String>, Failure> {
+    let mut files = Vec::new();
+    collect(Path::new(name), &mut files).map_err(|(path, error)| world::cannot_read(&shown(&path), &error))?;
+    if files.is_empty() {
+        return Err(world::cannot_read(name, &io::Error::other("no `.mech` file is in it")).into());
+    }
+    Ok(files.iter().map(|path| shown(path)).collect())
+}
+
+fn shown(path: &Path) -> String {
+    path.to_string_lossy().into_owned()
+}
+
+/// Adds all files below a folder. What is hidden is not the user's own, and what a link leads to has a place of its own.
+fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
+    let failed = |error| (folder.to_owned(), error);
+    let mut entries = fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
+    entries.sort_by_key(fs::DirEntry::file_name);
+    for entry in entries {
+        let path = entry.path();
+        let kind = entry.file_type().map_err(failed)?;
+        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+            continue;
+        }
+        if kind.is_dir() {
+            collect(&path, files)?;
+        } else if kind.is_file() && path.extension().is_some_and(|ending| ending == "mech") {
+            files.push(path);
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,325 @@
+//! From the words of a declaration to groups that may be broken into lines: what binds more loosely is broken first.
+
+use super::layout::{Node, Style};
+use super::lexemes::Lexeme;
+use super::words::{Bracket, Class, Level, Word};
+
+/// A declaration as nodes, each with the number of the lexeme that it stands for or before.
+pub(super) struct Grouped {
+    pub nodes: Vec<Node>,
+    /// By node.
+    pub lexemes: Vec<usize>,
+    /// Lists that may have a line for each item.
+    pub lists: Vec<List>,
+}
+
+/// A list in its brackets.
+pub(super) struct List {
+    /// The node that opens it.
+    pub node: usize,
+    /// Its last lexeme that is neither a comment nor the comma behind the last item.
+    pub last: usize,
+    /// The comma behind the last item, if there is one.
+    pub comma: Option<usize>,
+}
+
+/// Spaces before a comment that stands behind something on its line.
+pub(super) const BEFORE_COMMENT: usize = 3;
+
+/// What stands open while the words of a declaration are read.
+enum Frame {
+    Bracket {
+        bracket: Bracket,
+        first: usize,
+        has_commas: bool,
+    },
+    /// `if C then A else B`; how much of it has been read.
+    Conditional {
+        first: usize,
+        read: Class,
+    },
+    Operators {
+        first: usize,
+        level: Level,
+    },
+}
+
+/// Which groups begin and end at each lexeme of a declaration.
+#[derive(Default)]
+struct Groups {
+    /// By lexeme: the groups that begin with it, inner ones first.
+    begin: Vec<Vec<Style>>,
+    /// By lexeme: how many groups end with it.
+    end: Vec<usize>,
+    /// By lexeme: whether the gap before it may end a line.
+    is_gap: Vec<bool>,
+    /// By lexeme: whether it is a bracket whose list may have a line for each item.
+    is_list: Vec<bool>,
+}
+
+struct Grouping<'a> {
+    words: &'a [Word],
+    /// By lexeme, and behind the last: where what stands before it ends, comments not counted.
+    ends: Vec<usize>,
+    groups: Groups,
+    frames: Vec<Frame>,
+    /// Where the operand begins that was read last, by open bracket or conditional.
+    operands: Vec<Option<usize>>,
+}
+
+fn groups(words: &[Word]) -> Groups {
+    let count = words.len();
+    let groups = Groups {
+        begin: vec![Vec::new(); count],
+        end: vec![0; count],
+        is_gap: vec![false; count + 1],
+        is_list: vec![false; count],
+    };
+    let mut ends = vec![0];
+    for (k, word) in words.iter().enumerate() {
+        ends.push(if word.class == Class::Comment { ends[k] } else { k + 1 });
+    }
+    let mut grouping = Grouping { words, ends, groups, frames: Vec::new(), operands: vec![None] };
+    for k in 0..count {
+        grouping.take(k);
+    }
+    grouping.end_part(count);
+    grouping.groups
+}
+
+impl Grouping<'_> {
+    fn take(&mut self, k: usize) {
+        let words = self.words;
+        match words[k].class {
+            Class::Comment => return,
+            Class::Operator(level) => return self.operator(level, k),
+            Class::Open(bracket) => {
+                self.operand(k);
+                self.frames.push(Frame::Bracket { bracket, first: k + 1, has_commas: false });
+                self.operands.push(None);
+                return;
+            }
+            Class::Close => return self.close(k),
+            // as if it were not there
+            Class::Comma if words[k].is_last_comma => return self.end_part(k),
+            Class::Comma => {
+                self.end_part(k);
+                if let Some(Frame::Bracket { has_commas, .. }) = self.frames.last_mut() {
+                    *has_commas = true;
+                }
+                self.groups.is_gap[k + 1] = true;
+                self.forget_operand();
+                return;
+            }
+            Class::Equals | Class::Colon | Class::OpenBrace | Class::CloseBrace => {
+                self.end_part(k);
+                self.forget_operand();
+                return;
+            }
+            Class::Keyword => {
+                self.end_part(k);
+                self.groups.is_gap[k] = k > 0 && self.begins_clause(k);
+                self.forget_operand();
+                return;
+            }
+            Class::If => return self.condition(k),
+            Class::Then | Class::Else => return self.arm(k),
+            Class::Not | Class::Sign | Class::Name | Class::Number | Class::Quoted | Class::Unit | Class::Tight => {}
+        }
+        self.operand(k);
+    }
+
+    /// Whether a line may end before a keyword: where it joins two parts of a declaration that is no formula with its unit.
+    fn begins_clause(&self, k: usize) -> bool {
+        let is_behind_operand =
+            matches!(self.words[k - 1].class, Class::Name | Class::Number | Class::Unit | Class::Close | Class::Quoted);
+        is_behind_operand && self.frames.is_empty() && !self.words[k].begins_cell
+    }
+
+    fn operand(&mut self, k: usize) {
+        if let Some(operand) = self.operands.last_mut() {
+            operand.get_or_insert(k);
+        }
+    }
+
+    fn forget_operand(&mut self) {
+        if let Some(operand) = self.operands.last_mut() {
+            *operand = None;
+        }
+    }
+
+    /// A comment behind a group is not in it: where a comma is put before the comment, it would not be either.
+    fn end_group(&mut self, first: usize, behind: usize, style: Style) {
+        let behind = self.ends[behind];
+        if first < behind {
+            self.groups.begin[first].push(style);
+            self.groups.end[behind - 1] += 1;
+        }
+    }
+
+    /// Ends the operators that bind more tightly than one, and gives where the last of them began.
+    fn end_operators(&mut self, behind: usize, looser: Option<Level>) -> Option<usize> {
+        let mut start = None;
+        while let Some(&Frame::Operators { first, level }) = self.frames.last() {
+            if looser.is_some_and(|looser| level <= looser) {
+                break;
+            }
+            self.end_group(first, behind, Style::Filled);
+            self.frames.pop();
+            start = Some(first);
+        }
+        start
+    }
+
+    fn operator(&mut self, level: Level, k: usize) {
+        let ended = self.end_operators(k, Some(level));
+        let operand = self.operands.last().copied().flatten();
+        let is_open = matches!(self.frames.last(), Some(Frame::Operators { level: open, .. }) if *open == level);
+        if !is_open {
+            let first = ended.or(operand).unwrap_or(k);
+            self.frames.push(Frame::Operators { first, level });
+        }
+        self.groups.is_gap[k + 1] = true;
+        self.forget_operand();
+    }
+
+    /// Ends what ends with the part of a bracket or declaration: operators, conditionals.
+    fn end_part(&mut self, behind: usize) {
+        loop {
+            self.end_operators(behind, None);
+            let Some(&Frame::Conditional { first, .. }) = self.frames.last() else { return };
+            self.end_group(first, behind, Style::Stacked);
+            self.frames.pop();
+            self.operands.pop();
+        }
+    }
+
+    fn close(&mut self, k: usize) {
+        self.end_part(k);
+        let Some(Frame::Bracket { bracket, first, has_commas }) = self.frames.pop() else { return };
+        // comments alone are no list
+        let has_items = self.operands.pop().flatten().is_some() || has_commas;
+        if matches!(bracket, Bracket::Bindings | Bracket::Rows) && has_items {
+            self.groups.is_list[first - 1] = true;
+            self.groups.is_list[k] = true;
+        } else if has_commas {
+            self.end_group(first, k, Style::Filled);
+        }
+    }
+
+    fn condition(&mut self, k: usize) {
+        let is_else_if = k > 0 && self.words[k - 1].class == Class::Else;
+        if let (true, Some(Frame::Conditional { read, .. })) = (is_else_if, self.frames.last_mut()) {
+            *read = Class::If;
+            return;
+        }
+        self.operand(k);
+        self.frames.push(Frame::Conditional { first: k, read: Class::If });
+        self.operands.push(None);
+    }
+
+    /// Goes on with the innermost conditional whose condition, or first arm, is what was read last.
+    fn arm(&mut self, k: usize) {
+        let class = self.words[k].class;
+        let awaited = if class == Class::Then { Class::If } else { Class::Then };
+        loop {
+            self.end_operators(k, None);
+            match self.frames.last_mut() {
+                Some(Frame::Conditional { read, .. }) if *read == awaited => {
+                    *read = class;
+                    break;
+                }
+                Some(&mut Frame::Conditional { first, .. }) => {
+                    self.end_group(first, k, Style::Stacked);
+                    self.frames.pop();
+                    self.operands.pop();
+                }
+                _ => break,
+            }
+        }
+        self.groups.is_gap[k] = class == Class::Else;
+        self.forget_operand();
+    }
+}
+
+/// What stands before the last column of a declaration is not broken, unless it takes more columns than this.
+const WIDEST_HEAD: usize = 60;
+
+/// The first lexeme before which a line may end.
+fn breakable(words: &[Word], lexemes: &[Lexeme<'_>], keyword: &str) -> usize {
+    if matches!(keyword, "body" | "ground" | "mechanism") {
+        return words.len();
+    }
+    let head = words.iter().rposition(|word| word.begins_cell).unwrap_or(0);
+    if super::words::width(&words[..head], &lexemes[..head]) > WIDEST_HEAD { 0 } else { head }
+}
+
+/// The nodes of a declaration; `spaces` are those before each of its lexemes, the first one's not counted.
+pub(super) fn grouped(words: &[Word], lexemes: &[Lexeme<'_>], spaces: &[usize]) -> Grouped {
+    let mut groups = groups(words);
+    let breakable = breakable(words, lexemes, lexemes.first().map_or("", |lexeme| lexeme.text));
+    groups.is_gap[..breakable].fill(false);
+    let mut made = Grouped { nodes: Vec::with_capacity(4 * words.len()), lexemes: Vec::new(), lists: Vec::new() };
+    for (k, word) in words.iter().enumerate() {
+        if k > 0 {
+            made.gap(k, (words, lexemes, spaces), &groups);
+        }
+        if groups.is_list[k] && word.class == Class::Close {
+            made.end_list(k, words);
+        }
+        for style in groups.begin[k].iter().rev() {
+            made.push(Node::Open(*style), k);
+        }
+        if !word.is_last_comma {
+            // a comment breaks no formula
+            let wide = if word.class == Class::Comment { 0 } else { super::width(lexemes[k].text) };
+            made.push(Node::Text(wide), k);
+        }
+        for _ in 0..groups.end[k] {
+            made.push(Node::Close, k);
+        }
+        if groups.is_list[k] && word.class != Class::Close {
+            made.lists.push(List { node: made.nodes.len(), last: k, comma: None });
+            made.push(Node::Open(Style::Listed), k);
+        }
+    }
+    made
+}
+
+impl Grouped {
+    fn push(&mut self, node: Node, lexeme: usize) {
+        self.nodes.push(node);
+        self.lexemes.push(lexeme);
+    }
+
+    /// Ends the list before its bracket. It is the last one that was opened: none holds another.
+    fn end_list(&mut self, k: usize, words: &[Word]) {
+        let mut inside = (0..k).rev().filter(|&k| words[k].class != Class::Comment);
+        if let Some(list) = self.lists.last_mut() {
+            list.comma = inside.next().filter(|&k| words[k].is_last_comma);
+            list.last = list.comma.map_or(k - 1, |comma| comma - 1);
+            while words[list.last].class == Class::Comment {
+                list.last -= 1;
+            }
+        }
+        self.push(Node::Close, k);
+    }
+
+    /// What stands before a lexeme.
+    fn gap(&mut self, k: usize, (words, lexemes, spaces): (&[Word], &[Lexeme<'_>], &[usize]), groups: &Groups) {
+        let is_at_list = groups.is_list[k - 1] && words[k - 1].class != Class::Close
+            || groups.is_list[k] && words[k].class == Class::Close;
+        let node = if words[k - 1].class == Class::Comment || lexemes[k].is_comment() && lexemes[k].lines_before > 0 {
+            Node::Line
+        } else if lexemes[k].is_comment() {
+            Node::Space(BEFORE_COMMENT)
+        } else if words[k].is_last_comma {
+            Node::Space(0)
+        } else if groups.is_gap[k] || is_at_list {
+            Node::Gap(spaces[k])
+        } else {
+            Node::Space(spaces[k])
+        };
+        self.push(node, k);
+    }
+}
