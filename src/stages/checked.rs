@@ -1,6 +1,6 @@
 //! The second stage: a mechanism whose names, units and values are known.
 
-use super::known::Asked;
+use super::asked::Asked;
 use super::lead::Leading;
 use super::signals::WithSignals;
 use super::used::{self, Used};

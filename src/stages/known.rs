@@ -3,19 +3,9 @@
 use super::{Assembly, Checked, Compiled};
 use crate::check::{self, Known, NameKind};
 use crate::expr::Symbol;
-use crate::ir::ConstraintSystem;
 use crate::lower;
 use crate::source::Span;
 use crate::syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
-use std::sync::OnceLock;
-
-/// What is made when first asked for.
-#[derive(Debug, Default)]
-pub(super) struct Asked {
-    known: OnceLock<Known>,
-    /// Nothing where there is no model.
-    lowered: OnceLock<Option<ConstraintSystem>>,
-}
 
 /// A declaration that a path of names leads to, through parts and bodies.
 #[derive(Clone, PartialEq, Eq, Debug)]
