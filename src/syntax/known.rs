@@ -184,7 +184,8 @@ mod tests {
             let (mut old, mut text) = (parse(&sources, file), original.to_owned());
             for _ in 0..20 {
                 // typing makes texts right again, which chance does not
-                let new = if next(&mut state).is_multiple_of(8) { original.to_owned() } else { edited(&text, &mut state) };
+                let new =
+                    if next(&mut state).is_multiple_of(8) { original.to_owned() } else { edited(&text, &mut state) };
                 let mut sources = Sources::default();
                 let file = sources.add("text.mech", new.as_str());
                 let (reread, fresh) = (reread(&old, &text, &sources, file), parse(&sources, file));

@@ -87,25 +87,21 @@ fn a_joint_asks_for_what_it_joins() {
 #[test]
 fn what_is_missing_is_proposed() {
     insta::assert_snapshot!(proposed(&with(PIN, "$0\n"), 5), @r"
+    0 driver drive: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pivot) = «100 deg + 60 deg/s * t»
+    0 driver drive: rotation(knee) = 70 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(knee) = «70 deg + 60 deg/s * t»
+    0 joint pin: revolute(crank.B, coupler.B) — these points lie on each other → joint «pin»: revolute(crank.B, coupler.B)
     2 param — a constant that has a name, or a point of the drawing → param «NAME» = «FORMULA»
     2 fn — a function of one argument → fn «NAME»(«u») = «FORMULA»
-    2 table — a curve through points, called as a function is → table «NAME» = spline [(«u0», «v0»), («u1», «v1»), «»]
-    2 ground — the body that does not move, with its points, axes, circles and curves → ground {
-        «»
-    }
-    2 body — a rigid body, with its points, axes, circles and curves → body «NAME» {
-        «»
-    }
     ");
     insta::assert_snapshot!(proposed(&with(KNEE, "$0\n"), 3), @r"
     0 driver drive: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pivot) = «100 deg + 60 deg/s * t»
-    0 driver drive: x(coupler.B) = 15 mm + 10 mm/s * t — this is left free → driver «drive»: x(coupler.B) = «15 mm + 10 mm/s * t»
-    0 driver drive: y(coupler.B) = 26 mm + 10 mm/s * t — this is left free → driver «drive»: y(coupler.B) = «26 mm + 10 mm/s * t»
+    0 driver drive: rotation(pin) = -30 deg + 60 deg/s * t — this is left free → driver «drive»: rotation(pin) = «-30 deg + 60 deg/s * t»
+    2 param — a constant that has a name, or a point of the drawing → param «NAME» = «FORMULA»
     ");
     insta::assert_snapshot!(proposed(&with("driver motor: rotation(main) = 60 deg + 90 deg/s * t", "dri$0"), 3), @r"
     0 driver motor: rotation(main) = 60 deg + 60 deg/s * t — this is left free → driver «motor»: rotation(main) = «60 deg + 60 deg/s * t»
+    0 driver motor: rotation(pivot) = 100 deg + 60 deg/s * t — this is left free → driver «motor»: rotation(pivot) = «100 deg + 60 deg/s * t»
     0 driver motor: rotation(pin) = -30 deg + 60 deg/s * t — this is left free → driver «motor»: rotation(pin) = «-30 deg + 60 deg/s * t»
-    0 driver motor: rotation(knee) = 70 deg + 60 deg/s * t — this is left free → driver «motor»: rotation(knee) = «70 deg + 60 deg/s * t»
     ");
     insta::assert_snapshot!(proposed(&with("rotation(main) = 60 deg + 90 deg/s * t", "$0"), 3), @r"
     0 rotation(main) = 60 deg + 60 deg/s * t — this is left free → rotation(main) = «60 deg + 60 deg/s * t»
@@ -181,9 +177,9 @@ fn units_come_behind_numbers_those_that_fit_first() {
     ");
     insta::assert_snapshot!(proposed(&with("every 0.1 s", "every 0.1 $0"), 4), @r"
     1 s — the second
-    1 every — stands before the time from one row to the next → every 
     2 ms — the millisecond
     2 us — the microsecond
+    2 µs — the microsecond; with the Greek letter or the micro sign, and also `us`
     ");
     insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = x(crank.B) in $0\n    analysis"), 3), @r"
     1 m — the metre
