@@ -321,9 +321,12 @@ fn second_order(path: &Path) {
 fn with_input(text: &str, driver: usize, input: &str) -> Option<String> {
     let mut drivers = text.match_indices("\n    driver ").map(|(at, _)| at);
     let at = drivers.nth(driver)?;
-    let line = &text[at + 1..];
-    let line = &line[..line.find('\n')?];
-    let code = line.split("//").next()?.trim_end();
+    let behind = &text[at + 1..];
+    // its lines are indented further than it
+    let (line_ends, more) = (behind.match_indices('\n').map(|(at, _)| at), "\n        ");
+    let declaration = &behind[..line_ends.into_iter().find(|&end| !behind[end..].starts_with(more))?];
+    let comment = declaration.rfind("//").filter(|&at| !declaration[at..].contains('\n'));
+    let code = declaration[..comment.unwrap_or(declaration.len())].trim_end();
     let end = at + 1 + code.len();
     let equals = at + 1 + code.rfind(" = ")? + 3;
     Some(format!("{}\n    {input}{}({}) + zin{}", &text[..at], &text[at..equals], &text[equals..end], &text[end..]))

@@ -9,8 +9,6 @@ mod signature;
 mod structure;
 mod tokens;
 
-pub(super) use tokens::{MODIFIERS, types};
-
 use super::convert::{Texts, markdown, symbol_kind};
 use crate::ide;
 use gen_lsp_types::{self as lsp, Request};

@@ -1,6 +1,6 @@
 //! What the client can do, and what the server does.
 
-use super::answers::{MODIFIERS, types};
+use super::legend::{MODIFIERS, types};
 use crate::source::Encoding;
 use serde_json::{Value, json};
 use std::path::PathBuf;

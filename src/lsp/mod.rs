@@ -13,6 +13,7 @@ mod answers;
 mod capabilities;
 mod convert;
 mod documents;
+mod legend;
 mod lines;
 mod log;
 mod pool;

@@ -207,7 +207,7 @@ fn anything(uri: &str, [start, end]: [(usize, usize); 2]) -> Value {
         "position": position(start),
         "positions": [position(start), position(end)],
         "range": range,
-        "context": { "includeDeclaration": true, "diagnostics": [], "triggerKind": 1 },
+        "context": { "includeDeclaration": true, "diagnostics": [], "triggerKind": 1, "isRetrigger": false },
         "newName": "other",
         "query": "a",
         "ch": "}",

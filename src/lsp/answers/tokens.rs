@@ -1,32 +1,10 @@
 //! Semantic tokens.
 
-use crate::ide::{self, Token, TokenKind};
+use crate::ide::{self, Token};
 use crate::lsp::convert::Texts;
+use crate::lsp::legend::OF_KINDS;
 use gen_lsp_types as lsp;
 use std::ops::Range;
-
-/// The types of the protocol for the kinds of names and words.
-const OF_KINDS: &[(TokenKind, &str)] = &[
-    (TokenKind::Mechanism, "class"),
-    (TokenKind::Part, "namespace"),
-    (TokenKind::Body, "struct"),
-    (TokenKind::Feature, "property"),
-    (TokenKind::Equation, "event"),
-    (TokenKind::Function, "function"),
-    (TokenKind::Argument, "parameter"),
-    (TokenKind::Value, "variable"),
-    (TokenKind::JointKind, "type"),
-    (TokenKind::Unit, "enumMember"),
-    (TokenKind::Keyword, "keyword"),
-];
-
-/// The legend: types, in the order of their numbers.
-pub(in crate::lsp) fn types() -> Vec<&'static str> {
-    OF_KINDS.iter().map(|(_, name)| *name).collect()
-}
-
-/// The legend: modifiers, in the order of their bits.
-pub(in crate::lsp) const MODIFIERS: [&str; 3] = ["declaration", "readonly", "defaultLibrary"];
 
 pub(super) fn all(texts: &Texts, params: &lsp::SemanticTokensParams) -> Option<lsp::SemanticTokens> {
     encoded(texts, &params.text_document.uri, &(0..u32::MAX))
