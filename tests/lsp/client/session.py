@@ -8,9 +8,12 @@ import sys
 from pathlib import Path
 
 from lsprotocol import types as lsp
+from pygls.exceptions import JsonRpcException
 from pygls.lsp.client import LanguageClient
 
 REQUESTS = 200
+# of the protocol
+REQUEST_FAILED = -32803
 URI = "file:///work/four_bar.mech"
 # letters beyond the first plane stand before what is asked about
 TEXT = """mechanism four_bar {
@@ -179,7 +182,11 @@ async def main(binary, encoding):
     while session.count < REQUESTS:
         name, params = kinds[session.count % len(kinds)]
         place = PLACES[session.count % len(PLACES)]
-        await session.ask(name, params(session, session.position(session.text.index(place))))
+        try:
+            await session.ask(name, params(session, session.position(session.text.index(place))))
+        except JsonRpcException as refusal:
+            # no word of the language gets another name
+            assert name == "text_document_rename" and refusal.code == REQUEST_FAILED, (name, refusal)
     client.text_document_did_close(lsp.DidCloseTextDocumentParams(session.document()))
     await client.shutdown_async(None)
     client.exit(None)
