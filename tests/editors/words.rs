@@ -170,7 +170,7 @@ fn emacs() {
     });
 }
 
-/// The regular expression of a list in the TextMate grammar.
+/// The regular expression of a list in the grammar of VS Code.
 fn in_text_mate(list_name: &str) -> String {
     let any = list(list_name).join("|");
     match list_name {
