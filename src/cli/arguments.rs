@@ -120,8 +120,8 @@ pub(super) enum Command {
     /// The language server, which an editor starts
     #[cfg(feature = "lsp")]
     #[command(long_about = "The language server, which an editor starts.\n\n\
-        It speaks the language server protocol over standard input and output: diagnostics while you type, what a name or word is, \
-        the declarations of a file. Nobody types this command: an editor's extension or configuration names it.")]
+        It speaks the language server protocol over standard input and output: diagnostics while you type, the degrees of freedom, \
+        what a name or word is, what fits, new names, mends, formatting. Nobody types this command: an editor's extension or configuration names it.")]
     Lsp(LspArguments),
 }
 

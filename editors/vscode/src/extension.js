@@ -20,6 +20,8 @@ async function start() {
   const log = vscode.workspace.getConfiguration('mechc').get('log', '');
   client = new LanguageClient('mechc', 'mechc', serverOf(path(), log), {
     documentSelector: [{ language: 'mech', scheme: 'file' }, { language: 'mech', scheme: 'untitled' }],
+    // what the lenses above a mechanism may ask for
+    initializationOptions: { commands: ['mechc.run', 'mechc.check'] },
     synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{mech,csv}') },
   });
   try {
