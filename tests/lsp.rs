@@ -5,6 +5,8 @@
 
 #[path = "lsp/client.rs"]
 mod client;
+#[path = "lsp/disk.rs"]
+mod disk;
 #[path = "lsp/memory.rs"]
 mod memory;
 #[path = "lsp/pipe.rs"]
@@ -16,6 +18,7 @@ mod writing;
 
 use client::Client;
 use mechc::Memory;
+use mechc::rooms::lsp::Ended;
 use serde_json::{Value, json};
 
 const URI: &str = "file:///work/slider_crank.mech";
@@ -74,6 +77,29 @@ fn the_proof_comes_behind_the_words_and_stays_while_they_are_typed() {
     client.change(URI, &change);
     let (version, told) = client.published(URI);
     insta::assert_snapshot!(format!("{version}: {}", told.join("\n")), @"2: 5:1 E0502 1 degree of freedom is left in mechanism `slider_crank`");
+    client.end();
+}
+
+#[test]
+fn a_measure_that_is_typed_hides_nothing_of_the_proof() {
+    let (mut client, mut text) = (pushed_to(), TEXT.to_owned());
+    let driver = text.lines().find(|line| line.contains("driver")).expect("a driver").to_owned();
+    text = text.replacen(&driver, "    // more", 1);
+    client.open(URI, &text);
+    let told = |(_, told): (i64, Vec<String>)| {
+        told.iter().map(|said| said[..].split(' ').nth(1).unwrap().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(told(client.published(URI)), ["E0502"]);
+    let change = edit(&mut text, "// more", "measure half = 2 *");
+    client.change(URI, &change);
+    assert_eq!(told(client.published(URI)), ["E0101", "E0502"]);
+    // a joint that is typed: what moves is not known, and known again with its last letter
+    let change = edit(&mut text, "measure half = 2 *", "joint half: revolute(");
+    client.change(URI, &change);
+    assert_eq!(told(client.published(URI)), ["E0101"]);
+    let change = edit(&mut text, "joint half: revolute(", "measure half = 2");
+    client.change(URI, &change);
+    assert_eq!(told(client.published(URI)), ["E0502"], "never an empty list");
     client.end();
 }
 
@@ -140,12 +166,12 @@ fn sessions_go_as_the_protocol_says() {
     assert_eq!(client.request("shutdown", Value::Null), Value::Null);
     assert_eq!(client.refused("shutdown", Value::Null), INVALID_REQUEST);
     client.notify("exit", Value::Null);
-    assert!(client.vanish());
+    assert_eq!(client.vanish(), Ended::Well);
 }
 
 #[test]
 fn who_vanishes_ends_it() {
-    assert!(!pushed_to().vanish());
+    assert_eq!(pushed_to().vanish(), Ended::Early);
 }
 
 /// A mechanism whose results are known behind its motion.

@@ -132,6 +132,10 @@ pub(super) struct LspArguments {
     /// Write every message with its time, and what the server did, into FILE
     #[arg(long, value_name = "FILE")]
     pub log: Option<PathBuf>,
+
+    /// What many clients add; it speaks over standard input and output anyway
+    #[arg(long, hide = true)]
+    pub stdio: bool,
 }
 
 /// What all commands that read a .mech file share.

@@ -3,10 +3,15 @@
 use super::arguments::LspArguments;
 use super::failure::Failure;
 use super::files::{Disk, cannot_write};
-use crate::lsp::{self, Log};
+use super::report::Reporter;
+use crate::lsp::{self, Ended, Log};
 use std::fs::File;
-use std::io::BufWriter;
+use std::io::{BufWriter, IsTerminal};
 use std::sync::Arc;
+
+/// What a person is told who meets it without an editor.
+const FOR_EDITORS: &str = "`mechc lsp` is the language server: an editor starts it and speaks the language server protocol with it, over\n\
+    standard input and output. How editors are set up is in the folder `editors` of the project.\n";
 
 /// Serves until the client says that it is enough, or is gone; whether it ended as the protocol says.
 pub(super) fn lsp(arguments: &LspArguments) -> Result<bool, Failure> {
@@ -17,5 +22,13 @@ pub(super) fn lsp(arguments: &LspArguments) -> Result<bool, Failure> {
             Log::to(BufWriter::new(file))
         }
     };
-    Ok(lsp::serve_pipe(Arc::new(Disk), log))
+    let is_typed = std::io::stdin().is_terminal();
+    if is_typed {
+        Reporter::say(FOR_EDITORS);
+    }
+    let ended = lsp::serve_pipe(Arc::new(Disk), log);
+    if ended == Ended::Unbegun && !is_typed {
+        Reporter::say(FOR_EDITORS);
+    }
+    Ok(ended == Ended::Well)
 }

@@ -44,8 +44,8 @@ pub enum ActionKind {
 /// What can be done about a stretch of a file: fixes of what its words and the proof say there, and refactorings.
 #[must_use]
 pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Option<Vec<Action>> {
-    let words = diagnostics(snapshot, path, Stage::Words, &Cancel::default())?;
-    let proof = diagnostics(snapshot, path, Stage::Proof, &Cancel::default())?;
+    let words = diagnostics(snapshot, path, Stage::Words, &Cancel::default)?;
+    let proof = diagnostics(snapshot, path, Stage::Proof, &Cancel::default)?;
     let mut all: Vec<&Said> = words.iter().collect();
     all.extend(proof.iter().filter(|said| !words.contains(said)));
     let touches = |said: &&Said| said.range.start <= range.end && range.start <= said.range.end;
@@ -224,7 +224,7 @@ mod tests {
 
     /// How many faults the first two stages find.
     fn count(snapshot: &Snapshot, path: &Path) -> usize {
-        let of = |stage| diagnostics(snapshot, path, stage, &Cancel::default()).expect("a file").len();
+        let of = |stage| diagnostics(snapshot, path, stage, &Cancel::default).expect("a file").len();
         of(Stage::Words) + of(Stage::Proof)
     }
 

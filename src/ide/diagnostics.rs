@@ -61,9 +61,9 @@ pub struct ProposedFix {
     pub changes: Vec<Change>,
 }
 
-/// What one stage says of a file. The flag ends the last stage early; nothing where that, or the snapshot, was cancelled.
+/// What one stage says of a file; nothing where the snapshot was cancelled. Each motion of the last stage is begun with a flag that ends it.
 #[must_use]
-pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Cancel) -> Option<Vec<Said>> {
+pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, begin: &dyn Fn() -> Cancel) -> Option<Vec<Said>> {
     let checked = snapshot.checked(path)?;
     let mut all: Vec<Said> = Vec::new();
     let mut add = |checked: &Checked, sources: &Sources, diagnostics: &Diagnostics| {
@@ -83,7 +83,7 @@ pub fn diagnostics(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Canc
             }
         }
         Stage::Motion => {
-            let (proven, moved) = (snapshot.proven(path)?, snapshot.moved(path, cancel)?);
+            let (proven, moved) = (snapshot.proven(path)?, snapshot.moved(path, begin)?);
             for ((checked, proven), moved) in checked.mechanisms.iter().zip(proven.iter()).zip(moved.iter()) {
                 add(checked, &proven.sources, &moved.said);
             }

@@ -36,14 +36,14 @@ pub(super) fn applied(snapshot: &Snapshot, changes: &[Change]) -> Option<Snapsho
             }
         }
         changed += text.get(end..)?;
-        after = after.with_text(&path, Some(changed.into()));
+        after = after.supposing(&path, changed.into());
     }
     Some(after)
 }
 
 /// What is to be said of some files' words, in order.
 pub(super) fn faults(snapshot: &Snapshot, files: &[Arc<Path>]) -> Vec<Said> {
-    let of = |path: &Arc<Path>| diagnostics(snapshot, path, Stage::Words, &Cancel::default()).unwrap_or_default();
+    let of = |path: &Arc<Path>| diagnostics(snapshot, path, Stage::Words, &Cancel::default).unwrap_or_default();
     files.iter().flat_map(of).collect()
 }
 

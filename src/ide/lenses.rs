@@ -41,7 +41,9 @@ pub fn lenses(snapshot: &Snapshot, path: &Path) -> Option<Vec<Lens>> {
         let of = |kind: LensKind| Lens { range: range.clone(), kind };
         lenses.extend([of(LensKind::Run(name.clone())), of(LensKind::Check(name.clone()))]);
         let moved = moved.iter().flat_map(|all| all.iter()).find(|moved| moved.mechanism == *name);
-        lenses.extend(moved.map(|moved| of_results(checked, moved, is_of_before)).unwrap_or_default());
+        lenses.extend(
+            moved.map(|moved| of_results(checked, moved, is_of_before || moved.is_cut_short)).unwrap_or_default(),
+        );
     }
     Some(lenses)
 }
@@ -86,7 +88,7 @@ mod tests {
         let (snapshot, place) = at_cursor(&format!("{text}$0"));
         let now = |snapshot: &crate::ide::Snapshot| shown(&lenses(snapshot, &place.path).expect("lenses"));
         assert_eq!(now(&snapshot), ["run four_bar", "check four_bar"]);
-        snapshot.moved(&place.path, &Cancel::default()).expect("it moves");
+        snapshot.moved(&place.path, &Cancel::default).expect("it moves");
         assert_eq!(now(&snapshot), ["run four_bar", "check four_bar", "60.4876 deg", "no value"]);
         let edited = snapshot.with_text(&place.path, Some(text.replacen("swing", "swung", 1).into()));
         assert_eq!(now(&edited), ["run four_bar", "check four_bar", "no value …"]);

@@ -65,6 +65,8 @@ pub struct Moved {
     pub said: Diagnostics,
     /// Its results: each with its value, where it has one, in the unit in which it is told.
     pub results: Vec<(String, Option<f64>, String)>,
+    /// It took too long: the results are those of a text before this one, if any.
+    pub is_cut_short: bool,
 }
 
 impl Proven {
@@ -107,6 +109,12 @@ impl Snapshot {
         next
     }
 
+    /// The same with another text in a file, to see what would be; work on it ends with that on this one.
+    #[must_use]
+    pub fn supposing(&self, path: &Arc<Path>, text: Arc<str>) -> Snapshot {
+        Snapshot { cancel: self.cancel.clone(), ..self.with_text(path, Some(text)) }
+    }
+
     /// The same without what was known of a file, and of those that were made of it: what is behind it has changed.
     #[must_use]
     pub fn without(&self, path: &Arc<Path>) -> Snapshot {
@@ -124,14 +132,12 @@ impl Snapshot {
         Snapshot { buffers: Arc::clone(&self.buffers), files, cancel: Cancel::default() }
     }
 
-    /// The same with files that may be asked about, though nobody has opened them.
+    /// The same with files that may be asked about, though nobody has opened them, and without any others of that kind.
     #[must_use]
     pub fn with_files(&self, paths: impl IntoIterator<Item = Arc<Path>>) -> Snapshot {
-        let mut files = self.files.clone();
-        for path in paths {
-            files.entry(path).or_default();
-        }
-        Snapshot { files, ..self.clone() }
+        let wanted: BTreeSet<Arc<Path>> = paths.into_iter().chain(self.buffers.paths().cloned()).collect();
+        let known = |path: Arc<Path>| (Arc::clone(&path), self.files.get(&path).cloned().unwrap_or_default());
+        Snapshot { files: wanted.into_iter().map(known).collect(), ..self.clone() }
     }
 
     /// Ends all work on it, soon: it gives nothing then.
@@ -182,15 +188,19 @@ impl Snapshot {
         self.proven_of(&self.stages(path), path)
     }
 
-    /// The motion of each of a file's mechanisms over the times of its analysis. The flag ends it as well; what was found up to there is lost.
+    /// The motion of each of a file's mechanisms over the times of its analysis. Each is begun with a flag that ends it, it alone.
     #[must_use]
-    pub fn moved(&self, path: &Path, cancel: &Cancel) -> Option<Arc<Vec<Moved>>> {
+    pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Moved>>> {
         let stages = self.stages(path);
         let proven = self.proven_of(&stages, path)?;
+        let before = |name: &str| stages.moved_before.as_ref()?.iter().find(|before| before.mechanism == name);
         stages.moved.get_or(|| {
-            self.unless_cancelled(())?;
-            let said = proven.iter().map(|proven| moved(proven, cancel)).collect::<Option<_>>()?;
-            self.unless_cancelled(said)
+            let followed = |proven: &Proven| {
+                self.unless_cancelled(())?;
+                Some(moved(proven, &begin()).unwrap_or_else(|| Moved::cut_short(proven, before)))
+            };
+            let all = proven.iter().map(followed).collect::<Option<_>>()?;
+            self.unless_cancelled(all)
         })
     }
 
@@ -227,6 +237,13 @@ impl Snapshot {
         })
     }
 
+    /// Whether there is anything to prove of a file.
+    #[must_use]
+    pub fn may_be_proven(&self, path: &Path) -> Option<bool> {
+        let may_be = |checked: &Checked| checked.is_sound() || checked.is_sound_but_for_outputs();
+        Some(self.checked(path)?.mechanisms.iter().any(may_be))
+    }
+
     fn checked_of(&self, stages: &Stages, path: &Path) -> Option<Arc<Analysed>> {
         let parsed = self.parsed_of(stages, path)?;
         stages.checked.get_or(|| {
@@ -242,8 +259,12 @@ impl Snapshot {
         let checked = self.checked_of(stages, path)?;
         stages.proven.get_or(|| {
             self.unless_cancelled(())?;
-            let proven = checked.mechanisms.iter().map(|checked| proven(checked, &self.cancel)).collect();
-            self.unless_cancelled(proven)
+            let whole = |checked: &Checked| checked.without_wrong_outputs(&*self.buffers);
+            let of = |checked: &Checked| {
+                let whole = if checked.is_sound() { None } else { whole(checked) };
+                proven(whole.as_ref().unwrap_or(checked), &self.cancel)
+            };
+            self.unless_cancelled(checked.mechanisms.iter().map(of).collect())
         })
     }
 
@@ -300,9 +321,22 @@ fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
     proven
 }
 
+impl Moved {
+    fn nothing() -> Moved {
+        Moved { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new(), is_cut_short: false }
+    }
+
+    /// Of a motion that was ended on its way only what was known of it before.
+    fn cut_short<'b>(proven: &Proven, before: impl Fn(&str) -> Option<&'b Moved>) -> Moved {
+        let mechanism = proven.compiled.as_ref().map(|compiled| compiled.name().to_owned()).unwrap_or_default();
+        let results = before(&mechanism).map(|before| before.results.clone()).unwrap_or_default();
+        Moved { mechanism, results, is_cut_short: true, ..Moved::nothing() }
+    }
+}
+
 /// Follows a motion to its end; nothing where it is cancelled on the way.
 fn moved(proven: &Proven, cancel: &Cancel) -> Option<Moved> {
-    let mut moved = Moved { mechanism: String::new(), said: Diagnostics::default(), results: Vec::new() };
+    let mut moved = Moved::nothing();
     let compiled = proven.compiled.as_ref().filter(|_| !proven.said.has_errors());
     let Some((compiled, times)) = compiled.and_then(|compiled| Some((compiled, compiled.times()?))) else {
         return Some(moved);

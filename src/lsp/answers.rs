@@ -10,6 +10,7 @@ mod structure;
 mod tokens;
 
 use super::convert::{Texts, markdown, symbol_kind};
+use super::pool::Kind;
 use crate::ide;
 use gen_lsp_types::{self as lsp, Request};
 use serde_json::Value;
@@ -34,13 +35,15 @@ pub(super) struct Method {
     pub name: &'static str,
     /// Whether its answer is worth as much for a later text: what names no position.
     pub is_retried: bool,
+    /// On which threads.
+    pub kind: Kind,
     /// From its params to its answer.
     pub answer: fn(&Texts, Value) -> Result<Value, Failure>,
 }
 
 /// Every request that is answered from a snapshot alone, by name.
 pub(super) const TABLE: &[Method] = &[
-    method::<lsp::CodeActionRequest>(false, |texts, params| {
+    weighed::<lsp::CodeActionRequest>(|texts, params| {
         answered::<lsp::CodeActionRequest>(texts, params, edits::actions)
     }),
     method::<lsp::CodeLensRequest>(true, |texts, params| {
@@ -83,7 +86,7 @@ pub(super) const TABLE: &[Method] = &[
     method::<lsp::ReferencesRequest>(false, |texts, params| {
         answered::<lsp::ReferencesRequest>(texts, params, navigate::references)
     }),
-    method::<lsp::RenameRequest>(false, |texts, params| tried::<lsp::RenameRequest>(texts, params, navigate::rename)),
+    weighed::<lsp::RenameRequest>(|texts, params| tried::<lsp::RenameRequest>(texts, params, navigate::rename)),
     method::<lsp::SelectionRangeRequest>(false, |texts, params| {
         answered::<lsp::SelectionRangeRequest>(texts, params, structure::selections)
     }),
@@ -102,7 +105,12 @@ pub(super) const TABLE: &[Method] = &[
 ];
 
 const fn method<R: Request>(is_retried: bool, answer: fn(&Texts, Value) -> Result<Value, Failure>) -> Method {
-    Method { name: R::METHOD.as_str(), is_retried, answer }
+    Method { name: R::METHOD.as_str(), is_retried, kind: Kind::Request, answer }
+}
+
+/// One that takes a proof, or checks of what would be: others do not wait for it.
+const fn weighed<R: Request>(answer: fn(&Texts, Value) -> Result<Value, Failure>) -> Method {
+    Method { kind: Kind::Weighed, ..method::<R>(false, answer) }
 }
 
 /// Reads the params, and writes the answer; what a snapshot gives that was cancelled is none.

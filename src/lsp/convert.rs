@@ -7,10 +7,10 @@ use crate::ide::{Change, Place, Said, Severity, Snapshot, Stretch};
 use crate::source::Encoding;
 use crate::world::World;
 use gen_lsp_types as lsp;
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 use std::ops::Range;
 use std::path::Path;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// What it takes to turn places of one moment into the client's: its open texts, and how it counts.
 #[derive(Clone)]
@@ -19,12 +19,14 @@ pub(super) struct Texts {
     pub documents: Documents,
     pub encoding: Encoding,
     pub client: Client,
+    /// Files that nobody has open, with their lines, once they were read.
+    pub closed: Arc<Mutex<BTreeMap<Arc<Path>, Arc<Document>>>>,
 }
 
 impl Texts {
     /// The file of a URI, by its identity.
     pub fn path(&self, uri: &lsp::Uri) -> Arc<Path> {
-        identity(&uri.0, &self.snapshot)
+        file_of(&uri.0, &self.documents, &self.snapshot)
     }
 
     /// A place that the client gives.
@@ -108,15 +110,21 @@ impl Texts {
         if let Some(open) = self.documents.get(path) {
             return Some(Arc::clone(open));
         }
+        let mut closed = self.closed.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(read) = closed.get(path) {
+            return Some(Arc::clone(read));
+        }
         let bytes = self.snapshot.buffers().read(path).ok()?.bytes;
-        let text = std::str::from_utf8(&bytes).ok()?;
-        Some(Arc::new(Document::new(String::new(), 0, text)))
+        let document = Arc::new(Document::new(String::new(), 0, std::str::from_utf8(&bytes).ok()?));
+        closed.insert(path.into(), Arc::clone(&document));
+        Some(document)
     }
 }
 
-/// What tells the file of a URI from all others.
-pub(super) fn identity(uri: &str, snapshot: &Snapshot) -> Arc<Path> {
-    snapshot.buffers().identity(&super::uri::path_of(uri)).into()
+/// What tells the file of a URI from all others: as it was opened, or as it is found on the disk.
+pub(super) fn file_of(uri: &str, documents: &Documents, snapshot: &Snapshot) -> Arc<Path> {
+    let found = || snapshot.buffers().identity(&super::uri::path_of(uri)).into();
+    documents.file(uri).cloned().unwrap_or_else(found)
 }
 
 fn range_in(document: &Document, range: &Range<u32>, encoding: Encoding) -> lsp::Range {

@@ -125,6 +125,9 @@ impl Moved {
 #[derive(Clone, Default)]
 pub(super) struct Documents {
     open: BTreeMap<Arc<Path>, Arc<Document>>,
+    /// The files of the URIs by which they were opened, of which a file may have several: it is the same one to the end, whatever becomes
+    /// of links and files on the disk.
+    files: BTreeMap<String, Arc<Path>>,
 }
 
 impl Documents {
@@ -132,12 +135,30 @@ impl Documents {
         self.open.get(path)
     }
 
+    /// The file that was opened by a URI.
+    pub fn file(&self, uri: &str) -> Option<&Arc<Path>> {
+        self.files.get(uri)
+    }
+
     pub fn set(&mut self, path: Arc<Path>, document: Document) {
+        self.files.insert(document.uri.clone(), Arc::clone(&path));
         self.open.insert(path, Arc::new(document));
     }
 
-    pub fn close(&mut self, path: &Path) {
-        self.open.remove(path);
+    /// Closes what was opened by a URI; gives its file, if nobody has that open any more.
+    pub fn close(&mut self, uri: &str) -> Option<Arc<Path>> {
+        let path = self.files.remove(uri)?;
+        match self.files.iter().find(|(_, other)| **other == path) {
+            Some((other, _)) => {
+                let document = self.open.get_mut(&path)?;
+                Arc::make_mut(document).uri.clone_from(other);
+                None
+            }
+            None => {
+                self.open.remove(&path);
+                Some(path)
+            }
+        }
     }
 
     pub fn paths(&self) -> impl Iterator<Item = &Arc<Path>> {
@@ -155,8 +176,9 @@ impl Documents {
 
 #[cfg(test)]
 mod tests {
-    use super::{Document, Moved, difference};
+    use super::{Document, Documents, Moved, difference};
     use crate::source::Encoding;
+    use std::path::Path;
 
     fn document(text: &str) -> Document {
         Document::new("file:///a.mech".to_owned(), 1, text)
@@ -198,6 +220,20 @@ mod tests {
         assert_eq!((&**text.text(), text.position(0, Encoding::Utf16)), ("xb\ncd", (0, 1)));
         text.edit(Some([(0, 0), (0, 2)]), "y", Encoding::Utf16);
         assert_eq!((&**text.text(), text.position(0, Encoding::Utf16)), ("yb\ncd", (0, 0)));
+    }
+
+    #[test]
+    fn a_file_with_two_names_is_open_until_both_are_closed() {
+        let mut documents = Documents::default();
+        let path = Path::new("/a.mech");
+        for uri in ["file:///a.mech", "file:///link.mech"] {
+            documents.set(path.into(), Document::new(uri.to_owned(), 1, "x"));
+        }
+        assert_eq!(documents.close("file:///link.mech"), None);
+        assert_eq!(documents.uri(path), "file:///a.mech");
+        assert_eq!(documents.close("file:///other.mech"), None);
+        assert_eq!(documents.close("file:///a.mech").as_deref(), Some(path));
+        assert!(documents.get(path).is_none());
     }
 
     #[test]

@@ -23,7 +23,7 @@ mod transport;
 mod uri;
 
 pub use log::Log;
-pub use server::serve;
+pub use server::{Ended, serve};
 
 use crate::world::World;
 use std::sync::Arc;
@@ -34,12 +34,11 @@ pub fn methods() -> impl Iterator<Item = &'static str> {
     answers::TABLE.iter().map(|method| method.name).chain(pull)
 }
 
-/// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone. Whether it ended as
-/// the protocol says.
+/// Serves the client at the other end of standard input and output, until that says that it is enough, or is gone.
 #[must_use]
-pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> bool {
+pub fn serve_pipe(world: Arc<dyn World>, log: Log) -> Ended {
     let (connection, transport) = transport::standard();
-    let ended_well = serve(connection, world, log);
+    let ended = serve(connection, world, log);
     transport.finish();
-    ended_well
+    ended
 }

@@ -15,6 +15,10 @@ pub(super) enum Kind {
     Words,
     /// What somebody asked for.
     Request,
+    /// What somebody asked for that takes a proof, or checks of what would be.
+    Weighed,
+    /// Which files there are.
+    Files,
     /// What is said right after; it is not cancelled at once.
     Proof,
     /// What may take long.
@@ -22,8 +26,14 @@ pub(super) enum Kind {
 }
 
 /// Each kind with its number of threads.
-const THREADS: [(Kind, &str, usize); 4] =
-    [(Kind::Words, "words", 1), (Kind::Request, "request", 2), (Kind::Proof, "proof", 1), (Kind::Motion, "motion", 1)];
+const THREADS: [(Kind, &str, usize); 6] = [
+    (Kind::Words, "words", 1),
+    (Kind::Request, "request", 2),
+    (Kind::Weighed, "weighed", 1),
+    (Kind::Files, "files", 1),
+    (Kind::Proof, "proof", 1),
+    (Kind::Motion, "motion", 1),
+];
 
 type Work = Box<dyn FnOnce() + Send>;
 

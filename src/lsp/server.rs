@@ -34,9 +34,20 @@ const TICK: Duration = Duration::from_millis(200);
 /// How long nothing at all is done where nobody says anything.
 const IDLE: Duration = Duration::from_secs(3600);
 
-/// Serves a client until that says that it is enough, or is gone. Whether it ended as the protocol says.
+/// How a session came to its end.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Ended {
+    /// As the protocol says.
+    Well,
+    /// The client was gone before it had said so.
+    Early,
+    /// There was no session: nobody spoke the protocol.
+    Unbegun,
+}
+
+/// Serves a client until that says that it is enough, or is gone.
 #[must_use]
-pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
+pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
     let Connection { sender, receiver } = connection;
     let (done, tasks) = unbounded();
     let mut server = Server {
@@ -52,6 +63,7 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> bool {
         edited: None,
         revision: 0,
         motions: Vec::new(),
+        search: Cancel::default(),
         due: Vec::new(),
         pending: HashMap::new(),
         pulls: Vec::new(),
@@ -74,6 +86,8 @@ enum Task {
     Answered(RequestId, Result<Value, Failure>),
     /// The files of the client's folders.
     Files(Vec<Arc<Path>>),
+    /// A motion of a revision is begun, with what ends it.
+    Began(u64, Cancel),
     Found {
         path: Arc<Path>,
         revision: u64,
@@ -114,6 +128,8 @@ struct Server {
     revision: u64,
     /// The motions that are being followed, and until when.
     motions: Vec<(Cancel, Instant)>,
+    /// Ends the search for files.
+    search: Cancel,
     /// Those that are to be followed, and from when on.
     due: Vec<(Arc<Path>, Instant)>,
     pending: HashMap<RequestId, Pending>,
@@ -125,18 +141,18 @@ struct Server {
 }
 
 impl Server {
-    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>) -> bool {
+    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>) -> Ended {
         loop {
             select! {
                 recv(receiver) -> message => match message {
-                    Err(_) => return false,
+                    Err(_) => return self.ended_early(),
                     Ok(message) => {
                         self.log.message('<', &message);
                         match message {
                             Message::Request(request) => self.request(request),
                             Message::Response(_) => {}
                             Message::Notification(notification) if notification.method == "exit" => {
-                                return self.state == State::ShutDown;
+                                return if self.state == State::ShutDown { Ended::Well } else { self.ended_early() };
                             }
                             Message::Notification(notification) => self.notification(notification),
                         }
@@ -148,6 +164,10 @@ impl Server {
             self.end_long_motions();
             self.begin_due_motions();
         }
+    }
+
+    fn ended_early(&self) -> Ended {
+        if self.state == State::New { Ended::Unbegun } else { Ended::Early }
     }
 
     fn send(&self, message: impl Into<Message>) {
@@ -197,7 +217,7 @@ impl Server {
         let kept = if method.is_retried { params.clone() } else { Value::Null };
         self.pending.insert(id.clone(), Pending { method, params: kept });
         let (texts, done) = (self.texts(), self.done.clone());
-        self.pool.begin(Kind::Request, move || {
+        self.pool.begin(method.kind, move || {
             let answer = caught(|| (method.answer)(&texts, params)).unwrap_or_else(|why| Err(Failure::Panicked(why)));
             // the server may have ended
             let _ = done.send(Task::Answered(id, answer));
@@ -207,7 +227,12 @@ impl Server {
     fn texts(&self) -> Texts {
         let encoding = self.client.encoding;
         let (snapshot, documents) = (self.snapshot.clone(), self.documents.clone());
-        Texts { snapshot, documents, encoding, client: self.client.clone() }
+        Texts { snapshot, documents, encoding, client: self.client.clone(), closed: Arc::default() }
+    }
+
+    /// The file of a URI.
+    fn file_of(&self, uri: &str) -> Arc<Path> {
+        convert::file_of(uri, &self.documents, &self.snapshot)
     }
 
     fn notification(&mut self, notification: Notification) {
@@ -240,7 +265,7 @@ impl Server {
         let given = params.get("textDocument")?;
         let (uri, text) = (given.get("uri")?.as_str()?, given.get("text")?.as_str()?);
         let version = version_of(given);
-        let path = convert::identity(uri, &self.snapshot);
+        let path = self.file_of(uri);
         let mut document = Document::new(uri.to_owned(), version, text);
         if let Some(open) = self.documents.get(&path) {
             // what is shown of it is still shown
@@ -249,14 +274,15 @@ impl Server {
             self.edit(&path, &mut document, None, text);
         }
         self.documents.set(Arc::clone(&path), document);
-        self.shown.entry(Arc::clone(&path)).or_default();
+        let opening = self.revision;
+        self.shown.entry(Arc::clone(&path)).or_insert_with(|| Shown::of_opening(opening));
         self.replace(&path);
         Some(())
     }
 
     fn changed(&mut self, params: &Value) -> Option<()> {
         let given = params.get("textDocument")?;
-        let path = convert::identity(given.get("uri")?.as_str()?, &self.snapshot);
+        let path = self.file_of(given.get("uri")?.as_str()?);
         let mut document = Document::clone(self.documents.get(&path)?);
         document.version = version_of(given);
         let changes = params.get("contentChanges")?.as_array()?;
@@ -283,8 +309,7 @@ impl Server {
 
     fn closed(&mut self, params: &Value) -> Option<()> {
         let uri = params.get("textDocument")?.get("uri")?.as_str()?;
-        let path = convert::identity(uri, &self.snapshot);
-        self.documents.close(&path);
+        let path = self.documents.close(uri)?;
         self.shown.remove(&path)?;
         self.answer_pulls(Some(&path));
         if !self.client.pulls_diagnostics {
@@ -305,14 +330,16 @@ impl Server {
         self.look_for_files();
     }
 
-    fn look_for_files(&self) {
+    fn look_for_files(&mut self) {
         let (folders, world, done) = (self.folders.clone(), Arc::clone(self.snapshot.buffers()), self.done.clone());
-        if !folders.is_empty() {
-            self.pool.begin(Kind::Proof, move || {
-                let files = caught(|| ide::files_in(&folders, &*world, &Cancel::default())).unwrap_or_default();
+        std::mem::take(&mut self.search).cancel();
+        let cancel = self.search.clone();
+        self.pool.begin(Kind::Files, move || {
+            let files = caught(|| ide::files_in(&folders, &*world, &cancel)).unwrap_or_default();
+            if !cancel.is_cancelled() {
                 let _ = done.send(Task::Files(files));
-            });
-        }
+            }
+        });
     }
 
     fn changed_folders(&mut self, params: &Value) {
@@ -330,7 +357,7 @@ impl Server {
     /// Files on the disk are others, or gone, or new.
     fn changed_behind(&mut self, params: &Value) -> Option<()> {
         for change in params.get("changes")?.as_array()? {
-            let path = convert::identity(change.get("uri")?.as_str()?, &self.snapshot);
+            let path = self.file_of(change.get("uri")?.as_str()?);
             if self.documents.get(&path).is_none() {
                 self.replace(&path);
             }
@@ -385,11 +412,15 @@ impl Server {
 
     fn begin_stage(&mut self, path: &Arc<Path>, stage: Stage) {
         let (path, revision, snapshot) = (Arc::clone(path), self.revision, self.snapshot.clone());
-        let (done, cancel) = (self.done.clone(), Cancel::default());
-        let motion = cancel.clone();
+        let done = self.done.clone();
         let work = move || {
             let begin = Instant::now();
-            let found = caught(|| found(&snapshot, &path, stage, &cancel));
+            let motion = || {
+                let cancel = Cancel::default();
+                let _ = done.send(Task::Began(revision, cancel.clone()));
+                cancel
+            };
+            let found = caught(|| found(&snapshot, &path, stage, &motion));
             let _ = done.send(Task::Found { path, revision, stage, found, took: begin.elapsed() });
         };
         let kind = match stage {
@@ -397,9 +428,6 @@ impl Server {
             Stage::Proof => Kind::Proof,
             Stage::Motion => Kind::Motion,
         };
-        if stage == Stage::Motion {
-            self.motions.push((motion, Instant::now() + MOTION_LIMIT));
-        }
         self.pool.begin(kind, work);
     }
 
@@ -431,6 +459,10 @@ impl Server {
                 self.log.did(|| format!("{} files are in the folders", files.len()));
                 self.snapshot = self.snapshot.with_files(files);
             }
+            Task::Began(revision, motion) if revision == self.revision => {
+                self.motions.push((motion, Instant::now() + MOTION_LIMIT));
+            }
+            Task::Began(_, motion) => motion.cancel(),
             Task::Found { path, revision, stage, found, took } => {
                 if revision == self.revision && self.state == State::Running {
                     self.log.did(|| format!("{stage:?} of {} took {:.3} ms", path.display(), took.as_secs_f64() * 1e3));
@@ -468,14 +500,15 @@ impl Server {
         let Some(shown) = self.shown.get_mut(path) else { return };
         let is_new = shown.take(stage, found);
         self.refresh(path, stage);
-        if self.client.pulls_diagnostics {
-            if stage == Stage::Words {
-                self.answer_pulls(Some(path));
-            } else if is_new {
-                self.ask("workspace/diagnostic/refresh");
-            }
-        } else if is_new {
-            self.push(path);
+        if stage == Stage::Words {
+            self.answer_pulls(Some(path));
+        }
+        // for the words of the text that was edited it asks by itself
+        let is_asked_for = stage == Stage::Words && self.edited.as_ref() == Some(path);
+        match self.client.pulls_diagnostics {
+            true if is_new && !is_asked_for => self.ask("workspace/diagnostic/refresh"),
+            false if is_new => self.push(path),
+            _ => {}
         }
         self.look(path);
         if stage == Stage::Words {
@@ -514,7 +547,7 @@ impl Server {
             self.refuse(id, ErrorCode::InvalidParams, "it names no text");
             return;
         };
-        let path = convert::identity(uri, &self.snapshot);
+        let path = self.file_of(uri);
         let known = params.get("previousResultId").and_then(Value::as_str).map(str::to_owned);
         let pull = Pull { id, path, known };
         match self.shown.get(&pull.path).map(Shown::next) {
@@ -538,7 +571,7 @@ impl Server {
             self.answer(pull.id, json!({ "kind": "full", "items": [] }));
             return;
         };
-        let version = shown.version().to_string();
+        let version = shown.version();
         let report = if pull.known.as_ref() == Some(&version) {
             json!({ "kind": "unchanged", "resultId": version })
         } else {
@@ -580,10 +613,10 @@ impl Server {
 }
 
 /// What a stage finds of a text; nothing where it was cancelled.
-fn found(snapshot: &Snapshot, path: &Path, stage: Stage, cancel: &Cancel) -> Option<Found> {
-    let said = ide::diagnostics(snapshot, path, stage, cancel)?;
+fn found(snapshot: &Snapshot, path: &Path, stage: Stage, motion: &dyn Fn() -> Cancel) -> Option<Found> {
+    let said = ide::diagnostics(snapshot, path, stage, motion)?;
     let goes_on = match stage {
-        Stage::Words => snapshot.checked(path)?.mechanisms.iter().any(crate::stages::Checked::is_sound),
+        Stage::Words => snapshot.may_be_proven(path)?,
         Stage::Proof => snapshot.proven(path)?.iter().any(|proven| proven.assembly.is_some()),
         Stage::Motion => false,
     };

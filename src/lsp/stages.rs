@@ -1,7 +1,7 @@
 //! What is said of each open text, stage by stage.
 //!
 //! A later stage takes longer than a keystroke. What it said of the text before stays until it speaks of the new one, moved along with
-//! the edits; it goes at once where an earlier stage finds that there is nothing to prove or to follow.
+//! the edits. While an earlier stage finds that there is nothing to prove or to follow it is not shown, and comes back where that passes.
 
 use super::documents::Moved;
 use crate::ide::{Change, Said, Stage, Stretch};
@@ -14,10 +14,14 @@ pub(super) struct Shown {
     words: Vec<Said>,
     proof: Vec<Said>,
     motion: Vec<Said>,
+    /// There is something to prove, and something to follow, as far as was last known.
+    goes_on: [bool; 2],
     /// The last stage that has spoken of the text as it is.
     reached: Option<Stage>,
     /// Another one whenever what is said has changed, or stands elsewhere.
     version: u64,
+    /// Tells the text's opening from earlier ones.
+    opening: u64,
     /// That it stands elsewhere is not yet told.
     has_moved: bool,
 }
@@ -30,9 +34,14 @@ pub(super) struct Found {
 }
 
 impl Shown {
+    /// Nothing yet, of a text that is opened.
+    pub fn of_opening(opening: u64) -> Shown {
+        Shown { opening, ..Shown::default() }
+    }
+
     /// The text was edited, which is that of a file.
     pub fn edit(&mut self, file: &Path, moved: &Moved) {
-        for said in self.late() {
+        for said in self.proof.iter_mut().chain(&mut self.motion) {
             said.range = moved.applied(&said.range);
         }
         self.edit_elsewhere(file, moved);
@@ -43,20 +52,18 @@ impl Shown {
     /// A text was edited that may be spoken of here: places in it move along, and a change of what is not the same any more is no
     /// longer proposed.
     pub fn edit_elsewhere(&mut self, file: &Path, moved: &Moved) {
-        for said in self.late() {
+        let mut has_moved = false;
+        for said in self.proof.iter_mut().chain(&mut self.motion) {
             for related in said.related.iter_mut().filter(|related| *related.place.path == *file) {
                 move_along(&mut related.place, moved);
+                has_moved = true;
             }
             let is_there = |change: &Change| *change.place.path == *file;
             said.fixes.retain(|fix| !fix.changes.iter().any(|c| is_there(c) && moved.meets(&c.place.range())));
             let changes = said.fixes.iter_mut().flat_map(|fix| &mut fix.changes);
             changes.filter(|change| is_there(change)).for_each(|change| move_along(&mut change.place, moved));
         }
-    }
-
-    /// What the stages said that take longer than a keystroke.
-    fn late(&mut self) -> impl Iterator<Item = &mut Said> {
-        self.proof.iter_mut().chain(&mut self.motion)
+        self.has_moved |= has_moved;
     }
 
     /// What was found before need not hold any more, though the text is the same.
@@ -69,20 +76,11 @@ impl Shown {
         let before = self.all();
         let Found { said, goes_on } = found;
         match stage {
-            Stage::Words => self.words = said,
-            Stage::Proof => self.proof = said,
+            Stage::Words => (self.words, self.goes_on[0]) = (said, goes_on),
+            Stage::Proof => (self.proof, self.goes_on[1]) = (said, goes_on),
             Stage::Motion => self.motion = said,
         }
-        self.reached = Some(stage);
-        if !goes_on {
-            if stage == Stage::Words {
-                self.proof.clear();
-            }
-            if stage != Stage::Motion {
-                self.motion.clear();
-            }
-            self.reached = Some(Stage::Motion);
-        }
+        self.reached = Some(if goes_on { stage } else { Stage::Motion });
         let has_moved = std::mem::take(&mut self.has_moved) && !before.is_empty();
         let is_new = has_moved || before != self.all();
         self.version += u64::from(is_new);
@@ -101,12 +99,15 @@ impl Shown {
 
     /// All that is said, by stages.
     pub fn all(&self) -> Vec<Said> {
-        [&self.words, &self.proof, &self.motion].into_iter().flatten().cloned().collect()
+        let [is_proven, is_followed] = self.goes_on;
+        let proof = self.proof.iter().filter(|_| is_proven);
+        let motion = self.motion.iter().filter(|_| is_proven && is_followed);
+        self.words.iter().chain(proof).chain(motion).cloned().collect()
     }
 
-    /// Tells what is said from what was said before.
-    pub fn version(&self) -> u64 {
-        self.version
+    /// Tells what is said from what was said before, in this opening of the text or another one.
+    pub fn version(&self) -> String {
+        format!("{}.{}", self.opening, self.version)
     }
 }
 
@@ -156,7 +157,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_proven_any_more_says_nothing_of_the_proof() {
+    fn what_cannot_be_proven_for_a_while_says_nothing_of_the_proof_and_then_the_same() {
         let mut shown = Shown::default();
         shown.take(Stage::Words, found(&[], true));
         shown.take(Stage::Proof, found(&[("warning", 10)], true));
@@ -164,6 +165,11 @@ mod tests {
         shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 5 });
         assert!(shown.take(Stage::Words, found(&[("unknown", 1)], false)));
         assert_eq!((all(&shown), shown.next()), (vec![("unknown".to_owned(), 1)], None));
+        shown.edit(Path::new("a.mech"), &Moved { range: 2..2, length: 1 });
+        assert!(shown.take(Stage::Words, found(&[], true)));
+        assert_eq!(all(&shown), [("warning".to_owned(), 16), ("lock-up".to_owned(), 26)], "never an empty list");
+        assert!(shown.take(Stage::Proof, found(&[("free", 3)], false)));
+        assert_eq!(all(&shown), [("free".to_owned(), 3)]);
     }
 
     #[test]
@@ -189,5 +195,6 @@ mod tests {
         shown.edit_elsewhere(Path::new("b.mech"), &Moved { range: 0..0, length: 7 });
         let told = shown.all().remove(0);
         assert_eq!((told.range.start, told.related[1].place.start, told.fixes[1].changes[0].place.start), (31, 27, 9));
+        assert!(shown.take(Stage::Words, found(&[], true)), "that is told, though it says the same");
     }
 }

@@ -28,8 +28,10 @@ pub(super) fn path_of(uri: &str) -> PathBuf {
 pub(super) fn uri_of(path: &Path) -> String {
     let text = path.to_string_lossy();
     let text = if cfg!(windows) { text.replace('\\', "/") } else { text.into_owned() };
+    // the long form of a share, and of any other path
+    let share = text.strip_prefix("//?/UNC/");
     let text = text.strip_prefix("//?/").unwrap_or(&text);
-    match (text.strip_prefix("//"), with_drive(text)) {
+    match (share.or_else(|| text.strip_prefix("//")), with_drive(text)) {
         (Some(share), _) => format!("file://{}", encoded(share)),
         (None, Some(path)) => format!("file:///{}", encoded(&path)),
         (None, None) => format!("file://{}", encoded(text)),
@@ -104,6 +106,12 @@ mod tests {
         reads("file:///100%/%zz.mech", "/100%/%zz.mech");
         reads("untitled:Untitled-1", "untitled:Untitled-1");
         reads("vscode-vfs://github/a/b.mech", "vscode-vfs://github/a/b.mech");
+    }
+
+    #[test]
+    fn long_forms_are_those_of_the_plain_path() {
+        assert_eq!(uri_of(Path::new("//?/C:/a.mech")), "file:///C%3A/a.mech");
+        assert_eq!(uri_of(Path::new("//?/UNC/server/share/a.mech")), "file://server/share/a.mech");
     }
 
     #[test]

@@ -44,9 +44,9 @@ pub struct Choice {
 /// ```
 #[derive(Clone, Debug)]
 pub struct Checked {
-    parsed: Parsed,
+    pub(super) parsed: Parsed,
     /// Its number in the file.
-    number: Option<usize>,
+    pub(super) number: Option<usize>,
     pub(super) library: Library,
     pub(super) model: Option<Arc<Mechanism>>,
     /// What leads it to the inputs that it is told, if it is told any.
@@ -114,7 +114,13 @@ impl Checked {
     }
 
     /// The mechanism of a number, with settings from outside.
-    fn of_number(parsed: &Parsed, used: &Used, number: usize, choice: &Choice, world: &dyn World) -> Checked {
+    pub(super) fn of_number(
+        parsed: &Parsed,
+        used: &Used,
+        number: usize,
+        choice: &Choice,
+        world: &dyn World,
+    ) -> Checked {
         let (mut sources, library) = (used.sources.clone(), used.library.clone());
         let mut diagnostics = parsed.faults().clone();
         diagnostics.extend(check::check_file(parsed.tree()));

@@ -1,7 +1,7 @@
 //! A client in memory: what an editor would say, and what it would show.
 
 use lsp_server::{Connection, Message, Notification, Request, Response};
-use mechc::rooms::lsp::{Log, serve};
+use mechc::rooms::lsp::{Ended, Log, serve};
 use mechc::{Memory, World};
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, VecDeque};
@@ -14,7 +14,7 @@ const PATIENCE: Duration = Duration::from_secs(20);
 
 pub struct Client {
     connection: Connection,
-    server: JoinHandle<bool>,
+    server: JoinHandle<Ended>,
     next_id: i32,
     /// What came while something else was waited for.
     waiting: VecDeque<Message>,
@@ -167,11 +167,11 @@ impl Client {
     pub fn end(mut self) {
         assert_eq!(self.request("shutdown", Value::Null), Value::Null);
         self.notify("exit", Value::Null);
-        assert!(self.server.join().expect("it does not panic"), "it ended in order");
+        assert_eq!(self.server.join().expect("it does not panic"), Ended::Well, "it ended in order");
     }
 
-    /// Goes without a word; whether the server takes that for an end in order.
-    pub fn vanish(self) -> bool {
+    /// Goes without a word; what the server takes that for.
+    pub fn vanish(self) -> Ended {
         drop(self.connection);
         self.server.join().expect("it does not panic")
     }

@@ -10,6 +10,12 @@ const TEXT: &str = include_str!("../../examples/jansen_leg.mech");
 /// Edits before anything is measured: caches are filled, and the allocator has what it takes.
 const BEFORE: usize = 1_000;
 
+/// So many edits come until somebody rests: then a motion is followed, and kept.
+const REST_EVERY: usize = 400;
+
+/// Longer than it takes to begin with a motion.
+const REST: std::time::Duration = std::time::Duration::from_millis(300);
+
 /// What may be kept of all that follow (bytes).
 const LARGEST_GROWTH: i64 = 10_000_000;
 
@@ -31,6 +37,9 @@ fn type_for_long(pipe: &mut Pipe, version: &mut usize, edits: usize) {
         let document = json!({ "uri": URI, "version": version });
         let change = json!({ "range": range, "text": text });
         pipe.notify("textDocument/didChange", &json!({ "textDocument": document, "contentChanges": [change] }));
+        if k % REST_EVERY == 0 {
+            std::thread::sleep(REST);
+        }
         if k % 7 == 0 {
             pipe.request("textDocument/diagnostic", &json!({ "textDocument": { "uri": URI } }));
         }

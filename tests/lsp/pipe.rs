@@ -22,8 +22,14 @@ pub struct Pipe {
 impl Pipe {
     /// A server, with an editor that asks for diagnostics and counts in UTF-16.
     pub fn open(binary: &Path) -> Pipe {
+        Pipe::open_with(binary, &[])
+    }
+
+    /// The same with options.
+    pub fn open_with(binary: &Path, options: &[&str]) -> Pipe {
         let mut command = Command::new(binary);
-        let mut child = command.arg("lsp").stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it starts");
+        let mut child =
+            command.arg("lsp").args(options).stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().expect("it starts");
         let (sender, messages) = mpsc::channel();
         let mut output = BufReader::new(child.stdout.take().expect("it is piped"));
         thread::spawn(move || {

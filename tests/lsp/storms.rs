@@ -29,6 +29,17 @@ const REQUEST_FAILED: i32 = -32803;
 /// Requests that take what an answer gave; made up, they may be refused as such.
 const INVALID_PARAMS: i32 = -32602;
 
+/// What two servers that know the same answer alike.
+const COMPARED: [&str; 7] = [
+    "textDocument/completion",
+    "textDocument/documentSymbol",
+    "textDocument/foldingRange",
+    "textDocument/hover",
+    "textDocument/inlayHint",
+    "textDocument/semanticTokens/full",
+    "textDocument/codeAction",
+];
+
 const TYPED: [&str; 24] = [
     "{",
     "}",
@@ -177,7 +188,7 @@ impl Session {
             fresh.pulls_until(uri, &expected, PATIENCE);
             for _ in 0..10 {
                 let place = position(text, self.random.below(text.len() + 1));
-                for method in ["textDocument/documentSymbol", "textDocument/hover"] {
+                for method in COMPARED {
                     let params = anything(uri, [place; 2]);
                     let [own, other] =
                         [&mut self.client, &mut fresh].map(|client| client.request(method, params.clone()));
@@ -229,7 +240,7 @@ fn said(texts: &BTreeMap<String, String>, uri: &str, world: &Arc<Shelf>) -> Vec<
         snapshot = snapshot.with_text(&path(uri), Some(text.as_str().into()));
     }
     let text = &texts[uri];
-    let of = |stage| ide::diagnostics(&snapshot, &path(uri), stage, &Cancel::default()).expect("nobody cancels it");
+    let of = |stage| ide::diagnostics(&snapshot, &path(uri), stage, &Cancel::default).expect("nobody cancels it");
     let line = |said: ide::Said| {
         let (line, column) = position(text, said.range.start as usize);
         format!("{}:{} {} {}", line + 1, column + 1, said.code, said.message)

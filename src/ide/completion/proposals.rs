@@ -38,7 +38,7 @@ impl Whole {
         let closes = text[cursor.word.end..end].contains('}') && cursor.start() == cursor.word.start;
         let whole = if closes { text.to_owned() } else { [&text[..cursor.start()], &gone, &text[end..]].concat() };
         let place = Place { offset: cursor.start() as u32, ..place.clone() };
-        Some(Whole { snapshot: snapshot.with_text(&place.path, Some(whole.into())), place })
+        Some(Whole { snapshot: snapshot.supposing(&place.path, whole.into()), place })
     }
 
     fn with<T>(&self, act: impl FnOnce(&Checked) -> Option<T>) -> Option<T> {

@@ -87,7 +87,7 @@ fn tried(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Vec<Dimensi
     let mut counts = Vec::new();
     for (unit, dimension) in TRIED {
         let text = [&cursor.text[..cursor.word.start], " ", unit, " ", &cursor.text[cursor.word.end..]].concat();
-        let tried = snapshot.with_text(&place.path, Some(text.into()));
+        let tried = snapshot.supposing(&place.path, text.into());
         let found = faults(&tried, &[Arc::clone(&place.path)]);
         counts.push((found.iter().filter(|said| said.severity != Severity::Note).count(), *dimension));
     }
