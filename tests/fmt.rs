@@ -503,7 +503,11 @@ fn files_are_replaced_only_where_they_change() {
         assert!(texts.contains(&(kept, &read(kept))), "{kept}");
     }
     let (code, diff, _) = fmt(folder.path(), &["--check", "inner/target"]);
-    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 1), "a folder that is named is looked into: {diff}");
+    assert_eq!(
+        (code, diff.matches("+    param a = 1").count()),
+        (1, 1),
+        "a folder that is named is looked into: {diff}"
+    );
     assert_eq!(fs::metadata(at("neat.mech")).unwrap().modified().unwrap(), old, "it is not written");
     assert_eq!(fmt(folder.path(), &["--check", "inner/loose.mech", "neat.mech"]), (0, String::new(), String::new()));
 }

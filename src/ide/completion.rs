@@ -69,6 +69,9 @@ impl Here<'_> {
         if let Some(path) = cursor.path() {
             return self.inside(&path);
         }
+        if let Some(begun) = cursor.unit() {
+            return units::going_on(&begun);
+        }
         let is_open = cursor.call().is_some();
         if cursor.may_begin() || cursor.is_first_on_line() && cursor.block == Block::File {
             let mut items = self.declarations();

@@ -198,6 +198,8 @@ mechanism m {
 mechanism m {
     param a = 5 mm
     joint j revolute(ground.A, to.at
+    body to at at (0, 0, 0
+    joint k: rack_pinion(at, to.at, 0 mm, left
     measure b = a
 "), @r"
         mechanism Keyword

@@ -106,7 +106,15 @@ mod tests {
 
     #[test]
     fn files_of_folders_are_found() {
-        let files = ["w/a.mech", "w/b.csv", "w/deep/er/C.MECH", "w/.git/d.mech", "w/target/e.mech", "w/.g.mech", "other/f.mech"];
+        let files = [
+            "w/a.mech",
+            "w/b.csv",
+            "w/deep/er/C.MECH",
+            "w/.git/d.mech",
+            "w/target/e.mech",
+            "w/.g.mech",
+            "other/f.mech",
+        ];
         let world = files.iter().fold(Memory::default(), |world, name| world.with(name, ""));
         let found = files_in(&[PathBuf::from("w")], &world, &Cancel::default());
         assert_eq!(

@@ -1,7 +1,7 @@
 //! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
 
 use crate::syntax::{Token, begins_declaration, tokens};
-use crate::vocabulary::{Keyword, Role, is_feature};
+use crate::vocabulary::{Dimension, Keyword, Role, Unit, is_feature};
 use std::ops::Range;
 
 /// Between which braces a place is.
@@ -21,6 +21,13 @@ pub(super) struct Call<'t> {
     pub argument: usize,
     /// The token of its parenthesis.
     pub open: usize,
+}
+
+/// A compound unit of which some is written: `90 deg/`.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Begun {
+    /// Of its units, from the last one on.
+    pub dimensions: Vec<Dimension>,
 }
 
 /// What stands before the cursor.
@@ -138,6 +145,35 @@ impl<'t> Cursor<'t> {
             }
         }
         None
+    }
+
+    /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
+    /// has a space before it.
+    pub fn unit(&self) -> Option<Begun> {
+        let tokens = self.declaration();
+        let mut at = tokens.len().checked_sub(1)?;
+        let is_apart = self.text[..self.word.start].ends_with(char::is_whitespace)
+            || self.text[..tokens[at].start].ends_with(char::is_whitespace);
+        let mut dimensions = Vec::new();
+        while matches!(tokens[at].text, "/" | "*") {
+            at = at.checked_sub(1)?;
+            if at > 1 && tokens[at - 1].text == "^" {
+                at -= 2;
+            }
+            match tokens[at].text {
+                // `in 1/s`
+                "1" => at = at.checked_sub(1)?,
+                unit => {
+                    dimensions.push(Unit::named(unit)?.dimension);
+                    at = at.checked_sub(1)?;
+                }
+            }
+        }
+        let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
+        let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
+        let begins =
+            !dimensions.is_empty() && (is_printed || is_of_number && !is_apart) || is_printed && at + 1 < tokens.len();
+        begins.then_some(Begun { dimensions })
     }
 
     /// The names before the dot at the cursor, numbers in brackets left out; nothing where there is no dot.

@@ -285,6 +285,39 @@ fn words_join_the_parts_of_declarations() {
     insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "from 0 s $0"), 2), @"1 to — stands before the second point of an axis, and the last time of an analysis → to");
 }
 
+#[test]
+fn a_unit_goes_on_with_units_alone() {
+    let labels = |text: &str| {
+        let (snapshot, place) = at_cursor(text);
+        let items = completions(&snapshot, &place).expect("a file");
+        items.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
+    };
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"");
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/s$0")), @"");
+    let measure = |rest: &str| labels(&with("    analysis", &format!("    measure v = {rest}$0\n    analysis")));
+    insta::assert_snapshot!(measure("der(x(crank.B)) in mm/"), @"");
+    insta::assert_snapshot!(measure("der(angle(crank)) in 1/"), @"");
+    insta::assert_snapshot!(measure("9.81 m/s^2/"), @"");
+    // a quotient of formulas
+    assert!(measure("90 deg / ").contains("crank_length"));
+    assert!(measure("crank_length/").contains("crank_length"));
+}
+
+/// A text with so many bytes of comments that not everything would be quick in it.
+fn long(text: &str, bytes: usize) -> String {
+    format!("{text}{}", "// what was tried before\n".repeat(bytes / 25))
+}
+
+#[test]
+fn long_texts_know_joints_and_units_as_well() {
+    let joints = with("    joint pin:   revolute(crank.B, coupler.B)", "    joint pin: $0");
+    let best = |text: &str| proposed(text, 1);
+    assert_eq!(best(&long(&joints, 30_000)), best(&joints));
+    assert_ne!(best(&long(&joints, 70_000)), best(&joints), "beyond the limit");
+    let units = with("param crank_length = 30 mm", "param crank_length = 30 $0");
+    assert_eq!(best(&long(&units, 30_000)), best(&units));
+}
+
 /// The two files with another text for the part in the first one.
 fn parts(from: &str, to: &str) -> String {
     assert!(TWO_FILES.contains(from), "{from}");
