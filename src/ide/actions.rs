@@ -323,8 +323,8 @@ mod tests {
     fn a_number_becomes_a_param() {
         insta::assert_snapshot!(offered(&with("(80 mm, 0)", "(8$00 mm, 0)")), @r"
         Extract extract `80 mm` into a param
-            param size = 80 mm
-                point C = (size, 0)
+            param length = 80 mm
+                point C = (length, 0)
         ");
         insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @r"
         Extract extract `0.1 s` into a param
@@ -333,29 +333,49 @@ mod tests {
         ");
         insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @r"
         Extract extract `30 mm` into a param
-            param size = 30 mm
-                point B = (size, 0)
+            param length = 30 mm
+                point B = (length, 0)
         ");
         insta::assert_snapshot!(offered("mechanism m { body b { point P = (1$0 m, 0) } driver d: angle(b) = 1 rad/s * t }"), @r"
         Extract extract `1 m` into a param
-        mechanism m { param size = 1 m body b { point P = (size, 0) } driver d: angle(b) = 1 rad/s * t }
+        mechanism m { param length = 1 m body b { point P = (length, 0) } driver d: angle(b) = 1 rad/s * t }
         ");
         insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 3$00 mm // long")), @"");
         insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 30 mm // long").replacen("80 mm", "80$0 mm", 1)), @r"
         Extract extract `80 mm` into a param
-            param size = 80 mm
-                point C = (size, 0)
+            param length = 80 mm
+                point C = (length, 0)
         ");
     }
 
     #[test]
     fn a_number_is_taken_with_all_of_its_unit() {
-        insta::assert_snapshot!(offered(&with("90 deg/s", "90 deg/$0s")), @"");
-        insta::assert_snapshot!(offered(&with("60 deg +", "6$00 deg +")), @"");
+        insta::assert_snapshot!(offered(&with("90 deg/s", "90 deg/$0s")), @r"
+        Extract extract `90 deg/s` into a param
+            param rate = 90 deg/s
+            driver motor: rotation(main) = 60 deg + rate * t
+        ");
+        insta::assert_snapshot!(offered(&with("60 deg +", "6$00 deg +")), @r"
+        Extract extract `60 deg` into a param
+            param angle = 60 deg
+            driver motor: rotation(main) = angle + 90 deg/s * t
+        ");
         let with_measure = |formula: &str| with("    analysis", &format!("    measure v = {formula}\n    analysis"));
-        insta::assert_snapshot!(offered(&with_measure("x(crank.B) + 9.81 m/s^$02 * t^2")), @"");
-        insta::assert_snapshot!(offered(&with_measure("x(crank.B) / 2 $0s / s * s")), @"");
-        insta::assert_snapshot!(offered(&with_measure("angle(crank) * 3 mm/s * 2 $0s")), @"");
+        insta::assert_snapshot!(offered(&with_measure("x(crank.B) + 9.81 m/s^$02 * t^2")), @r"
+        Extract extract `9.81 m/s^2` into a param
+            param acceleration = 9.81 m/s^2
+            measure v = x(crank.B) + acceleration * t^2
+        ");
+        insta::assert_snapshot!(offered(&with_measure("x(crank.B) / 2 $0s / s * s")), @r"
+        Extract extract `2 s` into a param
+            param duration = 2 s
+            measure v = x(crank.B) / duration / s * s
+        ");
+        insta::assert_snapshot!(offered(&with_measure("angle(crank) * 3 mm/s * 2 $0s")), @r"
+        Extract extract `2 s` into a param
+            param duration = 2 s
+            measure v = angle(crank) * 3 mm/s * duration
+        ");
     }
 
     #[test]
@@ -382,7 +402,10 @@ mechanism chain {
     driver motor: rotation(root) = 60 deg/s * t
 }
 ";
-        insta::assert_snapshot!(offered(chain), @"");
+        insta::assert_snapshot!(offered(chain), @r"
+        Drive drive `pin[0]`
+            driver drive: rotation(pin[0]) = 60 deg/s * t
+        ");
         // all is driven already
         assert_eq!(offered(&with("joint main", "joint ma$0in")), "");
     }

@@ -5,6 +5,7 @@ use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
 use super::snapshot::{Proven, Snapshot};
 use crate::check::{Amount, DeclaredName, NameKind};
 use crate::stages::{Assembly, Checked, Compiled};
+use crate::syntax::ast::{ExprKind, ItemKind};
 use crate::vocabulary::{Dimension, Unit};
 use std::path::Path;
 use std::sync::Arc;
@@ -170,8 +171,32 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
 
 /// Of a param of a part, with what is bound of it there.
 fn value_in_part(subject: &Subject<'_>) -> Option<String> {
+    if let Some(bound) = bound_in_part(subject) {
+        return Some(bound);
+    }
     let (value, dimension) = subject.checked.param_in_part(subject.path)?;
     Some(format!("= {}, {}", with_unit(value, &si_unit(dimension, false)), dimension.in_words()))
+}
+
+/// What is bound of a param of a part: a number as such, a formula as it is written.
+fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
+    let (part, name) = subject.path.rsplit_once('.')?;
+    let part = part.split('[').next()?;
+    let bindings = subject.checked.tree()?.items.iter().find_map(|item| match &item.kind {
+        ItemKind::Part(known) if known.name.text == part => Some(&known.bindings),
+        _ => None,
+    })?;
+    let bound = bindings.iter().find(|binding| binding.name.text == name && binding.coordinate.is_none())?;
+    let text = subject.checked.sources().text(bound.value.span);
+    let number = match &bound.value.bare().kind {
+        ExprKind::Literal { value, unit: Some((unit, power)) } => Unit::named(&unit.text).map(|unit| {
+            let dimension = unit.dimension.to_the(f64::from(*power));
+            let si = with_unit(unit.to_si(*value, *power), &si_unit(dimension, unit.is_of_angle()));
+            format!("= {si}, {}", dimension.in_words())
+        }),
+        _ => None,
+    };
+    Some(number.unwrap_or_else(|| format!("= `{text}`, bound where `{part}` is used")))
 }
 
 fn result(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Option<String> {

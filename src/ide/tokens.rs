@@ -209,8 +209,11 @@ mechanism m {
         mm Unit constant of the language
         joint Keyword
         ground Keyword
-        to Keyword
+        body Keyword
         at Keyword
+        at Keyword
+        joint Keyword
+        left Keyword
         measure Keyword
         b Value declared
         a Value constant

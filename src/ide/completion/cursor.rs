@@ -1,5 +1,6 @@
 //! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
 
+use crate::ide::written::{Within, is_of_word, within};
 use crate::syntax::{Token, begins_declaration, tokens};
 use crate::vocabulary::{Dimension, Keyword, Role, Unit, is_feature};
 use std::ops::Range;
@@ -46,8 +47,7 @@ pub(super) struct Cursor<'t> {
 impl<'t> Cursor<'t> {
     /// Nothing in a comment.
     pub fn at(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
-        let line = text.get(..offset)?.rfind('\n').map_or(0, |end| end + 1);
-        let within = within(&text[line..offset]);
+        let within = within(text.get(..offset)?, offset);
         let mut word = word_at(text, offset);
         let mut end = word.start;
         match within {
@@ -55,8 +55,8 @@ impl<'t> Cursor<'t> {
             Within::Comment => return None,
             Within::String(quote) => {
                 let rest = &text[offset..];
-                word = line + quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
-                end = line + quote;
+                word = quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
+                end = quote;
             }
         }
         let tokens = tokens(&text[..end]);
@@ -220,31 +220,9 @@ impl<'t> Cursor<'t> {
     }
 }
 
-/// In what a line ends.
-#[derive(Clone, Copy)]
-enum Within {
-    Code,
-    Comment,
-    /// By the byte where it begins.
-    String(usize),
-}
-
-fn within(line: &str) -> Within {
-    let mut string = None;
-    for (at, c) in line.char_indices() {
-        match (c, string) {
-            ('"', None) => string = Some(at),
-            ('"', Some(_)) => string = None,
-            ('/', None) if line[at..].starts_with("//") => return Within::Comment,
-            _ => {}
-        }
-    }
-    string.map_or(Within::Code, Within::String)
-}
-
 /// The word that holds a place or touches it; digits before it are a number.
 pub(super) fn word_at(text: &str, offset: usize) -> Range<usize> {
-    let is_part = |c: &char| c.is_alphanumeric() || *c == '_';
+    let is_part = |c: &char| is_of_word(*c);
     let before = text[..offset].chars().rev().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let behind = text[offset..].chars().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let digits = text[offset - before..offset].chars().take_while(char::is_ascii_digit).count();

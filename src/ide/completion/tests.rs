@@ -292,12 +292,12 @@ fn a_unit_goes_on_with_units_alone() {
         let items = completions(&snapshot, &place).expect("a file");
         items.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
     };
-    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"");
-    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/s$0")), @"");
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"s ms us µs mm m cm um µm km in ft");
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/s$0")), @"s ms us µs mm m cm um µm km in ft");
     let measure = |rest: &str| labels(&with("    analysis", &format!("    measure v = {rest}$0\n    analysis")));
-    insta::assert_snapshot!(measure("der(x(crank.B)) in mm/"), @"");
-    insta::assert_snapshot!(measure("der(angle(crank)) in 1/"), @"");
-    insta::assert_snapshot!(measure("9.81 m/s^2/"), @"");
+    insta::assert_snapshot!(measure("der(x(crank.B)) in mm/"), @"s ms us µs deg rad mrad rev");
+    insta::assert_snapshot!(measure("der(angle(crank)) in 1/"), @"s ms us µs mm m cm um µm km in ft deg rad mrad rev");
+    insta::assert_snapshot!(measure("9.81 m/s^2/"), @"deg rad mrad rev");
     // a quotient of formulas
     assert!(measure("90 deg / ").contains("crank_length"));
     assert!(measure("crank_length/").contains("crank_length"));
