@@ -196,9 +196,9 @@ impl Snapshot {
         let checked = self.checked_of(&stages, path)?;
         stages.alone.get_or(|| {
             self.unless_cancelled(())?;
-            let alone = |checked: &Checked| match checked.is_part_of_another() {
-                true => proven_by_itself(checked, &self.cancel),
-                false => Proven::nothing(checked),
+            let is_part = Checked::is_part_of_another;
+            let alone = |checked: &Checked| {
+                if is_part(checked) { proven_by_itself(checked, &self.cancel) } else { Proven::nothing(checked) }
             };
             let proven = checked.mechanisms.iter().map(alone).collect();
             self.unless_cancelled(proven)
