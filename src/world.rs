@@ -66,6 +66,18 @@ pub trait World: Send + Sync {
     }
 }
 
+/// Whether a file holds mechanisms, by its name.
+#[must_use]
+pub fn is_mech(name: &str) -> bool {
+    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mech"))
+}
+
+/// Whether what is in a folder is its user's own, by its name: it is not hidden, and no folder of build results.
+#[must_use]
+pub fn is_own(name: &str) -> bool {
+    !name.starts_with('.') && name != "target" && name != "node_modules"
+}
+
 /// A world without files, or with those that were put into it.
 #[derive(Clone, Debug, Default)]
 pub struct Memory {

@@ -99,6 +99,9 @@ fn documentation() -> Vec<(String, String)> {
     let mut pages = vec![root.join("README.md")];
     pages.extend(files("docs", "md"));
     pages.extend(files("src", "md"));
+    // packages of others have pages too
+    let is_own = |page: &PathBuf| page.components().all(|part| part.as_os_str() != "node_modules");
+    pages.extend(files("editors", "md").into_iter().filter(is_own));
     let page = |path: PathBuf| (path.display().to_string(), fs::read_to_string(&path).expect("a page"));
     let mech = |(path, page): (String, String)| {
         let blocks = blocks(&page).into_iter().filter(|(language, _)| language == "mech");
@@ -422,7 +425,11 @@ fn lines_of_a_text_are_formatted_alone() {
     let in_span = |start: u32, end: u32| {
         with_edits(text, |parsed| parsed.formatting_in(Span { start, end, ..parsed.sources().end_of(parsed.file()) }))
     };
-    assert_eq!(in_span(at("a=1"), at("a=1") + 1), text.replace("param a=1", "    param a    = 1"));
+    let first = text.replace("param a=1", "    param a    = 1");
+    assert_eq!(in_span(at("a=1"), at("a=1") + 1), first);
+    let next = at("param long");
+    assert_eq!(in_span(at("param a=1"), next), first, "a whole line was chosen, up to where the next one begins");
+    assert_eq!(in_span(next, next), text.replace("param long=2", "    param long = 2"), "a cursor where a line begins");
     let block = text.replace("body b{point P=(0,0)\n}", "    body b {\n        point P = (0, 0)\n    }");
     let brace = at("}\nbody c") + 1;
     assert_eq!(with_edits(text, |parsed| parsed.formatting_at_brace(brace)), block);
@@ -458,7 +465,9 @@ fn files_are_replaced_only_where_they_change() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     let read = |name: &str| fs::read_to_string(at(name)).expect("a text");
-    fs::create_dir_all(at("inner/.hidden")).unwrap();
+    for inner in ["inner/.hidden", "inner/target", "inner/node_modules"] {
+        fs::create_dir_all(at(inner)).unwrap();
+    }
     let texts = [
         ("neat.mech", NEAT),
         ("loose.mech", LOOSE),
@@ -466,25 +475,39 @@ fn files_are_replaced_only_where_they_change() {
         ("notes.txt", LOOSE),
         ("inner/broken.mech", "mechanism m{param a=}\n"),
         ("inner/loose.mech", LOOSE),
+        ("inner/LOUD.MECH", LOOSE),
         ("inner/.hidden/loose.mech", LOOSE),
+        ("inner/.hidden.mech", LOOSE),
+        ("inner/target/loose.mech", LOOSE),
+        ("inner/node_modules/loose.mech", LOOSE),
     ];
     for (name, text) in texts {
         fs::write(at(name), text).unwrap();
     }
     let (code, diff, said) = fmt(folder.path(), &["--check", "."]);
-    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 3), "{diff}{said}");
+    assert_eq!((code, diff.matches("+    param a = 1").count()), (1, 4), "{diff}{said}");
     assert!(said.contains("E0101"), "{said}");
     for (name, text) in texts {
         assert_eq!(read(name), text, "{name} is only looked at");
     }
     let old = fs::metadata(at("neat.mech")).unwrap().modified().unwrap();
     let (code, printed, said) = fmt(folder.path(), &[".", "loose.mech"]);
-    assert_eq!((code, printed.as_str(), said.matches("formatted `").count()), (1, "", 3), "{said}");
-    assert_eq!((read("loose.mech"), read("inner/loose.mech")), (NEAT.to_owned(), NEAT.to_owned()));
+    assert_eq!((code, printed.as_str(), said.matches("formatted `").count()), (1, "", 4), "{said}");
+    for changed in ["loose.mech", "inner/loose.mech", "inner/LOUD.MECH"] {
+        assert_eq!(read(changed), NEAT, "{changed}");
+    }
     assert_eq!(read("marked.mech"), format!("\u{feff}{}", NEAT.replace('\n', "\r\n")));
-    for kept in ["notes.txt", "inner/broken.mech", "inner/.hidden/loose.mech"] {
+    let built = ["inner/target/loose.mech", "inner/node_modules/loose.mech"];
+    let hidden = ["inner/.hidden/loose.mech", "inner/.hidden.mech"];
+    for kept in ["notes.txt", "inner/broken.mech"].into_iter().chain(hidden).chain(built) {
         assert!(texts.contains(&(kept, &read(kept))), "{kept}");
     }
+    let (code, diff, _) = fmt(folder.path(), &["--check", "inner/target"]);
+    assert_eq!(
+        (code, diff.matches("+    param a = 1").count()),
+        (1, 1),
+        "a folder that is named is looked into: {diff}"
+    );
     assert_eq!(fs::metadata(at("neat.mech")).unwrap().modified().unwrap(), old, "it is not written");
     assert_eq!(fmt(folder.path(), &["--check", "inner/loose.mech", "neat.mech"]), (0, String::new(), String::new()));
 }

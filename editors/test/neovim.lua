@@ -1,4 +1,5 @@
--- What a user does in Neovim: sees a mistake, mends it, completes a point, renames a body in two files, formats, looks at a hover.
+-- What a user does in Neovim: sees a mistake, mends it, completes a point, renames a body in two files, formats, looks at a
+-- hover, and runs a lens.
 -- nvim --headless --clean --cmd 'set runtimepath^=editors/neovim' -c 'luafile editors/test/neovim.lua' FOLDER/four_bar.mech
 
 local PATIENCE = 20000
@@ -116,11 +117,31 @@ function steps.hover()
   assert(vim.inspect(result):find('C', 1, true), 'nothing is told of the point')
 end
 
+-- The lens `check` saves what was edited, and runs in a terminal.
+function steps.lens()
+  local place = { textDocument = vim.lsp.util.make_text_document_params() }
+  local offered = {}
+  for _, lens in ipairs(ask('textDocument/codeLens', place) or {}) do
+    offered[lens.command.command] = lens.command
+  end
+  assert(offered['mechc.run'] and offered['mechc.check'], vim.inspect(offered))
+  vim.cmd('doautocmd CursorHold')
+  wait('the lenses', function() return #vim.lsp.codelens.get(0) >= 2 end)
+  local edited = vim.api.nvim_get_current_buf()
+  assert(vim.bo.modified, 'nothing is to be saved')
+  vim.lsp.commands['mechc.check'](offered['mechc.check'])
+  assert(not vim.bo[edited].modified, 'it runs what is not saved')
+  wait('what it says', function()
+    return table.concat(vim.api.nvim_buf_get_lines(0, 0, -1, false), '\n'):find('four_bar', 1, true)
+  end)
+  vim.cmd('bwipeout!')
+end
+
 function steps.save()
   vim.cmd('wall')
 end
 
-local wanted = vim.env.STEPS or 'diagnostic fix complete rename format hover save'
+local wanted = vim.env.STEPS or 'diagnostic fix complete rename format hover lens save'
 local begun = vim.loop.hrtime()
 local ok, fault = pcall(function()
   for step in wanted:gmatch('%S+') do

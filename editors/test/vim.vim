@@ -1,4 +1,4 @@
-" Every word of the language has its colour in Vim, and a word that is a name has none.
+" Every word of the language has its colour in Vim, and a word that is a name has none; `gq` formats the whole text or nothing.
 " vim -u NONE -N -es --cmd 'set runtimepath^=editors/vim' -S editors/test/vim.vim
 
 set encoding=utf-8
@@ -52,6 +52,22 @@ normal! gg=G
 if getline(1, '$') != ['mechanism a {', '    body b {', '        point P = (0, 0)', '    }', '}']
   call add(s:faults, 'indented as ' . string(getline(1, '$')))
 endif
+
+" what `gq` makes of a text, wherever in it
+function s:Formatted(text)
+  call s:Text(a:text)
+  call cursor(2, 1)
+  normal! gqq
+  return getline(1, '$')
+endfunction
+
+for [s:text, s:wanted] in [
+  \ ["mechanism a {\nparam b=3 mm\n\n\n\nparam c   = 4 mm\n}", ['mechanism a {', '    param b = 3 mm', '', '    param c = 4 mm', '}']],
+  \ ["mechanism a {\nparam b=\n}", ['mechanism a {', 'param b=', '}']]]
+  if s:Formatted(s:text) != s:wanted
+    call add(s:faults, 'formatted as ' . string(getline(1, '$')))
+  endif
+endfor
 
 call writefile(empty(s:faults) ? ['vim: all words'] : map(s:faults, '"vim: " . v:val'), $REPORT)
 execute empty(s:faults) ? 'qall!' : 'cquit!'

@@ -40,7 +40,7 @@ pub(super) struct Freedom {
     loose: Vec<usize>,
     /// Bodies that can move.
     moving: Vec<usize>,
-    /// Drivers that would take them, as text to write.
+    /// What would take them where it is driven: `rotation(main)`.
     drivers: Vec<String>,
     /// Joints that may have been forgotten, as text to write.
     joints: Vec<String>,
@@ -95,6 +95,11 @@ impl Freedom {
         &self.moving
     }
 
+    /// What could be driven to take the freedom: `rotation(main)`.
+    pub fn drives(&self) -> &[String] {
+        &self.drivers
+    }
+
     /// What is left free, in sentences.
     pub fn in_words(&self, system: &ConstraintSystem) -> Vec<String> {
         let is_loose = |column: usize| system.body_of(column).is_some_and(|body| self.loose.contains(&body));
@@ -130,10 +135,14 @@ impl Freedom {
         let one = if helps.is_empty() { "add" } else { "or add" };
         match (self.drivers.as_slice(), self.degrees()) {
             ([], _) => {}
-            (drivers, 1) => helps.push(format!("{one} a driver: {}", drivers.join(" or "))),
+            (drivers, 1) => {
+                let drivers: Vec<String> =
+                    drivers.iter().map(|driven| format!("`driver NAME: {driven} = …`")).collect();
+                helps.push(format!("{one} a driver: {}", drivers.join(" or ")));
+            }
             (drivers, count) => {
                 let how_many = if drivers.len() == count { format!("{count} drivers") } else { "drivers".to_owned() };
-                let named = |(k, driver): (usize, &String)| driver.replacen("NAME", &format!("NAME_{}", k + 1), 1);
+                let named = |(k, driven): (usize, &String)| format!("`driver NAME_{}: {driven} = …`", k + 1);
                 let drivers: Vec<String> = drivers.iter().enumerate().map(named).collect();
                 helps.push(format!("{one} {how_many}: {}", errors::cut_list(&drivers)));
             }
@@ -161,7 +170,7 @@ impl Freedom {
         chosen
     }
 
-    /// Drivers that could be written: of joints first, then of the bodies that move. Each with its rate in every motion.
+    /// What could be driven: of joints first, then of the bodies that move. Each with its rate in every motion.
     fn candidates(&self, evaluator: &Evaluator<'_>) -> Vec<(String, Vec<f64>)> {
         let system = evaluator.system;
         let mut candidates = Vec::new();
@@ -182,7 +191,7 @@ impl Freedom {
             };
             let quantity =
                 if declaration.kind == DeclarationKind::Joint("revolute") { "rotation" } else { "displacement" };
-            candidates.push((format!("`driver NAME: {quantity}({}) = …`", declaration.name), rates));
+            candidates.push((format!("{quantity}({})", declaration.name), rates));
         }
         for &body in &self.moving {
             let name = &system.bodies[body].name;
@@ -194,10 +203,10 @@ impl Freedom {
                 for (part, word) in [(0, "x"), (1, "y")] {
                     let rates =
                         self.motions.iter().map(|motion| velocity(evaluator, motion, point)[part] / system.length);
-                    candidates.push((format!("`driver NAME: {word}({name}.{point_name}) = …`"), rates.collect()));
+                    candidates.push((format!("{word}({name}.{point_name})"), rates.collect()));
                 }
             }
-            candidates.push((format!("`driver NAME: angle({name}) = …`"), turns));
+            candidates.push((format!("angle({name})"), turns));
         }
         candidates
     }

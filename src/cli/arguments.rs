@@ -50,7 +50,7 @@ pub(super) enum Command {
         follow each other; formulas that are too long for a line of 100 columns broken behind an operator. A body that was written on \
         one line stays there if it fits. Comments stay where they stand, blank lines too, but never two. Only spaces, line ends and the \
         comma behind the last item of a list change, so the mechanism stays what it was; parentheses stay as well.\n\n\
-        A folder means all .mech files in it and in its folders; hidden ones, and links, are passed over. A file with syntax errors \
+        A folder means all .mech files in it and in its folders; hidden ones, `target`, `node_modules` and links are passed over. A file with syntax errors \
         stays as it is, with the errors, and the others are formatted. Files are replaced whole or not at all, and those that are \
         formatted already are not written. Line ends are those of the file's first line; a byte-order mark stays.\n\n\
         With --check nothing is written: what would change is printed as a diff, which `patch` takes, and the exit code is 1.",

@@ -39,7 +39,7 @@ fn shown(path: &Path) -> String {
     path.to_string_lossy().into_owned()
 }
 
-/// Adds all files below a folder. What is hidden is not the user's own, and what a link leads to has a place of its own.
+/// Adds all files below a folder, those that the language server knows of as well. What a link leads to has a place of its own.
 fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::Error)> {
     let failed = |error| (folder.to_owned(), error);
     let mut entries = fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
@@ -47,12 +47,14 @@ fn collect(folder: &Path, files: &mut Vec<PathBuf>) -> Result<(), (PathBuf, io::
     for entry in entries {
         let path = entry.path();
         let kind = entry.file_type().map_err(failed)?;
-        if entry.file_name().as_encoded_bytes().starts_with(b".") {
+        let name = entry.file_name();
+        let name = name.to_string_lossy();
+        if !world::is_own(&name) {
             continue;
         }
         if kind.is_dir() {
             collect(&path, files)?;
-        } else if kind.is_file() && path.extension().is_some_and(|ending| ending == "mech") {
+        } else if kind.is_file() && world::is_mech(&name) {
             files.push(path);
         }
     }

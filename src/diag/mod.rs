@@ -57,6 +57,8 @@ pub struct Diagnostic {
     pub help: Vec<String>,
     /// The changes of the text that the help proposes.
     pub fixes: Vec<Fix>,
+    /// What could be driven to mend it, each the left side of a driver's equation: `rotation(main)`.
+    pub drives: Vec<String>,
     /// The numbers of the message, for other programs.
     pub data: Map<String, Value>,
 }
@@ -72,6 +74,7 @@ impl Diagnostic {
             notes: Vec::new(),
             help: Vec::new(),
             fixes: Vec::new(),
+            drives: Vec::new(),
             data: Map::new(),
         }
     }
@@ -117,6 +120,13 @@ impl Diagnostic {
     #[must_use]
     pub fn help(mut self, text: impl Into<String>) -> Diagnostic {
         self.help.push(text.into());
+        self
+    }
+
+    /// What could be driven, which the help says in words.
+    #[must_use]
+    pub fn drives(mut self, quantities: Vec<String>) -> Diagnostic {
+        self.drives = quantities;
         self
     }
 

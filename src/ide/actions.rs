@@ -8,7 +8,8 @@ use super::place::{Change, Place, Stretch};
 use super::snapshot::Snapshot;
 use crate::cancel::Cancel;
 use crate::source::Span;
-use crate::syntax::ast::{ExprKind, Item, ItemKind, Mechanism};
+use crate::syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind, Mechanism};
+use crate::vocabulary::{Dimension, Unit};
 use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
@@ -52,7 +53,8 @@ pub fn actions(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> Opt
     let mut found: Vec<Action> = all.iter().copied().filter(touches).flat_map(of_fault).collect();
     found.extend(fix_all(path, &all));
     found.extend(extract_param(snapshot, path, range));
-    found.extend(drive_joint(snapshot, &Place { path: Arc::clone(path), offset: range.start }));
+    let place = Place { path: Arc::clone(path), offset: range.start };
+    found.extend(drive_joint(snapshot, &place).unwrap_or_default());
     Some(found)
 }
 
@@ -99,25 +101,19 @@ fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> O
     let holds = |start: u32, end: u32| start <= range.start && range.end <= end;
     let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
     let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
-    let mut literal = None;
-    for formula in formulas(item) {
-        each(formula, &mut |e| {
-            if matches!(e.kind, ExprKind::Literal { unit: Some(_), .. }) && holds(e.span.start, e.span.end) {
-                literal = Some(e.span);
-            }
-        });
-    }
+    let Quantity { span, dimension } = quantities(item).into_iter().find(|one| holds(one.span.start, one.span.end))?;
     // a param that is only this number has a name already
-    let is_named = |span| matches!(&item.kind, ItemKind::Param { value, .. } if value.bare().span == span);
-    let literal = literal.filter(|literal| !is_named(*literal))?;
-    let name = free_name(mechanism, names_for(item, literal));
+    if matches!(&item.kind, ItemKind::Param { value, .. } if value.bare().span == span) {
+        return None;
+    }
+    let name = free_name(mechanism, &[name_for(item, span, dimension)]);
     let text = text_of(snapshot, path)?;
-    let value = text.get(literal.start as usize..literal.end as usize)?;
+    let value = text.get(span.start as usize..span.end as usize)?;
     let (at, before, behind) = place_for_param(mechanism, item, &text)?;
     let stretch = |start: u32, end: u32| Stretch { path: Arc::clone(path), start, end };
     let changes = vec![
         Change { place: stretch(at, at), text: format!("{before}param {name} = {value}{behind}") },
-        Change { place: stretch(literal.start, literal.end), text: name.clone() },
+        Change { place: stretch(span.start, span.end), text: name.clone() },
     ];
     let after = applied(snapshot, &changes)?;
     let files = [Arc::clone(path)];
@@ -126,14 +122,82 @@ fn extract_param(snapshot: &Snapshot, path: &Arc<Path>, range: &Range<u32>) -> O
     is_as_before.then_some(Action { title, kind: ActionKind::Extract, is_preferred: false, mends: None, changes })
 }
 
-/// Names for a number of a declaration.
-fn names_for(item: &Item, literal: Span) -> &'static [&'static str] {
+/// A number with all of its unit: `90 deg/s`.
+#[derive(Clone, Copy)]
+struct Quantity {
+    span: Span,
+    dimension: Dimension,
+}
+
+/// The numbers with units in the formulas of a declaration; of a product its longest stretch first.
+fn quantities(item: &Item) -> Vec<Quantity> {
+    let mut found = Vec::new();
+    for formula in formulas(item) {
+        each(formula, &mut |e| match &e.kind {
+            ExprKind::Product(first, rest) => found.extend(compound(first, rest)),
+            _ => found.extend(plain(e)),
+        });
+    }
+    found.sort_by_key(|one: &Quantity| (one.span.start, std::cmp::Reverse(one.span.end)));
+    found
+}
+
+/// A number with the unit right behind it.
+fn plain(e: &Expr) -> Option<Quantity> {
+    let ExprKind::Literal { unit: Some((unit, power)), .. } = &e.kind else { return None };
+    let dimension = Unit::named(&unit.text)?.dimension.to_the(f64::from(*power));
+    Some(Quantity { span: e.span, dimension })
+}
+
+/// The numbers of a product that units are multiplied with, or divided by, behind them. One that something is divided by ends with its
+/// own unit: `1 / 2 s * m` multiplies with metres.
+fn compound(first: &Expr, rest: &[(Factor, Expr)]) -> Vec<Quantity> {
+    let mut found: Vec<Quantity> = plain(first).into_iter().collect();
+    let mut is_open = !found.is_empty();
+    for (factor, operand) in rest {
+        let begun = plain(operand).filter(|_| *factor == Factor::Times);
+        let last = found.last_mut().filter(|_| is_open).zip(unit(operand));
+        is_open = begun.is_some() || last.is_some();
+        match (begun, last) {
+            (Some(begun), _) => found.push(begun),
+            (None, Some((last, dimension))) => {
+                last.span = last.span.to(operand.span);
+                last.dimension = match factor {
+                    Factor::Times => last.dimension.times(dimension),
+                    Factor::Over => last.dimension.over(dimension),
+                };
+            }
+            (None, None) => {}
+        }
+    }
+    found
+}
+
+/// The dimension of a unit that stands alone, with its power.
+fn unit(e: &Expr) -> Option<Dimension> {
+    match &e.kind {
+        ExprKind::Name(name) => Some(Unit::named(&name.text)?.dimension),
+        ExprKind::Power(base, power) => Some(unit(base)?.to_the(power.bare_number()?)),
+        _ => None,
+    }
+}
+
+/// A name for a number of a declaration.
+fn name_for(item: &Item, quantity: Span, dimension: Dimension) -> &'static str {
+    const NAMES: &[(Dimension, &str)] = &[
+        (Dimension::PURE, "angle"),
+        (Dimension::LENGTH, "length"),
+        (Dimension::TIME, "duration"),
+        (Dimension::RATE, "rate"),
+        (Dimension { length: 0.0, time: -2.0 }, "angular_acceleration"),
+        (Dimension { length: 1.0, time: -1.0 }, "speed"),
+        (Dimension { length: 1.0, time: -2.0 }, "acceleration"),
+    ];
     match &item.kind {
-        ItemKind::Analysis { every, .. } if every.span.start <= literal.start => &["time_step"],
-        ItemKind::Analysis { from, .. } if literal.end <= from.span.end => &["start_time"],
-        ItemKind::Analysis { .. } => &["end_time"],
-        ItemKind::Equation { .. } | ItemKind::Input { .. } => &["rate", "start", "amount"],
-        _ => &["size", "width", "height", "distance_along"],
+        ItemKind::Analysis { every, .. } if every.span.start <= quantity.start => "time_step",
+        ItemKind::Analysis { from, .. } if quantity.end <= from.span.end => "start_time",
+        ItemKind::Analysis { .. } => "end_time",
+        _ => NAMES.iter().find(|(known, _)| known.is(dimension)).map_or("amount", |(_, name)| name),
     }
 }
 
@@ -174,26 +238,34 @@ fn end_of_line(text: &str, declaration: Span) -> Option<u32> {
     Some(declaration.end + if is_comment { rest as u32 } else { 0 })
 }
 
-/// A driver for the joint at a place, where the proof says that it would take what is left free.
-fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Action> {
+/// Drivers for the joint at a place, each for one of its copies, where the proof says that they would take what is left free.
+fn drive_joint(snapshot: &Snapshot, place: &Place) -> Option<Vec<Action>> {
     let parsed = snapshot.parsed(&place.path)?;
     let holds = |start: u32, end: u32| start <= place.offset && place.offset <= end;
     let mechanism = parsed.tree().mechanisms.iter().find(|one| holds(one.span.start, one.span.end))?;
     let item = mechanism.items.iter().find(|item| holds(item.span.start, item.span.end))?;
     let ItemKind::Joint { name, .. } = &item.kind else { return None };
-    let (driven, formula) = free(snapshot, place)?
-        .into_iter()
-        .find(|(driven, _)| driven.split_once('(').is_some_and(|(_, of)| of.trim_end_matches(')') == name.text))?;
     let text = text_of(snapshot, &place.path)?;
     let last = mechanism.items.iter().rfind(|item| matches!(item.kind, ItemKind::Joint { .. }))?;
     let end = if text.contains("\r\n") { "\r\n" } else { "\n" };
     let before = indent_of(&text, last.span).map_or(" ".to_owned(), |indent| format!("{end}{indent}"));
     let driver = free_name(mechanism, &["motor", "drive", "feed"]);
     let at = end_of_line(&text, last.span)?;
-    let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
-    let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
-    let title = format!("drive `{}`", name.text);
-    Some(Action { title, kind: ActionKind::Drive, is_preferred: false, mends: None, changes })
+    let action = |(driven, formula): (String, String)| {
+        let copy = copy_of(&name.text, &driven)?;
+        let place = Stretch { path: Arc::clone(&place.path), start: at, end: at };
+        let changes = vec![Change { place, text: format!("{before}driver {driver}: {driven} = {formula}") }];
+        let title = format!("drive `{copy}`");
+        Some(Action { title, kind: ActionKind::Drive, is_preferred: false, mends: None, changes })
+    };
+    Some(free(snapshot, place)?.into_iter().filter_map(action).collect())
+}
+
+/// The joint that a quantity is about, if it is the one of a name, or a copy of it: `pin[1]` of `rotation(pin[1])`.
+fn copy_of<'d>(name: &str, driven: &'d str) -> Option<&'d str> {
+    let joint = driven.split_once('(')?.1.strip_suffix(')')?;
+    let numbers = joint.strip_prefix(name)?;
+    (numbers.is_empty() || numbers.starts_with('[')).then_some(joint)
 }
 
 #[cfg(test)]
@@ -251,8 +323,8 @@ mod tests {
     fn a_number_becomes_a_param() {
         insta::assert_snapshot!(offered(&with("(80 mm, 0)", "(8$00 mm, 0)")), @r"
         Extract extract `80 mm` into a param
-            param size = 80 mm
-                point C = (size, 0)
+            param length = 80 mm
+                point C = (length, 0)
         ");
         insta::assert_snapshot!(offered(&with("every 0.1 s", "every 0.1 $0s")), @r"
         Extract extract `0.1 s` into a param
@@ -261,18 +333,48 @@ mod tests {
         ");
         insta::assert_snapshot!(offered(&with("    param crank_length = 30 mm\n", "").replace("crank_length", "3$00 mm")), @r"
         Extract extract `30 mm` into a param
-            param size = 30 mm
-                point B = (size, 0)
+            param length = 30 mm
+                point B = (length, 0)
         ");
         insta::assert_snapshot!(offered("mechanism m { body b { point P = (1$0 m, 0) } driver d: angle(b) = 1 rad/s * t }"), @r"
         Extract extract `1 m` into a param
-        mechanism m { param size = 1 m body b { point P = (size, 0) } driver d: angle(b) = 1 rad/s * t }
+        mechanism m { param length = 1 m body b { point P = (length, 0) } driver d: angle(b) = 1 rad/s * t }
         ");
         insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 3$00 mm // long")), @"");
         insta::assert_snapshot!(offered(&with("crank_length = 30 mm", "crank_length = 30 mm // long").replacen("80 mm", "80$0 mm", 1)), @r"
         Extract extract `80 mm` into a param
-            param size = 80 mm
-                point C = (size, 0)
+            param length = 80 mm
+                point C = (length, 0)
+        ");
+    }
+
+    #[test]
+    fn a_number_is_taken_with_all_of_its_unit() {
+        insta::assert_snapshot!(offered(&with("90 deg/s", "90 deg/$0s")), @r"
+        Extract extract `90 deg/s` into a param
+            param rate = 90 deg/s
+            driver motor: rotation(main) = 60 deg + rate * t
+        ");
+        insta::assert_snapshot!(offered(&with("60 deg +", "6$00 deg +")), @r"
+        Extract extract `60 deg` into a param
+            param angle = 60 deg
+            driver motor: rotation(main) = angle + 90 deg/s * t
+        ");
+        let with_measure = |formula: &str| with("    analysis", &format!("    measure v = {formula}\n    analysis"));
+        insta::assert_snapshot!(offered(&with_measure("x(crank.B) + 9.81 m/s^$02 * t^2")), @r"
+        Extract extract `9.81 m/s^2` into a param
+            param acceleration = 9.81 m/s^2
+            measure v = x(crank.B) + acceleration * t^2
+        ");
+        insta::assert_snapshot!(offered(&with_measure("x(crank.B) / 2 $0s / s * s")), @r"
+        Extract extract `2 s` into a param
+            param duration = 2 s
+            measure v = x(crank.B) / duration / s * s
+        ");
+        insta::assert_snapshot!(offered(&with_measure("angle(crank) * 3 mm/s * 2 $0s")), @r"
+        Extract extract `2 s` into a param
+            param duration = 2 s
+            measure v = angle(crank) * 3 mm/s * duration
         ");
     }
 
@@ -286,6 +388,23 @@ mod tests {
         insta::assert_snapshot!(offered(&free.replacen("joint pivot", "joint pi$0vot", 1)), @r"
         Drive drive `pivot`
             driver motor: rotation(pivot) = 100 deg + 60 deg/s * t
+        ");
+        // of a repeated joint each copy
+        let chain = "\
+mechanism chain {
+    ground { point O = (0, 0) }
+    body link[k in 0..2] at (k * 100 mm, 0, 0) {
+        point A = (0, 0)
+        point B = (100 mm, 0)
+    }
+    joint root: revolute(ground.O, link[0].A)
+    joint pi$0n[k in 0..1]: revolute(link[k].B, link[k + 1].A)
+    driver motor: rotation(root) = 60 deg/s * t
+}
+";
+        insta::assert_snapshot!(offered(chain), @r"
+        Drive drive `pin[0]`
+            driver drive: rotation(pin[0]) = 60 deg/s * t
         ");
         // all is driven already
         assert_eq!(offered(&with("joint main", "joint ma$0in")), "");

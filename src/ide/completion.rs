@@ -21,20 +21,40 @@ use crate::vocabulary::{FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES,
 use crate::world::{World, beside};
 use cursor::{Block, Cursor};
 use proposals::Whole;
-use scope::Scope;
+use scope::{Scope, Sieve};
 use std::path::Path;
 use wanted::{Wanted, wanted};
 
-/// What fits at a place, the best first. In a comment nothing does, nor where a new name stands.
+/// More items than these nobody reads.
+const MOST: usize = 500;
+
+/// What fits at a place.
+#[derive(Clone, PartialEq, Debug, Default)]
+pub struct Completions {
+    /// The best first.
+    pub items: Vec<Item>,
+    /// There are more than anybody reads: of those that go with the letters typed the best are here.
+    pub is_incomplete: bool,
+}
+
+/// What fits at a place. In a comment nothing does, nor where a new name stands.
 #[must_use]
-pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Vec<Item>> {
+pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
     let parsed = snapshot.parsed(&place.path)?;
     let text = &parsed.sources().get(parsed.file()).text;
-    let Some(cursor) = Cursor::at(text, place.offset as usize) else { return Some(Vec::new()) };
+    let Some(cursor) = Cursor::at(text, place.offset as usize) else { return Some(Completions::default()) };
     let analysed = snapshot.checked(&place.path)?;
-    let here = Here { snapshot, place, checked: around(&analysed, place.offset), cursor };
+    let checked = around(&analysed, place.offset);
+    let letters = text.get(cursor.word.start..place.offset as usize).unwrap_or_default();
+    let sieve = Sieve::of(checked.and_then(Checked::tree), letters);
+    let here = Here { snapshot, place, checked, cursor, sieve };
     let mut items = here.items();
     items.sort_by_key(|item| item.rank);
+    let is_incomplete = here.sieve.is_needed() || items.len() > MOST;
+    if is_incomplete {
+        items.retain(|item| goes_with(&item.label, letters));
+        items.truncate(MOST);
+    }
     let replaces = here.cursor.word.start as u32..here.cursor.word.end as u32;
     let is_behind_comma = here.cursor.text[..here.cursor.word.start].ends_with(',') && !here.cursor.is_in_string;
     for item in &mut items {
@@ -43,7 +63,13 @@ pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Vec<Item>> {
             item.insert = Template::plain(" ").followed_by(std::mem::take(&mut item.insert));
         }
     }
-    Some(items)
+    Some(Completions { items, is_incomplete })
+}
+
+/// Whether the letters typed are found in a label, in their order.
+fn goes_with(label: &str, letters: &str) -> bool {
+    let mut rest = label.chars().flat_map(char::to_lowercase);
+    letters.chars().flat_map(char::to_lowercase).all(|wanted| rest.any(|letter| letter == wanted))
 }
 
 /// The mechanism that a place is in, be its end not written yet.
@@ -58,6 +84,7 @@ struct Here<'s> {
     place: &'s Place,
     checked: Option<&'s Checked>,
     cursor: Cursor<'s>,
+    sieve: Sieve<'s>,
 }
 
 impl Here<'_> {
@@ -68,6 +95,9 @@ impl Here<'_> {
         }
         if let Some(path) = cursor.path() {
             return self.inside(&path);
+        }
+        if let Some(begun) = cursor.unit() {
+            return units::going_on(&begun);
         }
         let is_open = cursor.call().is_some();
         if cursor.may_begin() || cursor.is_first_on_line() && cursor.block == Block::File {
@@ -161,7 +191,8 @@ impl Here<'_> {
     }
 
     fn scope(&self) -> Option<Scope<'_>> {
-        Some(Scope { checked: self.checked?, tree: self.tree()?, declared_at: self.cursor.start() as u32 })
+        let declared_at = self.cursor.start() as u32;
+        Some(Scope { checked: self.checked?, tree: self.tree()?, declared_at, sieve: &self.sieve })
     }
 
     /// Kinds of joints, and joints between points that lie on each other.

@@ -3,8 +3,9 @@
 
 use super::numbers::{degrees, in_unit, short, si_unit, with_unit};
 use super::snapshot::{Moved, Proven, Snapshot};
-use crate::check::{Amount, NameKind};
+use crate::check::{Amount, DeclaredName, NameKind};
 use crate::stages::{Assembly, Checked, Compiled};
+use crate::syntax::ast::{ExprKind, ItemKind};
 use crate::vocabulary::{Dimension, Unit};
 use std::path::Path;
 use std::sync::Arc;
@@ -50,8 +51,14 @@ fn proven_of(snapshot: &Snapshot, path: &Path, checked: &Checked) -> Option<(Arc
     let analysed = snapshot.checked(path)?;
     let number = analysed.mechanisms.iter().position(|other| other.span() == checked.span())?;
     let names: usize = analysed.mechanisms.iter().map(|other| other.symbols().iter().count()).sum();
-    let now = snapshot.proven_now(path);
-    Some((now.or_else(|| if names <= QUICK { snapshot.proven(path) } else { None })?, number))
+    let is_quick = names <= QUICK;
+    // what is said of a part is said where it is used, but it has a position of its own too
+    let proven = match checked.is_part_of_another() {
+        true if is_quick => snapshot.proven_alone(path),
+        true => None,
+        false => snapshot.proven_now(path).or_else(|| if is_quick { snapshot.proven(path) } else { None }),
+    };
+    Some((proven?, number))
 }
 
 /// A mechanism in the position in which it was assembled.
@@ -147,8 +154,9 @@ fn equations(subject: &Subject<'_>, start: Option<&Start<'_>>) -> Option<String>
 
 fn value_of_param(subject: &Subject<'_>) -> Option<String> {
     let symbols = subject.checked.symbols();
-    let name = symbols.iter().find(|(_, name)| name.kind == NameKind::Param && name.name == subject.path)?.1.span;
-    let value = subject.checked.known().values.iter().find(|value| value.name == Some(name))?;
+    let own = symbols.iter().find(|(_, name)| name.kind == NameKind::Param && name.name == subject.path);
+    let Some((_, DeclaredName { span: name, .. })) = own else { return value_in_part(subject) };
+    let value = subject.checked.known().values.iter().find(|value| value.name == Some(*name))?;
     Some(match &value.amount {
         Amount::Point([x, y]) => format!("= ({}, {}) m, a point", short(*x), short(*y)),
         Amount::Number { si, dimension, is_angle, unit } => {
@@ -159,6 +167,36 @@ fn value_of_param(subject: &Subject<'_>) -> Option<String> {
             format!("= {}, {what}", forms.join(" = "))
         }
     })
+}
+
+/// Of a param of a part, with what is bound of it there.
+fn value_in_part(subject: &Subject<'_>) -> Option<String> {
+    if let Some(bound) = bound_in_part(subject) {
+        return Some(bound);
+    }
+    let (value, dimension) = subject.checked.param_in_part(subject.path)?;
+    Some(format!("= {}, {}", with_unit(value, &si_unit(dimension, false)), dimension.in_words()))
+}
+
+/// What is bound of a param of a part: a number as such, a formula as it is written.
+fn bound_in_part(subject: &Subject<'_>) -> Option<String> {
+    let (part, name) = subject.path.rsplit_once('.')?;
+    let part = part.split('[').next()?;
+    let bindings = subject.checked.tree()?.items.iter().find_map(|item| match &item.kind {
+        ItemKind::Part(known) if known.name.text == part => Some(&known.bindings),
+        _ => None,
+    })?;
+    let bound = bindings.iter().find(|binding| binding.name.text == name && binding.coordinate.is_none())?;
+    let text = subject.checked.sources().text(bound.value.span);
+    let number = match &bound.value.bare().kind {
+        ExprKind::Literal { value, unit: Some((unit, power)) } => Unit::named(&unit.text).map(|unit| {
+            let dimension = unit.dimension.to_the(f64::from(*power));
+            let si = with_unit(unit.to_si(*value, *power), &si_unit(dimension, unit.is_of_angle()));
+            format!("= {si}, {}", dimension.in_words())
+        }),
+        _ => None,
+    };
+    Some(number.unwrap_or_else(|| format!("= `{text}`, bound where `{part}` is used")))
 }
 
 fn result(snapshot: &Snapshot, path: &Path, subject: &Subject<'_>) -> Option<String> {

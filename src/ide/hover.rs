@@ -451,6 +451,13 @@ mechanism two {
 
         At t = 0 s: x = 0.2 m, y = 0 m, phi = 0.523599 rad = 30°
         ");
+        // what is bound of a param, and what it is where nothing is
+        assert!(at("x(back[1].arm.tip)", "x(back[1].arm.tip) + back[1].rea$0ch").ends_with("= 0.06 m, a length"));
+        assert!(at("x(front.arm.tip)", "x(front.arm.tip) + front.rea$0ch").ends_with("= 0.08 m, a length"));
+        // the mechanism that is a part has a position by itself
+        let tip = at("point tip", "point ti$0p");
+        assert!(tip.ends_with("At t = 0 s: x = 0.069282 m, y = 0.04 m in the ground's frame"), "{tip}");
+        assert!(at("joint pivot", "joint piv$0ot").contains("At t = 0 s: `ground.O` = (0, 0) m"));
         insta::assert_snapshot!(at("front: lever", "front: le$0ver"), @r"
         main.mech:11
             part front: lever()

@@ -42,7 +42,7 @@ mod written;
 
 pub use actions::{Action, ActionKind, actions};
 pub use buffers::Buffers;
-pub use completion::{Item, ItemKind, Template, completions};
+pub use completion::{Completions, Item, ItemKind, Template, completions};
 pub use diagnostics::{ProposedFix, Related, Said, Severity, Stage, diagnostics};
 pub use formatting::{Formatted, formatting};
 pub use hints::{Hint, hints};

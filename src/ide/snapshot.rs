@@ -30,6 +30,8 @@ struct Stages {
     parsed: Kept<Parsed>,
     checked: Kept<Analysed>,
     proven: Kept<Vec<Proven>>,
+    /// What is proven of those that are parts of others, each by itself.
+    alone: Kept<Vec<Proven>>,
     moved: Kept<Vec<Moved>>,
     /// What was known of the motion of a text before this one.
     moved_before: Option<Arc<Vec<Moved>>>,
@@ -70,6 +72,11 @@ pub struct Moved {
 }
 
 impl Proven {
+    fn nothing(checked: &Checked) -> Proven {
+        let (sources, said) = (checked.sources().clone(), Diagnostics::default());
+        Proven { sources, said, compiled: None, assembly: None, first_row: Kept::default() }
+    }
+
     /// The row of the position in which it was assembled, in SI, by [`Compiled::columns`]; nothing where it has none.
     #[must_use]
     pub fn first_row(&self) -> Option<Arc<Vec<f64>>> {
@@ -188,6 +195,22 @@ impl Snapshot {
         self.proven_of(&self.stages(path), path)
     }
 
+    /// The same of those mechanisms that are parts of others of the file, each by itself, for who asks what is in them; of the rest nothing.
+    #[must_use]
+    pub fn proven_alone(&self, path: &Path) -> Option<Arc<Vec<Proven>>> {
+        let stages = self.stages(path);
+        let checked = self.checked_of(&stages, path)?;
+        stages.alone.get_or(|| {
+            self.unless_cancelled(())?;
+            let is_part = Checked::is_part_of_another;
+            let alone = |checked: &Checked| {
+                if is_part(checked) { proven_by_itself(checked, &self.cancel) } else { Proven::nothing(checked) }
+            };
+            let proven = checked.mechanisms.iter().map(alone).collect();
+            self.unless_cancelled(proven)
+        })
+    }
+
     /// The motion of each of a file's mechanisms over the times of its analysis. Each is begun with a flag that ends it, it alone.
     #[must_use]
     pub fn moved(&self, path: &Path, begin: &dyn Fn() -> Cancel) -> Option<Arc<Vec<Moved>>> {
@@ -299,13 +322,13 @@ pub fn learn_names(snapshot: &Snapshot, path: &Path) {
     }
 }
 
-/// Proves a mechanism and assembles it.
+/// Proves a mechanism that is no part of another one, and assembles it.
 fn proven(checked: &Checked, cancel: &Cancel) -> Proven {
-    let (sources, said) = (checked.sources().clone(), Diagnostics::default());
-    let mut proven = Proven { sources, said, compiled: None, assembly: None, first_row: Kept::default() };
-    if checked.is_part_of_another() {
-        return proven;
-    }
+    if checked.is_part_of_another() { Proven::nothing(checked) } else { proven_by_itself(checked, cancel) }
+}
+
+fn proven_by_itself(checked: &Checked, cancel: &Cancel) -> Proven {
+    let mut proven = Proven::nothing(checked);
     let (compiled, said) = checked.compile(Redundant::Refused, cancel);
     proven.said = said;
     let Some(compiled) = compiled else { return proven };

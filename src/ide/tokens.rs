@@ -198,6 +198,8 @@ mechanism m {
 mechanism m {
     param a = 5 mm
     joint j revolute(ground.A, to.at
+    body to at at (0, 0, 0
+    joint k: rack_pinion(at, to.at, 0 mm, left
     measure b = a
 "), @r"
         mechanism Keyword
@@ -207,8 +209,11 @@ mechanism m {
         mm Unit constant of the language
         joint Keyword
         ground Keyword
-        to Keyword
+        body Keyword
         at Keyword
+        at Keyword
+        joint Keyword
+        left Keyword
         measure Keyword
         b Value declared
         a Value constant

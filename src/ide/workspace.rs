@@ -5,10 +5,12 @@ use super::place::Stretch;
 use super::snapshot::Snapshot;
 use crate::cancel::Cancel;
 use crate::check::NameKind;
-use crate::world::World;
+use crate::world::{World, is_own};
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+pub use crate::world::is_mech;
 
 /// So many files are looked for; beyond them, names are not found in what is not open.
 const MOST_FILES: usize = 1_000;
@@ -35,7 +37,8 @@ pub struct Found {
     pub within: Option<String>,
 }
 
-/// The `.mech` files in some folders and those in these, by their identity. Hidden folders are left out, and those of build results.
+/// The `.mech` files in some folders and those in these, by their identity. What is hidden is left out, and folders of build
+/// results, as by `mechc fmt`.
 #[must_use]
 pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<Arc<Path>> {
     let (mut found, mut seen) = (BTreeSet::new(), 0);
@@ -45,24 +48,14 @@ pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<
         if seen > MOST_FOLDERS || found.len() >= MOST_FILES || cancel.is_cancelled() {
             break;
         }
-        let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name));
+        let files = world.names_in(&folder).into_iter().filter(|name| is_mech(name) && is_own(name));
         found.extend(files.map(|name| Arc::<Path>::from(world.identity(&folder.join(name)))));
         if depth < DEEPEST {
-            let inner = world.folders_in(&folder).into_iter().filter(|name| is_looked_into(name));
+            let inner = world.folders_in(&folder).into_iter().filter(|name| is_own(name));
             next.extend(inner.map(|name| (folder.join(name), depth + 1)));
         }
     }
     found.into_iter().take(MOST_FILES).collect()
-}
-
-/// Whether a file holds mechanisms, by its name.
-#[must_use]
-pub fn is_mech(name: &str) -> bool {
-    Path::new(name).extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mech"))
-}
-
-fn is_looked_into(folder: &str) -> bool {
-    !folder.starts_with('.') && folder != "target" && folder != "node_modules"
 }
 
 /// The declarations of all known files whose names hold the letters of a query, in their order.
@@ -113,7 +106,15 @@ mod tests {
 
     #[test]
     fn files_of_folders_are_found() {
-        let files = ["w/a.mech", "w/b.csv", "w/deep/er/C.MECH", "w/.git/d.mech", "w/target/e.mech", "other/f.mech"];
+        let files = [
+            "w/a.mech",
+            "w/b.csv",
+            "w/deep/er/C.MECH",
+            "w/.git/d.mech",
+            "w/target/e.mech",
+            "w/.g.mech",
+            "other/f.mech",
+        ];
         let world = files.iter().fold(Memory::default(), |world, name| world.with(name, ""));
         let found = files_in(&[PathBuf::from("w")], &world, &Cancel::default());
         assert_eq!(

@@ -3,7 +3,8 @@
 use crate::vocabulary::{Keyword, Role};
 use std::ops::Range;
 
-fn is_of_word(c: char) -> bool {
+/// Whether a character is one of a name.
+pub(super) fn is_of_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
@@ -37,19 +38,33 @@ fn numbers_before(text: &str) -> (String, &str) {
     open.map_or((String::new(), text), |open| (text[open..].to_owned(), &text[..open]))
 }
 
-/// Whether a byte stands in a comment.
-pub(super) fn is_in_comment(text: &str, offset: usize) -> bool {
+/// In what a byte of a text stands.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub(super) enum Within {
+    Code,
+    Comment,
+    /// By the byte where it begins.
+    String(usize),
+}
+
+/// In what a byte stands, by what is before it on its line.
+pub(super) fn within(text: &str, offset: usize) -> Within {
     let line = text[..offset].rfind('\n').map_or(0, |end| end + 1);
-    let mut is_string = false;
-    let mut before = text[line..offset].chars().peekable();
-    while let Some(c) = before.next() {
-        match c {
-            '"' => is_string = !is_string,
-            '/' if !is_string && before.peek() == Some(&'/') => return true,
+    let mut string = None;
+    for (at, c) in text[line..offset].char_indices() {
+        match (c, string) {
+            ('"', None) => string = Some(line + at),
+            ('"', Some(_)) => string = None,
+            ('/', None) if text[line + at..offset].starts_with("//") => return Within::Comment,
             _ => {}
         }
     }
-    false
+    string.map_or(Within::Code, Within::String)
+}
+
+/// Whether a byte stands in a comment.
+pub(super) fn is_in_comment(text: &str, offset: usize) -> bool {
+    within(text, offset) == Within::Comment
 }
 
 /// A call whose parentheses are open.

@@ -6,6 +6,7 @@ use crate::expr::Symbol;
 use crate::lower;
 use crate::source::Span;
 use crate::syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
+use crate::vocabulary::Dimension;
 
 /// A declaration that a path of names leads to, through parts and bodies.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -85,6 +86,16 @@ impl Checked {
     #[must_use]
     pub fn slopes_of(&self, function: &str) -> Option<[String; 2]> {
         check::slopes(self.tree()?, function, &self.surroundings, self.sources())
+    }
+
+    /// The value (SI) and dimension of a param of a part, `front.reach`; where the number of a copy is not told, of the first one. Nothing
+    /// where the mechanism is not sound, or where the param follows from others.
+    #[must_use]
+    pub fn param_in_part(&self, path: &str) -> Option<(f64, Dimension)> {
+        let params = || self.model().into_iter().flat_map(|model| &model.params);
+        let of = |is_it: &dyn Fn(&str) -> bool| params().find(|param| is_it(&param.declared.name));
+        let param = of(&|name| name == path).or_else(|| of(&|name| is_copy(name, path)))?;
+        Some((param.value, param.dimension))
     }
 
     fn mechanism(&self, name: &MechanismName) -> Option<&Mechanism> {

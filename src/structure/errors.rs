@@ -26,7 +26,8 @@ pub fn count(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diag
         .note(table(system));
     let diagnostic = with_data(diagnostic, system, &competing(system, too_many), &too_few.columns);
     if ndof > 0 {
-        diagnostic.help(drivers_to_add(system, &too_few.columns, ndof))
+        let free = free_quantities(system, &too_few.columns);
+        diagnostic.help(drivers_to_add(system, &too_few.columns, &free, ndof)).drives(free)
     } else {
         match said_twice(system) {
             Some([first, again]) => {
@@ -57,9 +58,8 @@ fn said_twice(system: &ConstraintSystem) -> Option<[usize; 2]> {
     None
 }
 
-/// Joints whose motion nothing fixes, as drivers to write.
-fn drivers_to_add(system: &ConstraintSystem, free: &[u32], ndof: isize) -> String {
-    let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
+/// What joints leave to move and nothing fixes: `rotation(main)`.
+fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
     let mut quantities: Vec<String> = Vec::new();
     let mut first_row = 0;
     for declaration in &system.declarations {
@@ -81,10 +81,16 @@ fn drivers_to_add(system: &ConstraintSystem, free: &[u32], ndof: isize) -> Strin
         });
         if moves {
             let quantity = if wanted == CoordinateKind::Angle { "rotation" } else { "displacement" };
-            quantities.push(format!("`driver NAME: {quantity}({}) = …`", declaration.name));
+            quantities.push(format!("{quantity}({})", declaration.name));
         }
     }
     quantities.truncate(MOST_DRIVERS);
+    quantities
+}
+
+/// How to take what is free, where some quantities would.
+fn drivers_to_add(system: &ConstraintSystem, free: &[u32], quantities: &[String], ndof: isize) -> String {
+    let count = if ndof == 1 { "a driver".to_owned() } else { format!("{ndof} drivers or joints") };
     if quantities.is_empty() {
         let bodies = free.iter().filter_map(|&column| system.body_of(column as usize));
         let mut names: Vec<&str> = bodies.map(|body| system.bodies[body].name.as_str()).collect();
@@ -98,7 +104,8 @@ fn drivers_to_add(system: &ConstraintSystem, free: &[u32], ndof: isize) -> Strin
             ),
         };
     }
-    format!("add {count}: {}", quantities.join(" or "))
+    let drivers: Vec<String> = quantities.iter().map(|driven| format!("`driver NAME: {driven} = …`")).collect();
+    format!("add {count}: {}", drivers.join(" or "))
 }
 
 fn what_to_take_away(system: &ConstraintSystem) -> String {

@@ -60,11 +60,14 @@ pub fn edits(parsed: &Parsed, text: &str, file: FileId) -> Vec<Edit> {
     Formatted::of(parsed, text).edits(text, file, |_| true)
 }
 
-/// The same, of the lines that have a part in a span. Columns are those that the whole text would have.
+/// The same, of the lines that have a part in a span, which one that it ends right before has not. Columns are those that the whole
+/// text would have.
 #[must_use]
 pub fn edits_in(parsed: &Parsed, text: &str, span: Span) -> Vec<Edit> {
     let (start, end) = (span.start as usize, span.end as usize);
-    Formatted::of(parsed, text).edits(text, span.file, |row| row.start <= end && start <= row.end)
+    // an empty span is a cursor, which may stand where a line begins
+    Formatted::of(parsed, text)
+        .edits(text, span.file, |row| start <= row.end && (row.start < end || start == end && row.start == end))
 }
 
 /// The same, of the block that a brace closes which ends at a byte; nothing if there is none.

@@ -2,7 +2,7 @@
 //!
 //! This is coarser than the grammar, and never fails: it serves where a text does not follow the grammar, or is not read yet.
 
-use crate::vocabulary::{Keyword, is_declaration};
+use crate::vocabulary::{Keyword, Role, is_declaration};
 
 /// A word or character, by the byte where it begins.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -74,7 +74,21 @@ pub fn begins_declaration(text: &str, token: Token<'_>) -> bool {
     token.text != "ground" || behind.starts_with('{') || is_first && !is_operand
 }
 
-/// The words of a text that are keywords in some place, each with the byte where it begins.
+/// The words of a text that are keywords where they stand, as far as the tokens beside them tell, each with the byte where it begins.
 pub fn keywords_in(text: &str) -> impl Iterator<Item = (usize, &'static Keyword)> {
-    tokens(text).into_iter().filter_map(|token| Keyword::named(token.text).map(|keyword| (token.start, keyword)))
+    let tokens = tokens(text);
+    let keyword = |at: usize| {
+        let keyword = Keyword::named(tokens[at].text)?;
+        let beside = |at: Option<usize>| at.and_then(|at| tokens.get(at)).map_or("", |token| token.text);
+        let is_one = keyword.is_reserved() || !is_name(keyword.role, beside(at.checked_sub(1)), beside(Some(at + 1)));
+        is_one.then_some((tokens[at].start, keyword))
+    };
+    (0..tokens.len()).filter_map(keyword).collect::<Vec<_>>().into_iter()
+}
+
+/// Whether a word that may be a name is one between two tokens: what joins stands behind an operand, and no keyword beside a dot.
+fn is_name(role: Role, before: &str, behind: &str) -> bool {
+    let is_declared = is_declaration(before) && !matches!(before, "analysis" | "ground");
+    let is_operand = matches!(before, "(" | "+" | "-" | "*" | "/" | "^" | "<" | ">" | ",") && role != Role::Side;
+    before == "." || behind == "." || is_declared || is_operand
 }

@@ -16,7 +16,24 @@ if vim.fn.executable('mechc') == 1 then
   local folder = vim.fn.expand('%:p:h')
   local repository = vim.fn.finddir('.git', folder .. ';')
   local root = repository ~= '' and vim.fn.fnamemodify(repository, ':p:h:h') or folder
-  local server = { name = 'mechc', cmd = { 'mechc', 'lsp' }, root_dir = root }
+  local function show_lenses(_, buffer)
+    if vim.lsp.codelens.enable then
+      return vim.lsp.codelens.enable(true, { bufnr = buffer })
+    end
+    -- before 0.12
+    local refresh = { buffer = buffer, callback = function() vim.lsp.codelens.refresh() end }
+    refresh.group = vim.api.nvim_create_augroup('mechc_lenses_' .. buffer, {})
+    vim.api.nvim_create_autocmd({ 'BufEnter', 'CursorHold', 'InsertLeave' }, refresh)
+    vim.lsp.codelens.refresh()
+  end
+  local server = {
+    name = 'mechc',
+    cmd = { 'mechc', 'lsp' },
+    root_dir = root,
+    -- the server offers lenses for what plugin/mech.lua can do
+    init_options = { commands = { 'mechc.run', 'mechc.check' } },
+    on_attach = show_lenses,
+  }
   if vim.lsp.start then
     vim.lsp.start(server)
   else -- before 0.8

@@ -8,6 +8,6 @@ setlocal commentstring=//\ %s comments=:///,:// formatoptions-=t formatoptions+=
 setlocal expandtab shiftwidth=4 softtabstop=4 cindent cinoptions=J1,(s,m1,+2s cinwords=
 let b:undo_ftplugin = 'setlocal commentstring< comments< formatoptions< expandtab< shiftwidth< softtabstop< cindent< cinoptions< cinwords<'
 if executable('mechc')
-  setlocal formatprg=mechc\ fmt\ -
-  let b:undo_ftplugin .= ' formatprg<'
+  setlocal formatexpr=mech#Format()
+  let b:undo_ftplugin .= ' formatexpr<'
 endif

@@ -42,7 +42,9 @@ test('every command of the manifest is registered, and no other', () => {
 
 test('regular expressions of the language configuration', () => {
   const { wordPattern, indentationRules } = JSON.parse(fs.readFileSync(path.join(root, 'language-configuration.json'), 'utf8'));
-  const word = new RegExp(wordPattern, 'gu');
+  // as the editor reads it: a string alone has no flags, and without `u` it knows no letters
+  const { pattern, flags } = typeof wordPattern === 'string' ? { pattern: wordPattern, flags: '' } : wordPattern;
+  const word = new RegExp(pattern, `${flags}g`);
   assert.deepStrictEqual('länge_1 * 2.5e3 mm'.match(word), ['länge_1', '2.5e3', 'mm']);
   const more = new RegExp(indentationRules.increaseIndentPattern);
   const less = new RegExp(indentationRules.decreaseIndentPattern);

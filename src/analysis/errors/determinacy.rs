@@ -268,6 +268,7 @@ pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &
     let helps = freedom.helps();
     if !helps.is_empty() {
         diagnostic.help = helps;
+        diagnostic.drives = freedom.drives().to_vec();
     }
     diagnostic
 }
@@ -323,6 +324,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
     let names = |list: Vec<usize>| list.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
     let free = freedom.moving().iter().map(|&body| system.bodies[body].name.clone()).collect::<Vec<String>>();
     diagnostic
+        .drives(freedom.drives().to_vec())
         .datum("coordinates", system.coordinates.len())
         .datum("equations", system.rows.len())
         .datum("ndof", system.ndof())

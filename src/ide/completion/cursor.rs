@@ -1,7 +1,8 @@
 //! Where in a text the cursor stands, by the words and characters before it: the text is half-typed, and need not follow the grammar.
 
+use crate::ide::written::{Within, is_of_word, within};
 use crate::syntax::{Token, begins_declaration, tokens};
-use crate::vocabulary::{Keyword, Role, is_feature};
+use crate::vocabulary::{Dimension, Keyword, Role, Unit, is_feature};
 use std::ops::Range;
 
 /// Between which braces a place is.
@@ -23,6 +24,13 @@ pub(super) struct Call<'t> {
     pub open: usize,
 }
 
+/// A compound unit of which some is written: `90 deg/`.
+#[derive(Clone, PartialEq, Debug)]
+pub(super) struct Begun {
+    /// Of its units, from the last one on.
+    pub dimensions: Vec<Dimension>,
+}
+
 /// What stands before the cursor.
 pub(super) struct Cursor<'t> {
     pub text: &'t str,
@@ -39,8 +47,7 @@ pub(super) struct Cursor<'t> {
 impl<'t> Cursor<'t> {
     /// Nothing in a comment.
     pub fn at(text: &'t str, offset: usize) -> Option<Cursor<'t>> {
-        let line = text.get(..offset)?.rfind('\n').map_or(0, |end| end + 1);
-        let within = within(&text[line..offset]);
+        let within = within(text.get(..offset)?, offset);
         let mut word = word_at(text, offset);
         let mut end = word.start;
         match within {
@@ -48,8 +55,8 @@ impl<'t> Cursor<'t> {
             Within::Comment => return None,
             Within::String(quote) => {
                 let rest = &text[offset..];
-                word = line + quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
-                end = line + quote;
+                word = quote + 1..offset + rest.find(['"', '\n', '\r']).unwrap_or(rest.len());
+                end = quote;
             }
         }
         let tokens = tokens(&text[..end]);
@@ -140,6 +147,35 @@ impl<'t> Cursor<'t> {
         None
     }
 
+    /// The unit that goes on at the cursor, behind a number or behind the `in` of what is printed. What a quotient of formulas is divided by
+    /// has a space before it.
+    pub fn unit(&self) -> Option<Begun> {
+        let tokens = self.declaration();
+        let mut at = tokens.len().checked_sub(1)?;
+        let is_apart = self.text[..self.word.start].ends_with(char::is_whitespace)
+            || self.text[..tokens[at].start].ends_with(char::is_whitespace);
+        let mut dimensions = Vec::new();
+        while matches!(tokens[at].text, "/" | "*") {
+            at = at.checked_sub(1)?;
+            if at > 1 && tokens[at - 1].text == "^" {
+                at -= 2;
+            }
+            match tokens[at].text {
+                // `in 1/s`
+                "1" => at = at.checked_sub(1)?,
+                unit => {
+                    dimensions.push(Unit::named(unit)?.dimension);
+                    at = at.checked_sub(1)?;
+                }
+            }
+        }
+        let is_printed = tokens[at].text == "in" && matches!(self.head(), "measure" | "trace" | "result");
+        let is_of_number = tokens[at].text.starts_with(|c: char| c.is_ascii_digit()) && self.last() == Some("/");
+        let begins =
+            !dimensions.is_empty() && (is_printed || is_of_number && !is_apart) || is_printed && at + 1 < tokens.len();
+        begins.then_some(Begun { dimensions })
+    }
+
     /// The names before the dot at the cursor, numbers in brackets left out; nothing where there is no dot.
     pub fn path(&self) -> Option<Vec<&'t str>> {
         let tokens = self.declaration();
@@ -184,31 +220,9 @@ impl<'t> Cursor<'t> {
     }
 }
 
-/// In what a line ends.
-#[derive(Clone, Copy)]
-enum Within {
-    Code,
-    Comment,
-    /// By the byte where it begins.
-    String(usize),
-}
-
-fn within(line: &str) -> Within {
-    let mut string = None;
-    for (at, c) in line.char_indices() {
-        match (c, string) {
-            ('"', None) => string = Some(at),
-            ('"', Some(_)) => string = None,
-            ('/', None) if line[at..].starts_with("//") => return Within::Comment,
-            _ => {}
-        }
-    }
-    string.map_or(Within::Code, Within::String)
-}
-
 /// The word that holds a place or touches it; digits before it are a number.
 pub(super) fn word_at(text: &str, offset: usize) -> Range<usize> {
-    let is_part = |c: &char| c.is_alphanumeric() || *c == '_';
+    let is_part = |c: &char| is_of_word(*c);
     let before = text[..offset].chars().rev().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let behind = text[offset..].chars().take_while(is_part).map(char::len_utf8).sum::<usize>();
     let digits = text[offset - before..offset].chars().take_while(char::is_ascii_digit).count();

@@ -10,8 +10,11 @@ use crate::syntax::ast::{ItemKind as Declared, Mechanism};
 use crate::vocabulary::KEYWORDS;
 use std::f64::consts::PI;
 
-/// In longer texts nothing is proposed: the text would have to be proven without the declaration at the cursor (bytes).
-const LONGEST: usize = 8_192;
+/// In longer texts no joints are proposed: the text would have to be checked without the declaration at the cursor (bytes).
+const LONGEST_CHECKED: usize = 65_536;
+
+/// In longer texts no drivers are proposed: that would have to be proven as well (bytes).
+const LONGEST_PROVEN: usize = 8_192;
 
 /// Points nearer to each other than this part of the drawing's size are meant to coincide.
 const NEAR: f64 = 0.02;
@@ -23,13 +26,14 @@ const MOST: usize = 8;
 pub(super) struct Whole {
     snapshot: Snapshot,
     place: Place,
+    is_quickly_proven: bool,
 }
 
 impl Whole {
     /// Nothing where the text is long.
     pub fn of(snapshot: &Snapshot, place: &Place, cursor: &Cursor<'_>) -> Option<Whole> {
         let text = cursor.text;
-        if text.len() > LONGEST {
+        if text.len() > LONGEST_CHECKED {
             return None;
         }
         let end = text[cursor.word.end..].find('\n').map_or(text.len(), |line| cursor.word.end + line);
@@ -38,7 +42,8 @@ impl Whole {
         let closes = text[cursor.word.end..end].contains('}') && cursor.start() == cursor.word.start;
         let whole = if closes { text.to_owned() } else { [&text[..cursor.start()], &gone, &text[end..]].concat() };
         let place = Place { offset: cursor.start() as u32, ..place.clone() };
-        Some(Whole { snapshot: snapshot.supposing(&place.path, whole.into()), place })
+        let is_quickly_proven = text.len() <= LONGEST_PROVEN;
+        Some(Whole { snapshot: snapshot.supposing(&place.path, whole.into()), place, is_quickly_proven })
     }
 
     fn with<T>(&self, act: impl FnOnce(&Checked) -> Option<T>) -> Option<T> {
@@ -53,7 +58,7 @@ impl Whole {
 
     /// What could be driven: the left side of an equation, with one that takes it from where it is.
     pub fn free(&self) -> Vec<(String, String)> {
-        free(&self.snapshot, &self.place).unwrap_or_default()
+        if self.is_quickly_proven { free(&self.snapshot, &self.place).unwrap_or_default() } else { Vec::new() }
     }
 }
 
@@ -68,9 +73,11 @@ fn touching(drawn: &Drawn, tree: &Mechanism) -> Vec<[String; 2]> {
         for b in points[k + 1..].iter().filter(|b| b.body != a.body) {
             let [x, y] = [0, 1].map(|k| a.at[k] - b.at[k]);
             let apart = (x * x + y * y).sqrt();
+            if apart > NEAR * size {
+                continue;
+            }
             let pair = [format!("{}.{}", a.body, a.name), format!("{}.{}", b.body, b.name)];
-            let is_held = held.iter().any(|joint| pair.iter().all(|point| joint.contains(point)));
-            if apart <= NEAR * size && !is_held {
+            if !held.iter().any(|joint| pair.iter().all(|point| joint.contains(point))) {
                 found.push((apart, pair));
             }
         }
@@ -94,16 +101,8 @@ pub(in crate::ide) fn free(snapshot: &Snapshot, place: &Place) -> Option<Vec<(St
         .position(|one| one.span().is_some_and(|span| (span.start..=span.end).contains(&place.offset)))?;
     let (checked, proven) = (analysed.mechanisms.get(at)?, snapshot.proven(&place.path)?);
     let drawn = checked.drawn()?;
-    let mut found = Vec::new();
-    for help in proven.get(at)?.said.iter().flat_map(|said| &said.help) {
-        for quoted in help.split('`').skip(1).step_by(2) {
-            let driven = quoted.strip_prefix("driver ").and_then(|rest| rest.split_once(": ")?.1.strip_suffix(" = …"));
-            if let Some(driven) = driven {
-                found.push((driven.to_owned(), formula(&drawn, driven)));
-            }
-        }
-    }
-    Some(found)
+    let driven = proven.get(at)?.said.iter().flat_map(|said| &said.drives);
+    Some(driven.map(|driven| (driven.clone(), formula(&drawn, driven))).collect())
 }
 
 /// A formula of time that begins where a quantity is drawn.

@@ -3,12 +3,14 @@
 use super::cursor::{Block, Cursor};
 use super::item::{Item, ItemKind, Template};
 use super::wanted::{Wanted, has_quantity};
+use super::{MOST, goes_with};
 use crate::check::{KnownMechanism, NameKind};
 use crate::ide::names::{declared_name, item_named, kind_of, known};
 use crate::source::Span;
 use crate::stages::Checked;
 use crate::syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName};
 use crate::vocabulary::CONSTANTS;
+use std::cell::Cell;
 
 /// A mechanism with its names.
 pub(super) struct Scope<'s> {
@@ -16,6 +18,36 @@ pub(super) struct Scope<'s> {
     pub tree: &'s Mechanism,
     /// Where the declaration around the cursor begins: it is not known in itself.
     pub declared_at: u32,
+    /// What is left out where there are very many names.
+    pub sieve: &'s Sieve<'s>,
+}
+
+/// Keeps very many names from taking long: those are left out that do not go with the letters typed, and the first ones alone described.
+pub(super) struct Sieve<'s> {
+    letters: Option<&'s str>,
+    described: Cell<usize>,
+}
+
+impl<'s> Sieve<'s> {
+    /// For a mechanism, with the letters typed.
+    pub fn of(tree: Option<&Mechanism>, letters: &'s str) -> Sieve<'s> {
+        let has_many = tree.is_some_and(|tree| tree.items.len() > MOST);
+        Sieve { letters: has_many.then_some(letters), described: Cell::new(0) }
+    }
+
+    /// Whether anything may have been left out.
+    pub fn is_needed(&self) -> bool {
+        self.letters.is_some()
+    }
+
+    fn lets_pass(&self, label: &str) -> bool {
+        self.letters.is_none_or(|letters| goes_with(label, letters))
+    }
+
+    fn is_described(&self) -> bool {
+        self.described.set(self.described.get() + 1);
+        self.letters.is_none() || self.described.get() <= MOST
+    }
 }
 
 /// What a path leads to.
@@ -68,14 +100,17 @@ impl Scope<'_> {
 
     /// A declared name with its declaration.
     fn named(&self, item: &Declaration, rank: u8) -> Option<Item> {
-        let name = declared_name(item)?;
+        let name = declared_name(item).filter(|name| self.sieve.lets_pass(&name.text))?;
         let kind = match kind_of(item) {
             NameKind::Function | NameKind::Table => ItemKind::Function,
             NameKind::Body | NameKind::Ground | NameKind::Part => ItemKind::Body,
             NameKind::Joint => ItemKind::DeclaredJoint,
             _ => ItemKind::Value,
         };
-        let mut found = Item::new(&name.text, kind, rank).detail(self.head(item)).docs(self.docs(item));
+        let mut found = Item::new(&name.text, kind, rank);
+        if self.sieve.is_described() {
+            found = found.detail(self.head(item)).docs(self.docs(item));
+        }
         if kind == ItemKind::Function {
             let argument = match &item.kind {
                 Declared::Function { argument, .. } => argument.text.as_str(),
@@ -104,9 +139,13 @@ impl Scope<'_> {
     }
 
     fn feature(&self, feature: &Feature, of: &str, rank: u8) -> Item {
+        let found = Item::new(&feature.name.text, ItemKind::Feature, rank);
+        if !self.sieve.is_described() {
+            return found;
+        }
         let text = self.text(feature.span);
         let docs = [feature.docs.join("\n"), format!("```mech\n{text}\n```")].join("\n\n").trim().to_owned();
-        Item::new(&feature.name.text, ItemKind::Feature, rank).detail(format!("{text}, of {of}")).docs(docs)
+        found.detail(format!("{text}, of {of}")).docs(docs)
     }
 
     /// Those of a body or the ground, by their paths; of a part its name.
@@ -123,10 +162,13 @@ impl Scope<'_> {
         let fitting = features(item).iter().filter(|feature| wanted.is(&feature.kind));
         let path = |feature: &Feature| {
             let label = format!("{owner}.{}", feature.name.text);
+            if !self.sieve.lets_pass(&label) {
+                return None;
+            }
             let marked = format!("{}.{}", with_indices(item, owner), feature.name.text);
-            Item { label, insert: Template::marked(&marked), ..self.feature(feature, owner, 1) }
+            Some(Item { label, insert: Template::marked(&marked), ..self.feature(feature, owner, 1) })
         };
-        fitting.map(path).collect()
+        fitting.filter_map(path).collect()
     }
 
     fn body(&self, item: &Declaration) -> Option<Item> {

@@ -8,7 +8,7 @@ use crate::ide::testing::{FOUR_BAR, TWO_FILES, at_cursor};
 #[track_caller]
 fn proposed(text: &str, count: usize) -> String {
     let (snapshot, place) = at_cursor(text);
-    let items = completions(&snapshot, &place).expect("a file");
+    let items = completions(&snapshot, &place).expect("a file").items;
     let line = |item: &super::Item| {
         let mut written = item.insert.text.clone();
         for hole in item.insert.holes.iter().rev() {
@@ -285,6 +285,39 @@ fn words_join_the_parts_of_declarations() {
     insta::assert_snapshot!(proposed(&with("from 0 s to 4 s every 0.1 s", "from 0 s $0"), 2), @"1 to — stands before the second point of an axis, and the last time of an analysis → to");
 }
 
+#[test]
+fn a_unit_goes_on_with_units_alone() {
+    let labels = |text: &str| {
+        let (snapshot, place) = at_cursor(text);
+        let items = completions(&snapshot, &place).expect("a file").items;
+        items.into_iter().map(|item| item.label).collect::<Vec<_>>().join(" ")
+    };
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/$0")), @"s ms us µs mm m cm um µm km in ft");
+    insta::assert_snapshot!(labels(&with("90 deg/s", "90 deg/s$0")), @"s ms us µs mm m cm um µm km in ft");
+    let measure = |rest: &str| labels(&with("    analysis", &format!("    measure v = {rest}$0\n    analysis")));
+    insta::assert_snapshot!(measure("der(x(crank.B)) in mm/"), @"s ms us µs deg rad mrad rev");
+    insta::assert_snapshot!(measure("der(angle(crank)) in 1/"), @"s ms us µs mm m cm um µm km in ft deg rad mrad rev");
+    insta::assert_snapshot!(measure("9.81 m/s^2/"), @"deg rad mrad rev");
+    // a quotient of formulas
+    assert!(measure("90 deg / ").contains("crank_length"));
+    assert!(measure("crank_length/").contains("crank_length"));
+}
+
+/// A text with so many bytes of comments that not everything would be quick in it.
+fn long(text: &str, bytes: usize) -> String {
+    format!("{text}{}", "// what was tried before\n".repeat(bytes / 25))
+}
+
+#[test]
+fn long_texts_know_joints_and_units_as_well() {
+    let joints = with("    joint pin:   revolute(crank.B, coupler.B)", "    joint pin: $0");
+    let best = |text: &str| proposed(text, 1);
+    assert_eq!(best(&long(&joints, 30_000)), best(&joints));
+    assert_ne!(best(&long(&joints, 70_000)), best(&joints), "beyond the limit");
+    let units = with("param crank_length = 30 mm", "param crank_length = 30 $0");
+    assert_eq!(best(&long(&units, 30_000)), best(&units));
+}
+
 /// The two files with another text for the part in the first one.
 fn parts(from: &str, to: &str) -> String {
     assert!(TWO_FILES.contains(from), "{from}");
@@ -316,7 +349,7 @@ fn parts_are_known_by_their_files() {
 fn letters_beyond_the_first_plane_are_parts_of_words() {
     let text = with(KNEE, "joint knee: revolute(𝛼𝛽$0γ, rocker.C)\n");
     let (snapshot, place) = at_cursor(&text);
-    let items = completions(&snapshot, &place).expect("a file");
+    let items = completions(&snapshot, &place).expect("a file").items;
     let text = text.replacen("$0", "", 1);
     let range = items[0].replaces.clone();
     assert_eq!(&text[range.start as usize..range.end as usize], "𝛼𝛽γ");
@@ -329,4 +362,21 @@ fn every_place_of_every_prefix_has_an_answer() {
         let (snapshot, place) = at_cursor(&text);
         assert!(completions(&snapshot, &place).is_some(), "{text}");
     }
+}
+
+#[test]
+fn of_very_many_names_those_come_that_go_with_the_letters() {
+    let params: String = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect();
+    let of = |letters: &str| {
+        let (snapshot, place) =
+            at_cursor(&format!("mechanism many {{\n{params}    measure most = 2 * {letters}$0\n}}"));
+        completions(&snapshot, &place).expect("a file")
+    };
+    let found = of("");
+    assert_eq!((found.items.len(), found.is_incomplete), (500, true));
+    let found = of("L77");
+    assert!(found.is_incomplete, "other letters go with other names");
+    let labels: Vec<&str> = found.items.iter().map(|item| item.label.as_str()).collect();
+    assert_eq!(labels.len(), labels.iter().filter(|label| label.matches('7').count() >= 2).count(), "{labels:?}");
+    assert!(labels.contains(&"length_1797") && found.items[0].docs.contains("param length_"), "{labels:?}");
 }

@@ -1,6 +1,6 @@
 //! The units behind a number: of the dimension that fits there first.
 
-use super::cursor::Cursor;
+use super::cursor::{Begun, Cursor};
 use super::item::{Item, ItemKind, Template};
 use super::wanted::{Wanted, wanted};
 use crate::diag::Severity;
@@ -11,7 +11,7 @@ use crate::vocabulary::{Dimension, UNITS, Unit};
 use std::sync::Arc;
 
 /// Longer texts are not checked with each dimension that a number could have (bytes).
-const LONGEST: usize = 8_192;
+const LONGEST: usize = 32_768;
 
 /// What is tried: the units in which drawings and drives are mostly written, which come first.
 const TRIED: &[(&str, Dimension)] = &[
@@ -50,6 +50,28 @@ pub(super) fn behind_number(snapshot: &Snapshot, place: &Place, cursor: &Cursor<
         let insert = Template::plain(format!("{space}{text}"));
         items.push(Item::new(*text, ItemKind::Unit, rank).detail(*meaning).inserts(insert));
     }
+    items.sort_by_key(|item| item.rank);
+    items
+}
+
+/// How a compound unit can go on, of which some is written: times first, since most are rates. What is a rate already, or of a dimension
+/// that the unit has, makes no sense there.
+pub(super) fn going_on(begun: &Begun) -> Vec<Item> {
+    let rank = |dimension: Dimension| match dimension {
+        it if begun.dimensions.iter().any(|known| known.is(it)) => None,
+        it if it.is(Dimension::TIME) => Some(1),
+        it if it.is(Dimension::LENGTH) => Some(2),
+        it if it.is(Dimension::PURE) => Some(3),
+        _ => None,
+    };
+    let mut items: Vec<Item> = UNITS
+        .iter()
+        .filter_map(|unit| {
+            let is_usual = TRIED.iter().any(|(usual, _)| *usual == unit.word.name);
+            let insert = Template::plain(unit.word.name);
+            Some(Item::word(&unit.word, 2 * rank(unit.dimension)? - u8::from(is_usual)).inserts(insert))
+        })
+        .collect();
     items.sort_by_key(|item| item.rank);
     items
 }

@@ -5,35 +5,19 @@ use crate::lsp::capabilities::Ability;
 use crate::lsp::convert::{Texts, markdown};
 use gen_lsp_types as lsp;
 
-/// More items than these nobody reads: of what goes with the letters typed the best are sent, and the client asks again for other letters.
-const MOST: usize = 500;
-
 pub(super) fn completion(texts: &Texts, params: &lsp::CompletionParams) -> Option<lsp::CompletionResponse> {
     let place = texts.place(&params.text_document_position_params)?;
-    let mut items = ide::completions(&texts.snapshot, &place)?;
-    let is_incomplete = items.len() > MOST;
-    if is_incomplete {
-        let begin = items.first().map_or(0, |item| item.replaces.start) as usize;
-        let parsed = texts.snapshot.parsed(&place.path)?;
-        let typed = parsed.sources().get(parsed.file()).text.get(begin..place.offset as usize).unwrap_or_default();
-        items.retain(|item| goes_with(&item.label, typed));
-        items.truncate(MOST);
-    }
+    let ide::Completions { items, is_incomplete } = ide::completions(&texts.snapshot, &place)?;
     // all of them replace the same
     let range = texts.range(&place.path, &items.first().map_or(0..0, |item| item.replaces.clone()))?;
     let items = items.into_iter().enumerate().map(|(number, item)| item_of(texts, number, item, range));
     let items: Vec<lsp::CompletionItem> = items.collect();
     Some(if is_incomplete {
+        // the client asks again for other letters
         lsp::CompletionList { is_incomplete, items, ..lsp::CompletionList::default() }.into()
     } else {
         items.into()
     })
-}
-
-/// Whether the letters typed are found in a label, in their order.
-fn goes_with(label: &str, typed: &str) -> bool {
-    let mut letters = label.chars().flat_map(char::to_lowercase);
-    typed.chars().flat_map(char::to_lowercase).all(|wanted| letters.any(|letter| letter == wanted))
 }
 
 fn item_of(texts: &Texts, number: usize, item: ide::Item, range: lsp::Range) -> lsp::CompletionItem {
@@ -95,14 +79,8 @@ fn kind(kind: ItemKind) -> lsp::CompletionItemKind {
 
 #[cfg(test)]
 mod tests {
-    use super::{goes_with, snippet};
+    use super::snippet;
     use crate::ide::Template;
-
-    #[test]
-    fn letters_typed_are_looked_for_in_their_order() {
-        assert!(goes_with("crank_length", "") && goes_with("crank_length", "cLe") && goes_with("Größe", "größ"));
-        assert!(!goes_with("crank_length", "lc") && !goes_with("A", "AA"));
-    }
 
     #[test]
     fn what_means_something_in_snippets_is_escaped() {
