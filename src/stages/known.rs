@@ -4,9 +4,9 @@ use super::{Assembly, Checked, Compiled};
 use crate::check::{self, Known, NameKind};
 use crate::expr::Symbol;
 use crate::lower;
+use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
-use crate::vocabulary::Dimension;
 
 /// A declaration that a path of names leads to, through parts and bodies.
 #[derive(Clone, PartialEq, Eq, Debug)]
