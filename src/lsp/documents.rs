@@ -148,17 +148,13 @@ impl Documents {
     /// Closes what was opened by a URI; gives its file, if nobody has that open any more.
     pub fn close(&mut self, uri: &str) -> Option<Arc<Path>> {
         let path = self.files.remove(uri)?;
-        match self.files.iter().find(|(_, other)| **other == path) {
-            Some((other, _)) => {
-                let document = self.open.get_mut(&path)?;
-                Arc::make_mut(document).uri.clone_from(other);
-                None
-            }
-            None => {
-                self.open.remove(&path);
-                Some(path)
-            }
+        if let Some((other, _)) = self.files.iter().find(|(_, other)| **other == path) {
+            let document = self.open.get_mut(&path)?;
+            Arc::make_mut(document).uri.clone_from(other);
+            return None;
         }
+        self.open.remove(&path);
+        Some(path)
     }
 
     pub fn paths(&self) -> impl Iterator<Item = &Arc<Path>> {

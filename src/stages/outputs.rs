@@ -14,7 +14,7 @@ impl Checked {
     /// Whether all that is known to be wrong with its text is in measures, traces, results and the analysis; in any of its mechanisms.
     #[must_use]
     pub fn is_sound_but_for_outputs(&self) -> bool {
-        !self.is_sound() && !self.wrong_outputs().unwrap_or_default().is_empty()
+        self.wrong_outputs().is_some()
     }
 
     /// The same without the outputs that are wrong, nor those that need them; every place is where it was. Nothing where anything else is
@@ -40,10 +40,11 @@ impl Checked {
         None
     }
 
-    /// The places of the outputs that are wrong; nothing where anything else is.
+    /// The places of the outputs that are wrong; nothing where anything else is, or nothing at all.
     fn wrong_outputs(&self) -> Option<BTreeSet<Span>> {
         let errors = self.diagnostics().iter().filter(|said| said.severity() == Severity::Error);
-        errors.map(|error| self.output_of(error)).collect()
+        let places: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
+        places.filter(|places| !places.is_empty())
     }
 
     /// The output that an error speaks of.
@@ -54,7 +55,7 @@ impl Checked {
         let holds = |item: &&Item| item.span.start <= place.start && place.end <= item.span.end;
         // what is missing at the end of a declaration is told at what comes next
         let is_of_syntax = self.parsed.faults().iter().any(|fault| fault == error);
-        let item = if is_of_syntax { items.filter(is_broken).last() } else { items.find(holds) }?;
+        let item = if is_of_syntax { items.rfind(is_broken) } else { items.find(holds) }?;
         self.is_output(item).then_some(item.span)
     }
 
@@ -69,7 +70,7 @@ impl Checked {
                 let is =
                     |word: &&str| text.strip_prefix(*word).is_some_and(|rest| rest.starts_with(char::is_whitespace));
                 // a brace may be that of another declaration
-                ["measure", "trace", "result", "analysis"].iter().any(|word| is(&word)) && !text.contains(['{', '}'])
+                ["measure", "trace", "result", "analysis"].iter().any(is) && !text.contains(['{', '}'])
             }
             _ => false,
         }

@@ -366,7 +366,7 @@ fn every_place_of_every_prefix_has_an_answer() {
 
 #[test]
 fn of_very_many_names_those_come_that_go_with_the_letters() {
-    let params: String = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect();
+    let params = (0..2_000).map(|k| format!("    param length_{k} = {k} mm\n")).collect::<Vec<_>>().concat();
     let of = |letters: &str| {
         let (snapshot, place) =
             at_cursor(&format!("mechanism many {{\n{params}    measure most = 2 * {letters}$0\n}}"));
