@@ -49,9 +49,9 @@ fuzz_target!(|bytes: &[u8]| {
         }
     }
     let fresh = opened(&path, &text);
-    let cancel = Cancel::default();
     for stage in [Stage::Words, Stage::Proof] {
-        let [own, other] = [&snapshot, &fresh].map(|snapshot| ide::diagnostics(snapshot, &path, stage, &cancel));
+        let of = |snapshot: &Snapshot| ide::diagnostics(snapshot, &path, stage, &Cancel::default);
+        let [own, other] = [&snapshot, &fresh].map(of);
         assert!(own == other, "{stage:?} of\n{text}\n{own:?}\n{other:?}");
     }
     assert!(ide::outline(&snapshot, &path) == ide::outline(&fresh, &path), "{text}");
