@@ -129,6 +129,7 @@ impl Picture<'_> {
             let origin = mover.origin;
             self.add_group(node, origin, &attributes, true);
         }
+        self.add_traces(motion);
         if self.options.labels {
             let some: Vec<&[Pose]> = motion.sampled(LABELLED_AT).map(|row| motion.poses(row)).collect();
             for label in self.labels(&some) {

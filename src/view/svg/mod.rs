@@ -45,7 +45,6 @@ pub struct Options {
 #[must_use]
 pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
     let mut picture = Picture::new(scene, motion, options);
-    picture.add_traces(motion);
     let count = moments.len();
     if count > 1 {
         picture.add_ground(moments.poses(0));
@@ -53,6 +52,7 @@ pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options
     for row in 0..count {
         picture.add_moment(moments, row, [row + 1 == count, count == 1]);
     }
+    picture.add_traces(motion);
     if options.vectors && count > 0 {
         picture.add_vectors(moments, motion);
     }
@@ -69,7 +69,6 @@ pub fn animated(scene: &Scene, motion: &Motion, options: &Options) -> String {
         return still(scene, motion, motion, options);
     }
     let mut picture = Picture::new(scene, motion, options);
-    picture.add_traces(motion);
     picture.add_motion(motion);
     picture.finish()
 }
