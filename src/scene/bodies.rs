@@ -3,7 +3,7 @@
 use super::Look;
 use super::drawing::{DOT, Drawing, Layer, Outline, shape};
 use super::plane::{Path, Vector, around, distance, hull};
-use super::symbols::{BAR, Symbols};
+use super::symbols::{BAR, SLOTTED_BAR, Symbols};
 
 /// Places of a body that are nearer to each other than this, in units, are one.
 const NEAR: f64 = 0.02;
@@ -35,7 +35,10 @@ pub(super) fn draw(drawing: &mut Drawing) {
             }
             corners if !corners.is_empty() && is_covered(outline, corners) => continue,
             [] => vec![Symbols { unit: drawing.unit }.cross()],
-            corners => vec![shape(Look::Link, around(corners, BAR * drawing.unit))],
+            corners => {
+                let reach = if outline.is_slotted { SLOTTED_BAR } else { BAR };
+                vec![shape(Look::Link, around(corners, reach * drawing.unit))]
+            }
         };
         drawing.add_fixed(Layer::Bodies, frame, frame, shapes);
     }

@@ -42,6 +42,8 @@ pub(super) struct Outline {
     pub places: Vec<Vector>,
     /// Whether something else shows the body, if it is no more than a place.
     pub is_shown: bool,
+    /// Whether there is a slot in it, for which it has to be wider.
+    pub is_slotted: bool,
     /// Discs that are drawn of it, with their centres and radii (m): what lies in one of them needs no link.
     pub discs: Vec<(Vector, f64)>,
 }

@@ -176,7 +176,9 @@ pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointI
         let hatching = symbols.hatching(plus(from, down), plus(to, down));
         drawing.add_fixed(Layer::Ground, declaration, 0, vec![hatching, stadium]);
     } else {
-        drawing.outlines[line.frame].places.extend(ends);
+        let outline = &mut drawing.outlines[line.frame];
+        outline.places.extend(ends);
+        outline.is_slotted = true;
         drawing.add_fixed(Layer::Slots, declaration, line.frame, vec![stadium]);
     }
     if pin.frame == 0 {

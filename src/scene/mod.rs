@@ -10,6 +10,7 @@
 //! ```
 
 mod bodies;
+mod catalogue;
 mod contacts;
 mod drawing;
 mod drivers;
@@ -24,6 +25,7 @@ mod sizes;
 mod symbols;
 mod teeth;
 
+pub use catalogue::catalogue;
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{

@@ -11,7 +11,7 @@ mod picture;
 mod style;
 mod vectors;
 
-use crate::scene::{Anchor, Motion, Scene};
+use crate::scene::{Anchor, Motion, Scene, Vector};
 use picture::Picture;
 
 /// Which colours are used.
@@ -39,6 +39,8 @@ pub struct Options {
     pub vectors: bool,
     /// The names of bodies and pins.
     pub labels: bool,
+    /// Words below places (m).
+    pub captions: Vec<(Vector, String)>,
 }
 
 /// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.

@@ -111,7 +111,7 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += ".ghost{opacity:.3}\n";
     }
     if !used.vectors.is_empty() {
-        rules += &format!(".vector{{stroke-width:{}}}\n", width(1.2));
+        rules += &format!(".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n", width(1.2));
     }
     rules
 }
