@@ -423,7 +423,7 @@ pub(super) struct ViewArguments {
     #[arg(long)]
     pub labels: bool,
 
-    /// Width and height in pixels: `--size 1280x720`; 800 wide and as high as it takes if not given
+    /// Width and height in pixels: `--size 1280x720`; 800 wide at most, and as high as it takes, if not given
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
 

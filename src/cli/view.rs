@@ -7,6 +7,7 @@ use super::input;
 use super::report::Reporter;
 use super::times::Bounds;
 use super::timings::Timings;
+use crate::analysis::Times;
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::scene::{Anchor, Motion, Scene};
 use crate::stages::{Checked, Compiled, RunOptions};
@@ -48,7 +49,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let (text, stopped) = match listed {
         None => (svg::animated(&seen.scene, &seen.motion, &pictured), seen.stopped),
         Some(times) => {
-            let (motion, stopped) = moments((checked, compiled), &times, &options, reporter)?;
+            let (motion, stopped) = moments((checked, compiled), &times, &options)?;
             (svg::still(&seen.scene, &seen.motion, &motion, &pictured), stopped)
         }
     };
@@ -60,14 +61,12 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
 /// The moments that are asked for, and why the last of them are missing, if they are.
 fn moments(
     (checked, compiled): (&Checked, &Compiled),
-    times: &crate::analysis::Times,
+    times: &Times,
     options: &RunOptions,
-    reporter: &Reporter,
 ) -> Result<(Motion, Option<Diagnostic>), Failure> {
+    // what there is to remark has been said of the whole motion
     let (found, said) = checked.moments(compiled, times, options);
     let Some((motion, stopped)) = found else { return Err(said.into()) };
-    // the same has been said of the whole motion
-    let _ = (said, reporter);
     match stopped {
         Some(why) if motion.is_empty() => Err(why.into()),
         stopped => Ok((motion, stopped)),
@@ -115,7 +114,9 @@ fn output(arguments: &ViewArguments) -> Result<&str, Failure> {
 
 /// What is drawn, by the ending of a file.
 fn form(output: &str) -> Result<Form, Failure> {
-    if output == "-" {
+    // standard output, a pipe, a device
+    let is_special = || Path::new(output).metadata().is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if output == "-" || is_special() {
         return Ok(Form::Svg);
     }
     let ending = Path::new(output).extension().map(|ending| ending.to_string_lossy().to_lowercase());

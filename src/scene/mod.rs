@@ -24,6 +24,7 @@ mod plane;
 mod sizes;
 mod symbols;
 mod teeth;
+mod whole;
 
 pub use catalogue::catalogue;
 pub use features::drawn_poses;
@@ -66,7 +67,7 @@ impl Scene {
     /// What there is to draw of a mechanism that moves so; the motion has one row at least.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        drawing::scene(model, motion)
+        whole::scene(model, motion)
     }
 
     /// The point of a path such as `crank.pin`.

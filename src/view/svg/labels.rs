@@ -3,7 +3,7 @@
 
 use super::nodes::PIXELS;
 use super::picture::Picture;
-use crate::scene::{Anchor, Look, Place, Pose, Vector, bounds, distance, plus, times};
+use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
 use unicode_width::UnicodeWidthChar;
 
@@ -151,7 +151,8 @@ impl Picture<'_> {
                 named.push((Anchor { frame, at }, cut(self.name(node.declaration)), true));
             }
         }
-        for point in scene.points.iter().filter(|point| point.is_pin) {
+        let shown = scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
+        for point in shown {
             let own = point.name.rsplit('.').next().unwrap_or(&point.name);
             named.push((Anchor { frame: point.frame, at: point.at }, cut(own), false));
         }
@@ -165,7 +166,7 @@ impl Picture<'_> {
         for node in &self.scene.nodes {
             for shape in &node.shapes {
                 match (&shape.path, shape.look) {
-                    (crate::scene::Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
+                    (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
                     (path, Look::Arrow | Look::ArrowHead | Look::Support) => {
                         taken.extend(path.places().into_iter().map(|at| (node.place, at)));
                     }

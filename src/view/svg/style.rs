@@ -45,7 +45,7 @@ const LIGHT: Palette = Palette {
     ink: "#1d2a36",
     quiet: "#6b7785",
     ground: "#e2e7ec",
-    driven: "#0b6e4f",
+    driven: "#0d5fb3",
     tints: ["#bcd9f5", "#ffd3a1", "#c4e6bd", "#f6c3cb", "#d9cdf2", "#f5e79e", "#b9e6e4", "#e3d0bd"],
     traces: ["#c2185b", "#1565c0", "#6a1b9a", "#b45309"],
     velocity: "#0a7d34",
@@ -57,7 +57,7 @@ const DARK: Palette = Palette {
     ink: "#e8eef4",
     quiet: "#8b98a6",
     ground: "#2b3641",
-    driven: "#5fd3a8",
+    driven: "#7ab8ff",
     tints: ["#2b5782", "#80551f", "#35703c", "#833b49", "#584687", "#766620", "#2a6f6d", "#66503c"],
     traces: ["#ff6fa5", "#6db3ff", "#c99bff", "#ffb454"],
     velocity: "#5bd98a",
@@ -103,7 +103,7 @@ fn shapes(used: &Used, strong: f64) -> String {
     if let Some(size) = used.labels {
         rules += &format!(
             "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
-             .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n",
+             .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n.legend{{text-anchor:start}}\n",
             number(size, 1)
         );
     }
