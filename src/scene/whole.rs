@@ -147,4 +147,3 @@ fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
     let margin = [0.5 * unit; 2];
     all.map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
 }
-

@@ -12,7 +12,7 @@ const SIZES: [f64; 2] = [13.0, 18.0];
 /// Of letters, as a part of the picture's shorter side.
 const SIZE: f64 = 1.0 / 42.0;
 /// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
-const COLUMN: f64 = 0.62;
+const COLUMN: f64 = 0.66;
 /// Longer names are cut.
 const LONGEST: usize = 32;
 /// More names than this are not looked at.
@@ -74,9 +74,8 @@ impl Picture<'_> {
     /// The names with their places, which hold at all of some moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
         let size = self.letters();
-        let placed = |anchor: &Anchor| -> Vec<Vector> {
-            moments.iter().map(|poses| self.anchored(anchor, poses)).collect()
-        };
+        let placed =
+            |anchor: &Anchor| -> Vec<Vector> { moments.iter().map(|poses| self.anchored(anchor, poses)).collect() };
         let pins: Vec<Vec<Vector>> = self
             .pins()
             .iter()
@@ -84,7 +83,8 @@ impl Picture<'_> {
             .collect();
         let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
         for (anchor, text, is_body) in self.named() {
-            let half = [0.5 * COLUMN * size * columns(&text) as f64 + 2.0, 0.6 * size + 1.0];
+            let wide = (COLUMN * columns(&text) as f64).max(1.0);
+            let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
             let at = placed(&anchor);
             // the same name at the same place is that of a pin that bodies share
             let is_told = |(known, places): &(Label, Vec<Vector>)| {

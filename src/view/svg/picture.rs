@@ -49,7 +49,18 @@ impl<'s> Picture<'s> {
         let scale = if options.size.is_some() { fitting } else { fitting.min(largest) };
         let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
         let (used, rules, body) = (Used::default(), String::new(), String::new());
-        Picture { scene, options, size, scale, middle, used, rules, body, tracks: 0, ids: rustc_hash::FxHashSet::default() }
+        Picture {
+            scene,
+            options,
+            size,
+            scale,
+            middle,
+            used,
+            rules,
+            body,
+            tracks: 0,
+            ids: rustc_hash::FxHashSet::default(),
+        }
     }
 
     /// Where a place is in the picture.
