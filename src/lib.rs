@@ -50,11 +50,13 @@ mod math;
 mod model;
 mod output;
 mod program;
+mod scene;
 mod solver;
 mod source;
 mod stages;
 mod structure;
 mod syntax;
+mod view;
 mod vocabulary;
 mod world;
 
@@ -66,7 +68,8 @@ pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, imported, seconds,
+    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, imported,
+    seconds,
 };
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};
@@ -92,8 +95,10 @@ pub mod rooms {
     pub mod math { pub use crate::math::*; }
     pub mod model { pub use crate::model::*; }
     pub mod program { pub use crate::program::*; }
+    pub mod scene { pub use crate::scene::*; }
     pub mod solver { pub use crate::solver::*; }
     pub mod structure { pub use crate::structure::*; }
     pub mod syntax { pub use crate::syntax::*; }
+    pub mod view { pub use crate::view::*; }
     pub mod vocabulary { pub use crate::vocabulary::*; }
 }

@@ -1,0 +1,160 @@
+//! Velocities and accelerations at the pins, as arrows.
+
+use super::keyframes::{Key, Track};
+use super::nodes::PIXELS;
+use super::picture::Picture;
+use crate::scene::{Motion, Point, Pose, Vector, direction, length, minus, plus, times};
+use crate::view::text::{escaped, number};
+
+/// How long the longest arrow of a kind is, as a part of the picture's shorter side.
+const LONGEST: f64 = 0.2;
+/// What is shorter than this (px) is not drawn.
+const LEAST: f64 = 2.0;
+/// The head of an arrow: its length and half its width (px), at most.
+const HEAD: [f64; 2] = [9.0, 3.4];
+/// From this length on (px) an arrow has a whole head.
+const FULL_HEAD_AT: f64 = 18.0;
+/// Where the legend begins, and how long its arrows are (px).
+const LEGEND: f64 = 12.0;
+const LEGEND_ARROW: f64 = 26.0;
+
+/// What is drawn as arrows: its word, and what it is of a point in a row.
+type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
+
+const KINDS: [Kind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
+
+impl<'s> Picture<'s> {
+    /// At the last of some moments; arrows are to scale with the longest of the whole motion.
+    pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
+        let row = moments.len() - 1;
+        for (word, of) in KINDS {
+            let Some(scale) = self.scaled([moments, motion], (word, of)) else { continue };
+            for pin in self.free_pins(moments.poses(row)) {
+                let from = self.placed(moments.poses(row)[pin.frame].placed(pin.at));
+                let [x, y] = times(scale, of(moments, row, pin));
+                self.add_vector(word, &pin.name, from, [x, -y]);
+            }
+        }
+    }
+
+    /// At all times: the line and the head of each arrow are on tracks of their own.
+    pub fn add_moving_vectors(&mut self, motion: &Motion) {
+        for (word, of) in KINDS {
+            let Some(scale) = self.scaled([motion, motion], (word, of)) else { continue };
+            for pin in self.free_pins(motion.poses(0)) {
+                let ways: Vec<[Vector; 2]> = (0..motion.len())
+                    .map(|row| {
+                        let [x, y] = times(scale, of(motion, row, pin));
+                        [self.placed(motion.poses(row)[pin.frame].placed(pin.at)), [x, -y]]
+                    })
+                    .collect();
+                if ways.iter().all(|[_, way]| length(*way) < LEAST) {
+                    continue;
+                }
+                self.used.vectors.insert(word);
+                let turn = |way: Vector| direction(way).to_degrees();
+                let line =
+                    |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
+                let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
+                let head = |[from, way]: &[Vector; 2]| Key {
+                    at: plus(*from, *way),
+                    turn: turn(*way),
+                    stretch: [size(*way); 2],
+                };
+                let [long, wide] = HEAD;
+                let name = escaped(&pin.name).into_owned();
+                let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], &motion.times, false);
+                let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], &motion.times, false);
+                for (track, d) in
+                    [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))]
+                {
+                    let attributes = self.add_track(&track);
+                    self.body +=
+                        &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
+                }
+            }
+        }
+    }
+
+    /// Pixels of one unit, by the longest arrow of two motions, which a legend tells; nothing where all are at rest.
+    fn scaled(&mut self, motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
+        let scene = self.scene;
+        let pins = || scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
+        let all = motions.into_iter().flat_map(|motion| {
+            motion.sampled(200).flat_map(move |row| pins().map(move |pin| length(of(motion, row, pin))))
+        });
+        let longest = all.filter(|way| way.is_finite()).fold(0.0, f64::max);
+        if longest <= 0.0 {
+            return None;
+        }
+        let (unit, line) = if word == "velocity" { ("m/s", 1.0) } else { ("m/s²", 0.0) };
+        let size = self.letters();
+        let [x, y] = [LEGEND, self.size[1] - 0.6 * size - line * 1.3 * size];
+        self.add_vector(word, word, [x, y - 0.35 * size], [LEGEND_ARROW, 0.0]);
+        self.used.labels = Some(size);
+        self.body += &format!(
+            "<text class=\"legend\" x=\"{}\" y=\"{}\">{word}, at most {} {unit}</text>\n",
+            number(x + LEGEND_ARROW + 6.0, PIXELS),
+            number(y, PIXELS),
+            three_digits(longest)
+        );
+        Some(LONGEST * self.size[0].min(self.size[1]) / longest)
+    }
+
+    /// The pins of bodies; of those that bodies share one.
+    fn free_pins(&self, poses: &[Pose]) -> Vec<&'s Point> {
+        let mut taken: Vec<Vector> = Vec::new();
+        let scene = self.scene;
+        let pins = scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
+        pins.filter(|pin| {
+            let at = self.placed(poses[pin.frame].placed(pin.at));
+            let is_free = taken.iter().all(|known| length(minus(*known, at)) >= 0.5);
+            taken.extend(is_free.then_some(at));
+            is_free
+        })
+        .collect()
+    }
+
+    fn add_vector(&mut self, word: &'static str, name: &str, from: Vector, way: Vector) {
+        let far = length(way);
+        if far < LEAST {
+            return;
+        }
+        self.used.vectors.insert(word);
+        let along = times(1.0 / far, way);
+        let [long, wide] = HEAD.map(|part| part * (far / FULL_HEAD_AT).min(1.0));
+        let tip = plus(from, way);
+        let base = minus(tip, times(long, along));
+        let side = times(wide, [-along[1], along[0]]);
+        let pair = |[x, y]: Vector| format!("{} {}", number(x, PIXELS), number(y, PIXELS));
+        self.body += &format!(
+            "<path class=\"vector {word}\" data-name=\"{}\" d=\"M{}L{}M{}L{}L{}Z\"/>\n",
+            escaped(name),
+            pair(from),
+            pair(base),
+            pair(tip),
+            pair(plus(base, side)),
+            pair(minus(base, side)),
+        );
+    }
+}
+
+/// A number with three digits that count.
+fn three_digits(value: f64) -> String {
+    match value {
+        _ if !(1e-3..1e6).contains(&value) => format!("{value:.2e}"),
+        _ if value >= 100.0 => number(value, 0),
+        _ if value >= 10.0 => number(value, 1),
+        _ if value >= 1.0 => number(value, 2),
+        _ => number(value, 5),
+    }
+}
+
+fn velocity(motion: &Motion, row: usize, point: &Point) -> Vector {
+    motion.rates(row)[point.frame].velocity(&motion.poses(row)[point.frame], point.at)
+}
+
+fn acceleration(motion: &Motion, row: usize, point: &Point) -> Vector {
+    let (pose, rate) = (&motion.poses(row)[point.frame], &motion.rates(row)[point.frame]);
+    motion.accelerations(row)[point.frame].acceleration(rate, pose, point.at)
+}
