@@ -248,7 +248,7 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
         ...more,
     });
     const gaps = (values: Float64Array) => Array.from(values, (value) => (Number.isFinite(value) ? value : null));
-    const drawn: uPlot.Series = { stroke: colour("--curve"), width: 2, points: { show: false } };
+    const drawn: uPlot.Series = { stroke: colour("--curve"), width: 2, pxAlign: 0, points: { show: false } };
     const options: uPlot.Options = {
         ...size,
         padding: [line * 0.6, line * 0.9, 0, 0],

@@ -5,6 +5,7 @@ import { html, svg } from "../elements.ts";
 import type { Moment, Pair } from "../motion/motion.ts";
 import type { Camera } from "./camera.ts";
 import type { Drawing } from "./drawing.ts";
+import type { Command } from "./path.ts";
 import { figures, placed, stretched, type Figure } from "./figures.ts";
 
 interface Style {
@@ -12,19 +13,26 @@ interface Style {
     stroke: string | undefined;
     width: number;
     dash: number[];
+    /** What is left of it for the smallest shapes. */
+    spot?: Style;
 }
 
 interface Drawn {
     figure: Figure;
-    shapes: { path: Path2D; look: string }[];
+    shapes: { path: Path2D; look: string; reach: number }[];
+    /** How its shapes are drawn, looked up once; none since looks or sizes changed. */
+    dress: { mark: string; styles: Style[] } | undefined;
 }
+
+/** What reaches less far is a spot of one colour (pixels). */
+const SPOT = 4;
 
 /** Pixels of the screen in one of the picture's, at the most: more cost time that nobody sees. */
 const SHARPEST = 2;
 
 export class CanvasDrawing implements Drawing {
     readonly element = html("canvas", { class: "mechanism", "aria-hidden": "true" });
-    private readonly context = this.element.getContext("2d")!;
+    private readonly context = this.element.getContext("2d", { willReadFrequently: true })!;
     private readonly drawn: Drawn[];
     private readonly styles = new Map<string, Style>();
     private lit: ReadonlySet<number> = new Set();
@@ -34,16 +42,23 @@ export class CanvasDrawing implements Drawing {
 
     constructor(scene: Scene, camera: Camera) {
         this.drawn = figures(scene, camera).map((figure) => {
-            return { figure, shapes: figure.shapes.map(({ look, d }) => ({ path: new Path2D(d), look })) };
+            const shapes = figure.shapes.map(({ look, d, path }) => ({ path: new Path2D(d), look, reach: reach(path) }));
+            return { figure, shapes, dress: undefined };
         });
-        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.styles.clear());
+        matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.forget());
     }
 
     look(camera: Camera): void {
         this.sharp = Math.min(devicePixelRatio, SHARPEST);
         this.element.width = Math.round(camera.width * this.sharp);
         this.element.height = Math.round(camera.height * this.sharp);
+        this.forget();
+    }
+
+    /** Looks or sizes are others. */
+    private forget(): void {
         this.styles.clear();
+        for (const one of this.drawn) one.dress = undefined;
     }
 
     draw(moment: Moment, camera: Camera): void {
@@ -86,7 +101,8 @@ export class CanvasDrawing implements Drawing {
         const pixels = camera.pixels * this.sharp;
         let last: Style | undefined;
         for (let k = 0; k < this.drawn.length; k++) {
-            const { figure, shapes } = this.drawn[k]!;
+            const one = this.drawn[k]!;
+            const { figure, shapes } = one;
             const [cos, sin, x, y] = placed(figure, moment, camera);
             const [c, s] = [pixels * cos, pixels * sin];
             const matrix = (this.places[k] ??= [0, 0, 0, 0, 0, 0]);
@@ -98,9 +114,10 @@ export class CanvasDrawing implements Drawing {
             matrix[5] = top * this.sharp - pixels * y;
             context.setTransform(c, -s, -s, -c, matrix[4], matrix[5]);
             const mark = this.lit.has(figure.node.declaration) ? " lit" : this.wrong.has(figure.node.declaration) ? " wrong" : "";
+            const dress = one.dress?.mark === mark ? one.dress : (one.dress = this.dressed(one, mark, pixels));
             for (let n = 0; n < shapes.length; n++) {
                 const shape = shapes[n]!;
-                const style = this.style(shape.look, figure.tint, mark);
+                const style = dress.styles[n]!;
                 if (style !== last) {
                     if (style.fill) context.fillStyle = style.fill;
                     if (style.stroke) context.strokeStyle = style.stroke;
@@ -115,6 +132,14 @@ export class CanvasDrawing implements Drawing {
         }
     }
 
+    private dressed({ figure, shapes }: Drawn, mark: string, pixels: number): NonNullable<Drawn["dress"]> {
+        const styles = shapes.map(({ look, reach }) => {
+            const style = this.style(look, figure.tint, mark);
+            return style.fill && style.stroke && reach * pixels < SPOT * this.sharp ? (style.spot ??= spotOf(style)) : style;
+        });
+        return { mark, styles };
+    }
+
     /** What the style sheet says of a look. */
     private style(look: string, tint: string, mark: string): Style {
         const key = `${look} ${tint}${mark}`;
@@ -125,6 +150,15 @@ export class CanvasDrawing implements Drawing {
         }
         return style;
     }
+}
+
+function spotOf({ stroke, width, dash }: Style): Style {
+    return { fill: stroke, stroke: undefined, width, dash };
+}
+
+/** How far a path reaches from its origin, but for what arcs reach beyond their ends. */
+function reach(path: Command[]): number {
+    return Math.max(0, ...path.map(([, ...n]) => (n.length < 2 ? 0 : Math.hypot(n[n.length - 2]!, n[n.length - 1]!))));
 }
 
 function read(beside: Element, look: string, node: string): Style {
