@@ -50,6 +50,7 @@ mod math;
 mod model;
 mod output;
 mod program;
+mod scene;
 mod solver;
 mod source;
 mod stages;
@@ -66,7 +67,8 @@ pub use emit::{File, LARGEST_STRAIGHT, MARK};
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
-    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, imported, seconds,
+    Assembly, Checked, Choice, Compiled, Formula, Parsed, Redundant, Run, RunOptions, RustOptions, Seen, imported,
+    seconds,
 };
 pub use syntax::{Comment, Trivia};
 pub use vocabulary::{Category, Word, words};
@@ -92,6 +94,7 @@ pub mod rooms {
     pub mod math { pub use crate::math::*; }
     pub mod model { pub use crate::model::*; }
     pub mod program { pub use crate::program::*; }
+    pub mod scene { pub use crate::scene::*; }
     pub mod solver { pub use crate::solver::*; }
     pub mod structure { pub use crate::structure::*; }
     pub mod syntax { pub use crate::syntax::*; }

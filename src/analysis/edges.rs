@@ -487,6 +487,9 @@ impl Motion {
                 Err(Box::new(errors::velocity_jump(system, &behind, column, velocities, t)))
             }
             Jump::Acceleration => {
+                if let Some(edges) = &mut self.edges {
+                    edges.push(t);
+                }
                 if behind.iter().any(|&declaration| !self.warned[declaration]) {
                     for &declaration in &behind {
                         self.warned[declaration] = true;

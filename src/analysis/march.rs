@@ -93,6 +93,8 @@ pub struct Motion {
     /// Declarations of which it has been said that they make an acceleration jump.
     pub(super) warned: Vec<bool>,
     pub(super) remarks: Diagnostics,
+    /// Times at which accelerations have jumped (s), if anybody asks for them.
+    pub(super) edges: Option<Vec<f64>>,
     /// Whether to go on beyond bifurcations.
     pub(super) pass: bool,
     /// The last state that was clear of singular positions.
@@ -161,6 +163,7 @@ impl Motion {
             hardest: 0.0,
             warned: vec![false; kinematics.system().declarations.len()],
             remarks: Diagnostics::default(),
+            edges: None,
             trial: state.clone(),
             pass: false,
             clear: state.clone(),
@@ -232,6 +235,20 @@ impl Motion {
             Fault::Rim => self.cross_rim(),
             fault => self.shorten(h, fault, target),
         }
+    }
+
+    /// From now on it remembers at which times accelerations jump.
+    pub fn keep_edges(&mut self) {
+        self.edges.get_or_insert_default();
+    }
+
+    /// These times (s), ascending, each once.
+    #[must_use]
+    pub fn edges(&self) -> Vec<f64> {
+        let mut edges = self.edges.clone().unwrap_or_default();
+        edges.sort_by(f64::total_cmp);
+        edges.dedup();
+        edges
     }
 
     /// What there is to say beside the rows so far, each thing once.

@@ -5,7 +5,7 @@ use super::{Checker, errors};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::model::{
     Analysis, Condition, ConditionKind, Declared, Dimension, Equation, EquationForm, Measure, Named, PointId, Quantity,
-    Units,
+    Trace, Units,
 };
 use crate::source::Span;
 use crate::syntax::ast::{Expr, ExprKind, ItemKind, Name, WrittenUnit};
@@ -65,9 +65,11 @@ impl Checker<'_> {
     /// The path of a point, as two measures.
     fn trace(&mut self, name: &Name, point: &Expr, unit: Option<&WrittenUnit>) {
         let conditions = self.model.conditions.len();
+        let mut fixed = None;
         let coordinates = match &point.bare().kind {
             ExprKind::Tuple(parts) => self.coordinates_of_trace(point, parts),
             _ => self.point(point).map(|point| {
+                fixed = Some(point);
                 [Quantity::X(None, point), Quantity::Y(None, point)]
                     .map(|quantity| self.name_symbol(Named::Quantity(self.part, quantity), 0))
             }),
@@ -75,6 +77,8 @@ impl Checker<'_> {
         let asked = self.asked_at_times(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
+            let (declared, measure) = (self.declared(name), self.model.measures.len());
+            self.model.traces.push(Trace { declared, part: self.part, point: fixed, measure });
             for (part, value) in ["x", "y"].into_iter().zip(coordinates) {
                 let declared = Declared { name: format!("{}{}.{part}", self.path, name.text), span: name.span };
                 let (conditions, units) = (asked.clone(), units.clone());

@@ -120,42 +120,21 @@ fn places(model: &Mechanism, value: &impl Fn(ExprId) -> f64, uses: Option<&Uses>
     let counts = |list: fn(&Uses) -> &[bool], k: usize| uses.is_none_or(|uses| list(uses)[k]);
     let mut points: FxHashMap<Frame, Vec<[f64; 2]>> = FxHashMap::default();
     for (_, point) in model.points.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.points, *k)) {
-        let (frame, place) = in_carrier(model, value, point.frame, point.at.map(value));
+        let (frame, place) = model.in_carrier(value, point.frame, point.at.map(value));
         points.entry(frame).or_default().push(place);
     }
     for (_, circle) in model.circles.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.circles, *k)) {
-        let (frame, [x, y]) = in_carrier(model, value, circle.frame, model[circle.center].at.map(value));
+        let (frame, [x, y]) = model.in_carrier(value, circle.frame, model[circle.center].at.map(value));
         let radius = value(circle.radius);
         let ends = [[x + radius, y], [x - radius, y], [x, y + radius], [x, y - radius]];
         points.entry(frame).or_default().extend(ends);
     }
     for (_, curve) in model.curves.iter().enumerate().filter(|(k, _)| counts(|uses| &uses.curves, *k)) {
         let frame = model.carrier(curve.frame);
-        let in_carrier = places_on(model, curve).map(|place| in_carrier(model, value, curve.frame, place).1);
+        let in_carrier = places_on(model, curve).map(|place| model.in_carrier(value, curve.frame, place).1);
         points.entry(frame).or_default().extend(in_carrier);
     }
     points
-}
-
-/// A place in a frame (m), in the frame of the body that carries it, or in the ground's.
-fn in_carrier(
-    model: &Mechanism,
-    value: &impl Fn(ExprId) -> f64,
-    mut frame: Frame,
-    [mut x, mut y]: [f64; 2],
-) -> (Frame, [f64; 2]) {
-    let mut is_mirrored = model.is_mirrored(model.part_of(frame));
-    while let Frame::Part(part) = frame {
-        let part = &model[part];
-        if is_mirrored != model.is_mirrored(part.within) {
-            (y, is_mirrored) = (-y, !is_mirrored);
-        }
-        let [x0, y0, phi] = part.pose.map(value);
-        let (sin, cos) = crate::math::sin_cos(phi);
-        [x, y] = [x0 + x * cos - y * sin, y0 + x * sin + y * cos];
-        frame = part.mount;
-    }
-    (frame, [x, if is_mirrored { -y } else { y }])
 }
 
 /// Some places on a curve (m), over one turn of its argument.

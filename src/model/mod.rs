@@ -120,6 +120,8 @@ pub struct Mechanism {
     pub equations: Vec<Equation>,
     /// In order of declaration.
     pub measures: Vec<Measure>,
+    /// Traces, each of which is two of the measures, in order of declaration.
+    pub traces: Vec<Trace>,
     /// Results, in order of declaration.
     pub outcomes: Vec<Outcome>,
     /// What they ask of the whole analysis, by the number of its symbol.
@@ -157,6 +159,7 @@ impl Mechanism {
             joints: Vec::new(),
             equations: Vec::new(),
             measures: Vec::new(),
+            traces: Vec::new(),
             outcomes: Vec::new(),
             reductions: Vec::new(),
             named_before_results: 0,
@@ -693,6 +696,19 @@ pub struct Measure {
     pub conditions: Vec<Condition>,
     /// In what it is printed.
     pub units: Units,
+}
+
+/// The path of a point: two measures, `NAME.x` and `NAME.y`.
+#[derive(Clone, Debug)]
+pub struct Trace {
+    /// Its name.
+    pub declared: Declared,
+    /// The part in whose text it is declared, and in whose frame its measures are.
+    pub part: Option<PartId>,
+    /// The point, if it is one that is fixed to a frame.
+    pub point: Option<PointId>,
+    /// The place of its first measure among the measures.
+    pub measure: usize,
 }
 
 /// The units of a measure and of its derivatives.

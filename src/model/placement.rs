@@ -1,7 +1,7 @@
 //! Frames in frames: where a point of one is in another, and what becomes of left and right.
 
 use super::{Frame, Mechanism, PartId};
-use crate::expr::{ExprId, Graph, Unary};
+use crate::expr::{ExprId, Graph, Unary, unary_value};
 
 /// A frame in another one.
 #[derive(Clone, Copy, Debug)]
@@ -66,6 +66,27 @@ impl Placement {
 }
 
 impl Mechanism {
+    /// A place in a frame (m), in the frame of the body that carries it, or in the ground's, as tables have these.
+    pub fn in_carrier(
+        &self,
+        value: &impl Fn(ExprId) -> f64,
+        mut frame: Frame,
+        [mut x, mut y]: [f64; 2],
+    ) -> (Frame, [f64; 2]) {
+        let mut is_mirrored = self.is_mirrored(self.part_of(frame));
+        while let Frame::Part(part) = frame {
+            let part = &self[part];
+            if is_mirrored != self.is_mirrored(part.within) {
+                (y, is_mirrored) = (-y, !is_mirrored);
+            }
+            let [x0, y0, phi] = part.pose.map(value);
+            let (sin, cos) = (unary_value(Unary::Sin, phi), unary_value(Unary::Cos, phi));
+            [x, y] = [x0 + x * cos - y * sin, y0 + x * sin + y * cos];
+            frame = part.mount;
+        }
+        (frame, [x, if is_mirrored { -y } else { y }])
+    }
+
     /// Where a frame is drawn, in the frame of a part, or of the ground, that it stands in: by the poses as written. `formula` carries a
     /// formula of the mechanism over into the graph.
     #[must_use]

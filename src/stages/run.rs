@@ -238,6 +238,17 @@ impl Run {
         Some(Answers { values, notes })
     }
 
+    /// From now on it remembers at which times accelerations jump.
+    pub fn keep_edges(&mut self) {
+        self.motion.keep_edges();
+    }
+
+    /// The times (s) at which accelerations have jumped, or have been seen to jump behind the last row; ascending.
+    #[must_use]
+    pub fn edges(&self) -> Vec<f64> {
+        self.motion.edges()
+    }
+
     /// What there is to say beside the rows so far, each thing once.
     pub fn take_remarks(&mut self) -> Diagnostics {
         self.used_at.told(self.motion.take_remarks())

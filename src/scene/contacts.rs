@@ -1,0 +1,158 @@
+//! Cams and what runs on them.
+
+use super::drawing::{Drawing, Layer, shape};
+use super::plane::{Path, Vector, distance, dot, minus, plus, times};
+use super::symbols::PIN;
+use super::{Anchor, Look, Shape};
+use crate::model::{AxisId, PointId, Profile};
+
+/// A face goes on so far behind the contact, in units.
+const BEYOND: f64 = 1.0;
+/// What a line may be off from the profile that it shows, in units.
+const OFF: f64 = 0.008;
+
+pub(super) fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, profile: Profile) {
+    let declaration = drawing.first.joints + number;
+    let used = arguments(drawing, number, "u");
+    shown_profile(drawing, profile, used, false);
+    let at = drawing.features.point(p);
+    let point = drawing.shown(&[p]);
+    let tip = Shape { path: Path::Circle { at: at.at, radius: PIN * drawing.unit }, look: Look::Roller, point };
+    drawing.add_fixed(Layer::Pins, declaration, at.frame, vec![tip]);
+    drawing.outlines[at.frame].is_shown = true;
+}
+
+pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
+    let used = ["u", "w"].map(|part| arguments(drawing, number, part));
+    // of two discs the smaller one is the roller
+    let radius = |profile: Profile| match profile {
+        Profile::Circle(circle) => drawing.features.circle(circle).radius,
+        Profile::Curve(_) => f64::INFINITY,
+    };
+    let (of_k, of_m) = (radius(k), radius(m));
+    shown_profile(drawing, k, used[0], of_k.is_finite() && of_k < of_m);
+    shown_profile(drawing, m, used[1], of_m.is_finite() && of_m <= of_k);
+}
+
+pub(super) fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profile, face: AxisId) {
+    let declaration = drawing.first.joints + number;
+    shown_profile(drawing, profile, arguments(drawing, number, "u"), false);
+    let line = drawing.features.axis(face);
+    let contact = drawing.own_coordinate(number, "u");
+    let on_face = |row: usize| {
+        let place = drawing.features.on_profile(profile, contact.as_ref().map_or(f64::NAN, |u| u[row]));
+        dot(line.along, minus(drawing.seen(place, line.frame, row), line.at))
+    };
+    let [low, high] = drawing.range(on_face);
+    let [low, high] = if low <= high { [low.min(0.0), high.max(0.0)] } else { [0.0, 0.0] };
+    let beyond = BEYOND * drawing.unit;
+    let ends = [low - beyond, high + beyond].map(|along| plus(line.at, times(along, line.along)));
+    let bar = shape(Look::Face, Path::line(ends));
+    if line.frame == 0 {
+        drawing.add_fixed(Layer::Ground, declaration, 0, vec![bar]);
+    } else {
+        drawing.add_fixed(Layer::Blocks, declaration, line.frame, vec![bar]);
+        drawing.outlines[line.frame].is_shown = true;
+    }
+}
+
+/// The arguments that a contact has on its way.
+fn arguments(drawing: &Drawing, number: usize, part: &str) -> Option<[f64; 2]> {
+    let values = drawing.own_coordinate(number, part)?;
+    let [low, high] = drawing.range(|row| values[row]);
+    (low <= high).then_some([low, high])
+}
+
+/// A cam, filled if it is closed and on a body; a line otherwise. Each profile is drawn once.
+fn shown_profile(drawing: &mut Drawing, profile: Profile, used: Option<[f64; 2]>, is_roller: bool) {
+    let before = drawing.profiles.len();
+    let number = drawing.profile(profile, used);
+    if number < before {
+        return;
+    }
+    let known = &drawing.profiles[number];
+    let (frame, is_closed) = (known.frame, known.is_closed);
+    let declaration = if frame > 0 { frame } else { known.declaration };
+    let is_filled = is_closed && frame > 0;
+    let look = if is_roller {
+        Look::Roller
+    } else if is_filled {
+        Look::Cam
+    } else {
+        Look::Track
+    };
+    let path = match profile {
+        Profile::Circle(circle) => {
+            let disc = drawing.features.circle(circle);
+            Path::Circle { at: disc.center.at, radius: disc.radius }
+        }
+        Profile::Curve(_) => {
+            let places: Vec<Vector> = known.samples.iter().map(|sample| sample.at).collect();
+            let kept = simplified(&places, OFF * drawing.unit);
+            if is_closed { Path::polygon(kept.into_iter().skip(1)) } else { Path::line(kept) }
+        }
+    };
+    drawing.outlines[frame].is_shown |= is_filled || is_roller;
+    let layer = if frame == 0 { Layer::Ground } else { Layer::Wheels };
+    let mut shapes = vec![shape(look, path)];
+    if let Profile::Circle(circle) = profile
+        && frame > 0
+    {
+        let disc = drawing.features.circle(circle);
+        shapes.push(center_mark(disc.center, disc.radius.min(drawing.unit)));
+    }
+    drawing.add_fixed(layer, declaration, frame, shapes);
+}
+
+/// The centre of a disc, so that it is seen to turn.
+fn center_mark(center: Anchor, size: f64) -> Shape {
+    let half = 0.35 * size;
+    let [x, y] = center.at;
+    shape(Look::Pitch, Path::strokes([[[x - half, y], [x + half, y]], [[x, y - half], [x, y + half]]]))
+}
+
+/// A polygon with fewer corners, off from the given one by no more than so much.
+pub(super) fn simplified(places: &[Vector], off: f64) -> Vec<Vector> {
+    if places.len() < 3 {
+        return places.to_vec();
+    }
+    let mut is_kept = vec![false; places.len()];
+    let last = places.len() - 1;
+    (is_kept[0], is_kept[last]) = (true, true);
+    let mut open = vec![(0, last)];
+    while let Some((from, to)) = open.pop() {
+        let farthest = (from + 1..to).map(|k| (from_segment(places[k], places[from], places[to]), k));
+        if let Some((away, k)) = farthest.max_by(|a, b| a.0.total_cmp(&b.0))
+            && away > off
+        {
+            is_kept[k] = true;
+            open.extend([(from, k), (k, to)]);
+        }
+    }
+    places.iter().zip(is_kept).filter(|(_, is_kept)| *is_kept).map(|(place, _)| *place).collect()
+}
+
+/// How far a place is from a segment.
+fn from_segment(place: Vector, from: Vector, to: Vector) -> f64 {
+    let way = minus(to, from);
+    let square = dot(way, way);
+    let part = if square > 0.0 { (dot(minus(place, from), way) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(place, plus(from, times(part, way)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polygon_keeps_what_matters() {
+        let circle: Vec<Vector> = (0..=360).map(|k| super::super::polar(1.0, f64::from(k).to_radians())).collect();
+        let kept = simplified(&circle, 1e-3);
+        assert!(kept.len() < 90, "{} corners", kept.len());
+        for place in &circle {
+            let nearest =
+                kept.windows(2).map(|pair| from_segment(*place, pair[0], pair[1])).fold(f64::INFINITY, f64::min);
+            assert!(nearest <= 1e-3);
+        }
+    }
+}

@@ -1,0 +1,370 @@
+//! What there is to draw of a mechanism: its bodies as links, its joints and drivers as symbols in the manner of ISO 3952, wheels with
+//! teeth that mesh, cams, traces. Everything that is drawn knows its declaration.
+//!
+//! Lengths are metres and directions those of frames; nothing here knows a pixel, a colour or a file. A [`Scene`] is made once, from the
+//! checked mechanism and its whole [`Motion`]: that decides how large symbols are, how long guides and slots have to be, and which way
+//! arrows point. A moment is then nothing but the poses of all frames.
+//!
+//! ```text
+//! Mechanism, Motion ──▶ Scene ──view──▶ pictures and pages
+//! ```
+
+mod bodies;
+mod contacts;
+mod drawing;
+mod drivers;
+mod features;
+mod gears;
+mod guides;
+mod joints;
+mod motion;
+mod pins;
+mod plane;
+mod sizes;
+mod symbols;
+mod teeth;
+
+pub use features::drawn_poses;
+pub use motion::Motion;
+pub use plane::{
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, is_finite, left, length, minus,
+    plus, polar, times, unit,
+};
+
+use crate::model::Mechanism;
+use crate::source::Span;
+
+/// All that there is to draw.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// The mechanism's name.
+    pub name: String,
+    /// The text of its `///` lines.
+    pub docs: Vec<String>,
+    /// All that can be pointed at.
+    pub declarations: Vec<Declaration>,
+    /// The declaration of each frame: the ground, then the bodies in their order. What is the ground in a part is folded into what
+    /// carries the part.
+    pub frames: Vec<usize>,
+    /// Points that have a name.
+    pub points: Vec<Point>,
+    /// From the one that is drawn first, below all others, to the last.
+    pub nodes: Vec<Node>,
+    /// Paths of points that the text asks for.
+    pub traces: Vec<Trace>,
+    /// Lines that contacts run along.
+    pub profiles: Vec<Profile>,
+    /// The size of symbols (m): a pin is a little smaller, a block a little larger.
+    pub unit: f64,
+    /// The least and the greatest coordinates of all that is drawn along the motion (m).
+    pub extent: [Vector; 2],
+}
+
+impl Scene {
+    /// What there is to draw of a mechanism that moves so; the motion has one row at least.
+    #[must_use]
+    pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
+        drawing::scene(model, motion)
+    }
+
+    /// The point of a path such as `crank.pin`.
+    #[must_use]
+    pub fn point_named(&self, path: &str) -> Option<&Point> {
+        self.points.iter().find(|point| point.name == path)
+    }
+}
+
+/// Something of the text.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Declaration {
+    /// Its path.
+    pub name: String,
+    /// The word of the language: `body`, `joint`, `driver`, `constraint`, `measure`, `trace`, `point`, …
+    pub kind: &'static str,
+    /// Its place: that of its name, unless more is known.
+    pub span: Span,
+}
+
+/// A point of a frame that has a name.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Point {
+    /// Which declaration it is.
+    pub declaration: usize,
+    /// Its path, `crank.pin`.
+    pub name: String,
+    /// The number of its frame.
+    pub frame: usize,
+    /// In that frame (m).
+    pub at: Vector,
+    /// Whether a joint takes hold there.
+    pub is_pin: bool,
+}
+
+/// A place in a frame.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Anchor {
+    /// The number of the frame.
+    pub frame: usize,
+    /// In the frame (m).
+    pub at: Vector,
+}
+
+impl Anchor {
+    /// Where it is at a moment (m).
+    #[must_use]
+    pub fn placed(&self, poses: &[Pose]) -> Vector {
+        poses[self.frame].placed(self.at)
+    }
+}
+
+/// What is drawn of a declaration in one place.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Node {
+    /// Whose it is.
+    pub declaration: usize,
+    /// What its shapes move with.
+    pub place: Place,
+    /// From the first to the last that is drawn.
+    pub shapes: Vec<Shape>,
+}
+
+/// What shapes move with.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Place {
+    /// They are in the frame's own coordinates.
+    Fixed(usize),
+    /// They keep the ground's directions, around a place.
+    Upright(Anchor),
+    /// x runs from one place to another, y to the left of that way.
+    Between {
+        /// The one.
+        from: Anchor,
+        /// The other.
+        to: Anchor,
+        /// What happens where the two come nearer.
+        held: Held,
+    },
+}
+
+/// Which end a shape between two places is held at.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Held {
+    /// Its origin is where the way begins.
+    From,
+    /// Its origin is where the way ends.
+    To,
+    /// It is stretched along the way, whose length is 1 to it; across it keeps its size (m).
+    Stretched,
+}
+
+impl Place {
+    /// Where its shapes are at a moment, and by what x is stretched.
+    #[must_use]
+    pub fn pose(&self, poses: &[Pose]) -> (Pose, f64) {
+        match self {
+            Place::Fixed(frame) => (poses[*frame], 1.0),
+            Place::Upright(anchor) => (Pose { at: anchor.placed(poses), phi: 0.0 }, 1.0),
+            Place::Between { from, to, held } => {
+                let (start, end) = (from.placed(poses), to.placed(poses));
+                let way = minus(end, start);
+                let pose = Pose { at: if *held == Held::To { end } else { start }, phi: direction(way) };
+                (pose, if *held == Held::Stretched { length(way) } else { 1.0 })
+            }
+        }
+    }
+}
+
+/// A path and what it stands for.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Shape {
+    /// In metres.
+    pub path: Path,
+    /// What it stands for.
+    pub look: Look,
+    /// The point that it shows, by its number.
+    pub point: Option<usize>,
+}
+
+/// What a shape stands for, which decides how it is drawn.
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash, Debug)]
+pub enum Look {
+    /// A body.
+    Link,
+    /// A body of which nothing is known but its frame.
+    Cross,
+    /// A bar that is no body of its own.
+    MasslessLink,
+    /// Of a driven distance: the cylinder, and its rod.
+    Cylinder,
+    /// The rod in a cylinder.
+    Rod,
+    /// Bodies can turn about it.
+    Pin,
+    /// What holds a pin on the ground.
+    Support,
+    /// The edge of the ground.
+    GroundLine,
+    /// What tells the ground from bodies.
+    Hatching,
+    /// A line that something slides along.
+    Guide,
+    /// What slides.
+    Block,
+    /// What holds a bar that slides.
+    Sleeve,
+    /// A slot in a body or in the ground.
+    Slot,
+    /// Bodies are fixed to each other.
+    Weld,
+    /// A wheel with teeth, or a ring.
+    Gear,
+    /// A circle or line on which wheels roll.
+    Pitch,
+    /// A straight row of teeth.
+    Rack,
+    /// What a contact runs along, filled.
+    Cam,
+    /// What a contact runs along, as a line.
+    Track,
+    /// What runs on a cam.
+    Roller,
+    /// A flat face on a cam.
+    Face,
+    /// A spring.
+    Spring,
+    /// What a driver does: the line of an arrow.
+    Arrow,
+    /// The head of an arrow.
+    ArrowHead,
+}
+
+impl Look {
+    /// All of them.
+    pub const ALL: [Look; 24] = [
+        Look::Link,
+        Look::Cross,
+        Look::MasslessLink,
+        Look::Cylinder,
+        Look::Rod,
+        Look::Pin,
+        Look::Support,
+        Look::GroundLine,
+        Look::Hatching,
+        Look::Guide,
+        Look::Block,
+        Look::Sleeve,
+        Look::Slot,
+        Look::Weld,
+        Look::Gear,
+        Look::Pitch,
+        Look::Rack,
+        Look::Cam,
+        Look::Track,
+        Look::Roller,
+        Look::Face,
+        Look::Spring,
+        Look::Arrow,
+        Look::ArrowHead,
+    ];
+
+    /// A word for it, of small letters and hyphens.
+    #[must_use]
+    pub fn word(self) -> &'static str {
+        match self {
+            Look::Link => "link",
+            Look::Cross => "cross",
+            Look::MasslessLink => "massless",
+            Look::Cylinder => "cylinder",
+            Look::Rod => "rod",
+            Look::Pin => "pin",
+            Look::Support => "support",
+            Look::GroundLine => "ground-line",
+            Look::Hatching => "hatching",
+            Look::Guide => "guide",
+            Look::Block => "block",
+            Look::Sleeve => "sleeve",
+            Look::Slot => "slot",
+            Look::Weld => "weld",
+            Look::Gear => "gear",
+            Look::Pitch => "pitch",
+            Look::Rack => "rack",
+            Look::Cam => "cam",
+            Look::Track => "track",
+            Look::Roller => "roller",
+            Look::Face => "face",
+            Look::Spring => "spring",
+            Look::Arrow => "arrow",
+            Look::ArrowHead => "arrow-head",
+        }
+    }
+}
+
+/// The path of a point that the text asks for.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Trace {
+    /// Which declaration it is.
+    pub declaration: usize,
+    /// What draws it.
+    pub pen: Pen,
+}
+
+/// What draws a trace.
+#[derive(Clone, PartialEq, Debug)]
+pub enum Pen {
+    /// A point of a frame.
+    Point(Anchor),
+    /// Two formulas, whose values are the columns `NAME.x` and `NAME.y` of the table, in SI.
+    Columns {
+        /// The trace's path, `NAME`.
+        name: String,
+        /// What their frame is fixed to.
+        frame: usize,
+        /// Where their frame is in that one.
+        pose: Pose,
+        /// Whether their y axis points to the right of their x axis.
+        is_mirrored: bool,
+    },
+}
+
+impl Trace {
+    /// Its places (m), row by row; where there is none, coordinates are not finite.
+    #[must_use]
+    pub fn path(&self, motion: &Motion) -> Vec<Vector> {
+        match &self.pen {
+            Pen::Point(anchor) => motion.path(anchor.frame, anchor.at).collect(),
+            Pen::Columns { name, frame, pose, is_mirrored } => {
+                let columns = ["x", "y"].map(|part| motion.column(&format!("{name}.{part}")));
+                let [Some(x), Some(y)] = columns else { return Vec::new() };
+                let placed = |(row, (x, y)): (usize, (f64, f64))| {
+                    let local = pose.placed([x, if *is_mirrored { -y } else { y }]);
+                    motion.poses(row)[*frame].placed(local)
+                };
+                x.zip(y).enumerate().map(placed).collect()
+            }
+        }
+    }
+}
+
+/// A line that contacts run along.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Profile {
+    /// Which declaration it is: the curve or circle.
+    pub declaration: usize,
+    /// The number of its frame.
+    pub frame: usize,
+    /// Whether it ends where it begins.
+    pub is_closed: bool,
+    /// Places on it, by rising argument.
+    pub samples: Vec<Sample>,
+}
+
+/// A place on a profile.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Sample {
+    /// The argument.
+    pub u: f64,
+    /// In the frame (m).
+    pub at: Vector,
+    /// How that changes with the argument (m).
+    pub tangent: Vector,
+}

@@ -1,0 +1,225 @@
+//! Where all frames are, row by row and between the rows.
+
+use super::plane::{Pose, Vector, plus, times};
+use rustc_hash::FxHashMap;
+
+/// The poses of all frames at some times, with their first and second derivatives, and what else a picture asks of the table.
+#[derive(Clone, Debug, Default)]
+pub struct Motion {
+    /// When (s), ascending.
+    pub times: Vec<f64>,
+    /// Times at which accelerations may jump (s), ascending.
+    pub edges: Vec<f64>,
+    frames: usize,
+    /// Row by row, the ground first.
+    poses: Vec<Pose>,
+    rates: Vec<Pose>,
+    accelerations: Vec<Pose>,
+    /// Row by row, all columns, in SI.
+    rows: Vec<Vec<f64>>,
+    columns: FxHashMap<String, usize>,
+}
+
+impl Motion {
+    /// That of a table, whose bodies are the frames behind the ground, in order. Its columns begin with `t` and three for each body; those
+    /// of velocities and accelerations are found by their names.
+    #[must_use]
+    pub fn of_rows(bodies: usize, columns: &[String], rows: Vec<Vec<f64>>, edges: Vec<f64>) -> Motion {
+        let named: FxHashMap<String, usize> = columns.iter().cloned().enumerate().map(|(k, name)| (name, k)).collect();
+        let column =
+            |k: usize, order: &str| columns.get(k).and_then(|name| named.get(&format!("{name}{order}"))).copied();
+        let placed = |order: &str| -> Vec<Option<[usize; 3]>> {
+            let of_body = |body: usize| {
+                let [x, y, phi] = [1, 2, 3].map(|part| column(3 * body + part, order));
+                Some([x?, y?, phi?])
+            };
+            (0..bodies).map(of_body).collect()
+        };
+        let poses_of = |order: &str| {
+            let places = placed(order);
+            let mut poses = Vec::with_capacity(rows.len() * (bodies + 1));
+            for row in &rows {
+                poses.push(Pose::default());
+                poses.extend(places.iter().map(|place| match place {
+                    Some([x, y, phi]) => Pose { at: [row[*x], row[*y]], phi: row[*phi] },
+                    None => Pose::default(),
+                }));
+            }
+            poses
+        };
+        let times = rows.iter().map(|row| row[0]).collect();
+        let (poses, rates, accelerations) = (poses_of(""), poses_of(".d"), poses_of(".dd"));
+        Motion { times, edges, frames: bodies + 1, poses, rates, accelerations, rows, columns: named }
+    }
+
+    /// A single moment without velocities, as a mechanism is drawn.
+    #[must_use]
+    pub fn still(poses: Vec<Pose>) -> Motion {
+        let rest = vec![Pose::default(); poses.len()];
+        let (rates, accelerations) = (rest.clone(), rest);
+        Motion { times: vec![0.0], frames: poses.len(), poses, rates, accelerations, ..Motion::default() }
+    }
+
+    /// How many rows there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.times.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.times.is_empty()
+    }
+
+    /// How many frames there are, the ground among them.
+    #[must_use]
+    pub fn frames(&self) -> usize {
+        self.frames
+    }
+
+    /// The poses of all frames in a row.
+    #[must_use]
+    pub fn poses(&self, row: usize) -> &[Pose] {
+        &self.poses[row * self.frames..][..self.frames]
+    }
+
+    /// Their velocities [m/s, rad/s].
+    #[must_use]
+    pub fn rates(&self, row: usize) -> &[Pose] {
+        &self.rates[row * self.frames..][..self.frames]
+    }
+
+    /// Their accelerations [m/s², rad/s²].
+    #[must_use]
+    pub fn accelerations(&self, row: usize) -> &[Pose] {
+        &self.accelerations[row * self.frames..][..self.frames]
+    }
+
+    /// A column by its name, row by row; nothing where the table has none of that name.
+    #[must_use]
+    pub fn column<'m>(&'m self, name: &str) -> Option<impl Iterator<Item = f64> + use<'m>> {
+        let column = *self.columns.get(name)?;
+        Some(self.rows.iter().map(move |row| row[column]))
+    }
+
+    /// The rows of the table, all columns in SI; none of a still.
+    #[must_use]
+    pub fn rows(&self) -> &[Vec<f64>] {
+        &self.rows
+    }
+
+    /// At most so many rows, evenly spread, the first and the last among them.
+    pub fn sampled(&self, most: usize) -> impl Iterator<Item = usize> + use<> {
+        let (count, last) = (self.len().min(most.max(1)), self.len().saturating_sub(1));
+        (0..count).map(move |k| if count == 1 { 0 } else { k * last / (count - 1) })
+    }
+
+    /// The path of a point of a frame, row by row.
+    pub fn path(&self, frame: usize, at: Vector) -> impl Iterator<Item = Vector> + '_ {
+        (0..self.len()).map(move |row| self.poses(row)[frame].placed(at))
+    }
+
+    /// The row at a time (s), or the last before it.
+    #[must_use]
+    pub fn row_at(&self, t: f64) -> usize {
+        self.times.partition_point(|&known| known <= t).saturating_sub(1)
+    }
+
+    /// Where all frames are at a time (s): between rows on the quintic through both, which is not drawn across an edge.
+    pub fn write_poses(&self, t: f64, poses: &mut Vec<Pose>) {
+        poses.clear();
+        let row = self.row_at(t);
+        let Some(&begin) = self.times.get(row) else { return };
+        let Some(&end) = self.times.get(row + 1).filter(|_| t > begin) else {
+            poses.extend_from_slice(self.poses(row));
+            return;
+        };
+        let h = end - begin;
+        let edge = self.edges.iter().find(|&&edge| begin < edge && edge < end);
+        for frame in 0..self.frames {
+            let from = [self.poses(row)[frame], self.rates(row)[frame], self.accelerations(row)[frame]];
+            let to = [self.poses(row + 1)[frame], self.rates(row + 1)[frame], self.accelerations(row + 1)[frame]];
+            poses.push(match edge {
+                None => quintic(from, to, h, (t - begin) / h),
+                // from either side as its row tells it
+                Some(&edge) if t <= edge => taylor(from, t - begin),
+                Some(_) => taylor(to, t - end),
+            });
+        }
+    }
+}
+
+/// A pose so much time (s) later, by its velocity and acceleration.
+fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> Pose {
+    let along = |q: f64, qd: f64, qdd: f64| q + h * (qd + 0.5 * h * qdd);
+    let at = plus(pose.at, times(h, plus(rate.at, times(0.5 * h, acceleration.at))));
+    Pose { at, phi: along(pose.phi, rate.phi, acceleration.phi) }
+}
+
+/// The quintic through two poses with velocities and accelerations, `h` (s) apart, at a part of the way.
+fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> Pose {
+    let coordinate = |of: fn(&Pose) -> f64| {
+        let [p0, p1] = [of(&from[0]), of(&to[0])];
+        let [v0, v1] = [h * of(&from[1]), h * of(&to[1])];
+        let [a0, a1] = [0.5 * h * h * of(&from[2]), 0.5 * h * h * of(&to[2])];
+        let [d, dv] = [p1 - p0 - v0 - a0, v1 - v0 - 2.0 * a0];
+        let da = a1 - a0;
+        let (c3, c4, c5) = (10.0 * d - 4.0 * dv + da, -15.0 * d + 7.0 * dv - 2.0 * da, 6.0 * d - 3.0 * dv + da);
+        p0 + part * (v0 + part * (a0 + part * (c3 + part * (c4 + part * c5))))
+    };
+    Pose { at: [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1])], phi: coordinate(|pose| pose.phi) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Motion, Pose};
+
+    fn names() -> Vec<String> {
+        ["t", "b.x", "b.y", "b.phi", "m", "b.x.d", "b.y.d", "b.phi.d", "b.x.dd", "b.y.dd", "b.phi.dd"]
+            .map(str::to_owned)
+            .to_vec()
+    }
+
+    /// x = t⁵, y = t², phi = 3t.
+    fn row(t: f64) -> Vec<f64> {
+        let t3 = t * t * t;
+        vec![t, t3 * t * t, t * t, 3.0 * t, 0.0, 5.0 * t3 * t, 2.0 * t, 3.0, 20.0 * t3, 2.0, 0.0]
+    }
+
+    #[test]
+    fn between_rows_a_motion_is_the_quintic_through_both() {
+        let motion = Motion::of_rows(1, &names(), vec![row(0.0), row(1.0), row(3.0)], Vec::new());
+        let mut poses = Vec::new();
+        for t in [0.0, 0.25, 1.0, 1.7, 3.0] {
+            motion.write_poses(t, &mut poses);
+            let wanted = row(t);
+            let Pose { at: [x, y], phi } = poses[1];
+            for (found, wanted) in [x, y, phi].into_iter().zip(&wanted[1..4]) {
+                assert!((found - wanted).abs() < 1e-9, "{found} at {t}, not {wanted}");
+            }
+        }
+        assert_eq!(motion.column("m").map(Iterator::count), Some(3));
+        assert!(motion.column("none").is_none());
+    }
+
+    #[test]
+    fn nothing_is_drawn_across_an_edge() {
+        // at rest until 0.5, and at once with a constant acceleration behind that
+        let late = vec![1.0, 0.125, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0];
+        let motion = Motion::of_rows(1, &names(), vec![vec![0.0; 11], late], vec![0.5]);
+        let mut poses = Vec::new();
+        for (t, x) in [(0.4, 0.0), (0.5, 0.0), (0.75, 0.03125)] {
+            motion.write_poses(t, &mut poses);
+            assert!((poses[1].at[0] - x).abs() < 1e-12, "{} at {t}", poses[1].at[0]);
+        }
+    }
+
+    #[test]
+    fn samples_hold_both_ends() {
+        let motion = Motion::of_rows(1, &names(), (0..10).map(|k| row(f64::from(k))).collect(), Vec::new());
+        assert_eq!(motion.sampled(4).collect::<Vec<_>>(), [0, 3, 6, 9]);
+        assert_eq!(motion.sampled(99).count(), 10);
+        assert_eq!(motion.sampled(1).collect::<Vec<_>>(), [0]);
+    }
+}
