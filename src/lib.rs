@@ -56,6 +56,7 @@ mod source;
 mod stages;
 mod structure;
 mod syntax;
+mod view;
 mod vocabulary;
 mod world;
 
@@ -98,5 +99,6 @@ pub mod rooms {
     pub mod solver { pub use crate::solver::*; }
     pub mod structure { pub use crate::structure::*; }
     pub mod syntax { pub use crate::syntax::*; }
+    pub mod view { pub use crate::view::*; }
     pub mod vocabulary { pub use crate::vocabulary::*; }
 }

@@ -68,6 +68,22 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
+    /// The mechanism as a picture, still or moving
+    #[command(
+        long_about = "The mechanism as a picture, still or moving.\n\n\
+        Bodies are drawn as links, joints and drivers as symbols in the manner of ISO 3952, wheels with teeth that mesh; symbols are as \
+        large as the extent of the whole motion asks for. Traces of the file are drawn, and those of `--trace`.\n\n\
+        Without --at, OUT.svg moves, over and over, without a script: as a picture of a README or a slide. One run takes 6 s; a motion \
+        that does not end as it begins goes to and fro. With --at, it shows the mechanism at that time; with several, all of them, the \
+        last one strong and the others pale.\n\n\
+        The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
+        cannot go on, the picture shows it up to there, and the exit code is 3.",
+        after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
+        mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
+        mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
+        mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms"
+    )]
+    View(ViewArguments),
     /// Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON
     #[command(
         long_about = "Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON.\n\n\
@@ -318,6 +334,22 @@ pub(super) enum Stage {
     Ir,
 }
 
+/// When an analysis begins and ends, over what the file says.
+#[derive(Args, Debug, Default)]
+pub(super) struct Interval {
+    /// First time, in seconds or with a unit
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub from: Option<String>,
+
+    /// Last time
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub to: Option<String>,
+
+    /// Step from one output time to the next
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub every: Option<String>,
+}
+
 #[derive(Args, Debug)]
 pub(super) struct RunArguments {
     #[command(flatten)]
@@ -335,17 +367,8 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "OUT.json")]
     pub results: Option<String>,
 
-    /// First time, in seconds or with a unit
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub from: Option<String>,
-
-    /// Last time
-    #[arg(long, value_name = "T", allow_hyphen_values = true)]
-    pub to: Option<String>,
-
-    /// Step from one output time to the next
-    #[arg(long, value_name = "H", allow_hyphen_values = true)]
-    pub every: Option<String>,
+    #[command(flatten)]
+    pub interval: Interval,
 
     /// Only this time, followed from the start of the analysis. Repeatable
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -370,6 +393,75 @@ pub(super) struct RunArguments {
     /// Print to standard error where the time went
     #[arg(long)]
     pub timings: bool,
+}
+
+#[derive(Args, Debug)]
+pub(super) struct ViewArguments {
+    #[command(flatten)]
+    pub input: Input,
+
+    /// Where the picture goes; its ending says what is drawn (.svg)
+    #[arg(short, long, value_name = "OUT")]
+    pub output: Option<String>,
+
+    /// The mechanism at this time, in seconds or with a unit. Repeatable
+    #[arg(long, value_name = "T", allow_hyphen_values = true)]
+    pub at: Vec<String>,
+
+    #[command(flatten)]
+    pub interval: Interval,
+
+    /// The path of a point too: `--trace coupler.pen`. Repeatable
+    #[arg(long, value_name = "P")]
+    pub trace: Vec<String>,
+
+    /// Velocities and accelerations at the pins, as arrows
+    #[arg(long)]
+    pub vectors: bool,
+
+    /// The names of bodies and pins
+    #[arg(long)]
+    pub labels: bool,
+
+    /// Width and height in pixels: `--size 1280x720`; 800 wide and as high as it takes if not given
+    #[arg(long, value_name = "WxH", value_parser = size)]
+    pub size: Option<[f64; 2]>,
+
+    /// Which colours
+    #[arg(long, value_enum, default_value_t, value_name = "THEME")]
+    pub theme: ThemeChoice,
+
+    /// Leave redundant equations out, and check them at every time
+    #[arg(long)]
+    pub allow_redundant: bool,
+
+    /// Go on beyond a bifurcation, along the branch that continues smoothly
+    #[arg(long)]
+    pub pass_bifurcations: bool,
+}
+
+#[derive(ValueEnum, Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub(super) enum ThemeChoice {
+    /// As the reader's machine is set
+    #[default]
+    Auto,
+    /// Dark on light
+    Light,
+    /// Light on dark
+    Dark,
+}
+
+/// Pictures are no smaller and no larger than this (px).
+const SIDES: [f64; 2] = [16.0, 16_384.0];
+
+fn size(text: &str) -> Result<[f64; 2], String> {
+    let sides = text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.trim().parse::<f64>()));
+    match sides {
+        Some([Ok(width), Ok(height)]) if [width, height].iter().all(|side| (SIDES[0]..=SIDES[1]).contains(side)) => {
+            Ok([width, height])
+        }
+        _ => Err(format!("width and height in pixels are wanted, from {} to {}, as in `1280x720`", SIDES[0], SIDES[1])),
+    }
 }
 
 #[derive(Args, Debug)]

@@ -31,6 +31,17 @@ pub(super) fn compiled_by(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
+    Ok(checked_and_compiled(parsed, (input, by), allow_redundant, reporter, timings)?.1)
+}
+
+/// The same, with the stage before.
+pub(super) fn checked_and_compiled(
+    parsed: &Parsed,
+    (input, by): (&Input, &[String]),
+    allow_redundant: bool,
+    reporter: &mut Reporter,
+    timings: &mut Timings,
+) -> Result<(ManuallyDrop<Checked>, Compiled), Failure> {
     // see `run`: nothing is taken apart before the process ends
     let checked = ManuallyDrop::new(checked(parsed, input, by, reporter)?);
     timings.end(Phase::Check);
@@ -38,7 +49,7 @@ pub(super) fn compiled_by(
     let (compiled, said) = checked.compile(redundant, &Cancel::default());
     let compiled = reporter.settle(compiled, said)?;
     timings.end(Phase::Prove);
-    Ok(compiled)
+    Ok((checked, compiled))
 }
 
 /// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.

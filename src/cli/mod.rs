@@ -24,8 +24,10 @@ mod report;
 mod results;
 mod run;
 mod spared;
+mod times;
 mod timings;
 mod usage;
+mod view;
 
 use arguments::{Arguments, Command, Messages};
 use clap::Parser;
@@ -44,6 +46,7 @@ pub fn main() -> ExitCode {
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),
         Command::Dump(dump) => reported(&dump.input.messages, |reporter| dump::dump(&dump, reporter)),
         Command::Run(run) => reported(&run.input.messages, |reporter| run::run(&run, reporter)),
+        Command::View(view) => reported(&view.input.messages, |reporter| view::view(&view, reporter)),
         Command::Formula(formula) => reported(&formula.messages, |reporter| formula::formula(&formula, reporter)),
         Command::Explain(explain) => reported(&explain.messages, |_| explain::explain(&explain)),
         Command::Import(import) => reported(&import.messages, |reporter| import::import(&import, reporter)),

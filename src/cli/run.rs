@@ -8,11 +8,11 @@ use super::input;
 use super::progress::Progress;
 use super::report::Reporter;
 use super::results;
+use super::times;
 use super::timings::{Phase, Timings};
-use crate::analysis::{Answers, ColumnUnit, Times};
-use crate::diag::{Code, Diagnostic, Diagnostics, readable};
+use crate::analysis::{Answers, ColumnUnit};
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::output::{TableFormat, TableWriter};
-use crate::source::Sources;
 use crate::stages::{Run, RunOptions};
 use std::io::IsTerminal;
 use std::mem::ManuallyDrop;
@@ -26,7 +26,7 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     let asked = (&arguments.input, arguments.by.as_slice());
     let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
-    let times = times(arguments, compiled.analysis(), &mut reporter.sources)?;
+    let times = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.spared())?;
     let results = results::open(arguments.results.as_deref(), &arguments.output, &reporter.spared())?;
     if format == TableFormat::Parquet && output.is_terminal() {
@@ -153,45 +153,6 @@ fn format(arguments: &RunArguments) -> Result<TableFormat, Failure> {
 /// The forms by their endings.
 const FORMS: [(&str, TableFormat); 3] =
     [("csv", TableFormat::Csv), ("json", TableFormat::Json), ("parquet", TableFormat::Parquet)];
-
-/// The output times: those of the command line over those of the file.
-fn times(arguments: &RunArguments, analysis: Option<[f64; 3]>, sources: &mut Sources) -> Result<Times, Failure> {
-    let mut given =
-        |option: &str, text: &Option<String>| text.as_ref().map(|text| input::time(option, text, sources)).transpose();
-    let from = given("--from", &arguments.from)?.or(analysis.map(|[from, ..]| from));
-    let to = given("--to", &arguments.to)?.or(analysis.map(|[_, to, _]| to));
-    let every = given("--every", &arguments.every)?.or(analysis.map(|[.., every]| every));
-    if let Some(step) = every.filter(|step| *step <= 0.0) {
-        return Err(unusable(format!("the step must be positive, it is {} s", readable(step))).into());
-    }
-    let listed =
-        arguments.at.iter().map(|text| input::time("--at", text, sources)).collect::<Result<Vec<f64>, Failure>>()?;
-    let earliest = listed.iter().copied().reduce(f64::min);
-    if let Some(earliest) = earliest {
-        let from = from.unwrap_or(earliest);
-        if earliest < from {
-            return Err(unusable(format!(
-                "`--at` {} s is before the start of the analysis at {} s",
-                readable(earliest),
-                readable(from)
-            ))
-            .help("start earlier with `--from`")
-            .into());
-        }
-        return Ok(Times::listed(from, listed));
-    }
-    let (Some(from), Some(to), Some(every)) = (from, to, every) else {
-        return Err(Diagnostic::new(Code::E0705, "it is not said which times to compute")
-            .help("add `analysis from 0 s to 1 s every 10 ms` to the file,\nor give `--from T --to T --every H`, or `--at T`")
-            .into());
-    };
-    let [first, last, step] = [from, to, every].map(readable);
-    if to < from {
-        return Err(unusable(format!("the analysis would end at {last} s, before its start at {first} s")).into());
-    }
-    Times::grid(from, to, every)
-        .ok_or_else(|| unusable(format!("a step of {step} s is too small to get from {first} s to {last} s")).into())
-}
 
 fn unusable(message: String) -> Diagnostic {
     Diagnostic::new(Code::E0706, message)

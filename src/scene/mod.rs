@@ -27,7 +27,7 @@ mod teeth;
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{
-    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, is_finite, left, length, minus,
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length, minus,
     plus, polar, times, unit,
 };
 

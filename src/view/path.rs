@@ -1,0 +1,76 @@
+//! Paths as the `d` of SVG.
+
+use super::text::number;
+use crate::scene::{Contour, Path, Segment, Vector};
+
+/// A path as the `d` of an SVG path, whose y axis points down: its coordinates times a scale, with so many decimals.
+#[must_use]
+pub fn data(path: &Path, scale: f64, decimals: usize) -> String {
+    written(path, &|[x, y]| [scale * x, -scale * y], scale, decimals)
+}
+
+/// The same, with places as a function puts them, which turns over y; `scale` is that of radii.
+pub(super) fn written(path: &Path, placed: &dyn Fn(Vector) -> Vector, scale: f64, decimals: usize) -> String {
+    let pair = |place: Vector| {
+        let [x, y] = placed(place);
+        let y = number(y, decimals);
+        // a minus sign parts numbers well enough
+        format!("{}{}{y}", number(x, decimals), if y.starts_with('-') { "" } else { " " })
+    };
+    let mut text = String::new();
+    match path {
+        Path::Circle { at, radius } => {
+            let [left, right] = [-radius, *radius].map(|way| pair([at[0] + way, at[1]]));
+            let radius = number(scale * radius, decimals);
+            text += &format!("M{left}A{radius} {radius} 0 1 0 {right}A{radius} {radius} 0 1 0 {left}Z");
+        }
+        Path::Lines(contours) => contours.iter().for_each(|contour| add(&mut text, contour, &pair, scale, decimals)),
+    }
+    text
+}
+
+fn add(text: &mut String, contour: &Contour, pair: &dyn Fn(Vector) -> String, scale: f64, decimals: usize) {
+    *text += &format!("M{}", pair(contour.start));
+    let mut is_line = false;
+    for segment in &contour.segments {
+        match *segment {
+            Segment::Line(to) => {
+                let to = pair(to);
+                // behind a place of a line another one needs no letter
+                *text += if !is_line {
+                    "L"
+                } else if to.starts_with('-') {
+                    ""
+                } else {
+                    " "
+                };
+                *text += &to;
+                is_line = true;
+            }
+            Segment::Arc { to, radius, is_left } => {
+                let radius = number(scale * radius, decimals);
+                *text += &format!("A{radius} {radius} 0 0 {} {}", u8::from(!is_left), pair(to));
+                is_line = false;
+            }
+        }
+    }
+    if contour.is_closed {
+        *text += "Z";
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::data;
+    use crate::scene::Path;
+
+    #[test]
+    fn paths_are_written_with_y_down() {
+        let triangle = Path::polygon([[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]);
+        assert_eq!(data(&triangle, 10.0, 2), "M0 0L10 0 10-20Z");
+        let arc = Path::arc([0.0; 2], 1.0, 0.0, std::f64::consts::PI);
+        assert_eq!(data(&arc, 10.0, 2), "M10 0A10 10 0 0 0 0-10A10 10 0 0 0-10 0");
+        let circle = Path::Circle { at: [1.0, 1.0], radius: 0.5 };
+        assert_eq!(data(&circle, 2.0, 1), "M1-2A1 1 0 1 0 3-2A1 1 0 1 0 1-2Z");
+    }
+}

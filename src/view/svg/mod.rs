@@ -1,0 +1,75 @@
+//! SVG without a script: one moment, several as a strobe, or the whole motion by keyframes.
+//!
+//! Bodies and joints are groups, which carry `data-body` and `data-joint`; what shows a point carries `data-point`. One style sheet says how
+//! everything looks, in light and in dark. Coordinates are pixels.
+
+mod curves;
+mod keyframes;
+mod labels;
+mod nodes;
+mod picture;
+mod style;
+mod vectors;
+
+use crate::scene::{Anchor, Motion, Scene};
+use picture::Picture;
+
+/// Which colours are used.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Theme {
+    /// As the reader's machine is set.
+    #[default]
+    Auto,
+    /// Dark on light.
+    Light,
+    /// Light on dark.
+    Dark,
+}
+
+/// What a picture shows beside the mechanism.
+#[derive(Clone, Debug, Default)]
+pub struct Options {
+    /// Width and height in pixels; by the mechanism's extent if not given.
+    pub size: Option<[f64; 2]>,
+    /// Which colours.
+    pub theme: Theme,
+    /// Points whose paths are drawn beside those that the text asks for, with their names.
+    pub traces: Vec<(String, Anchor)>,
+    /// Velocities and accelerations at the pins.
+    pub vectors: bool,
+    /// The names of bodies and pins.
+    pub labels: bool,
+}
+
+/// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.
+#[must_use]
+pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
+    let mut picture = Picture::new(scene, motion, options);
+    picture.add_traces(motion);
+    let count = moments.len();
+    if count > 1 {
+        picture.add_ground(moments.poses(0));
+    }
+    for row in 0..count {
+        picture.add_moment(moments, row, [row + 1 == count, count == 1]);
+    }
+    if options.vectors && count > 0 {
+        picture.add_vectors(moments, motion);
+    }
+    if options.labels && count > 0 {
+        picture.add_labels(moments.poses(count - 1));
+    }
+    picture.finish()
+}
+
+/// The whole motion, over and over; to and fro where it does not end as it begins.
+#[must_use]
+pub fn animated(scene: &Scene, motion: &Motion, options: &Options) -> String {
+    if motion.len() < 2 {
+        return still(scene, motion, motion, options);
+    }
+    let mut picture = Picture::new(scene, motion, options);
+    picture.add_traces(motion);
+    picture.add_motion(motion);
+    picture.finish()
+}

@@ -1,0 +1,105 @@
+//! A picture in the making: the way from metres to pixels, and the file around all that is drawn.
+
+use super::style::{self, Used};
+use super::{Options, Theme};
+use crate::scene::{Anchor, Motion, Pose, Scene, Vector, bounds};
+use crate::view::text::{escaped, number};
+use std::fmt::Write;
+
+/// Pixels around what is drawn, and around it with the labels beside it.
+const MARGIN: f64 = 14.0;
+const LABELLED_MARGIN: f64 = 34.0;
+/// How wide a picture is unless its size is said, and how high at least and at most.
+const WIDTH: f64 = 800.0;
+const HEIGHTS: [f64; 2] = [220.0, 760.0];
+
+pub(super) struct Picture<'s> {
+    pub scene: &'s Scene,
+    pub options: &'s Options,
+    pub size: [f64; 2],
+    /// Pixels in a metre.
+    pub scale: f64,
+    /// Which place (m) is in the middle.
+    middle: Vector,
+    pub used: Used,
+    pub rules: String,
+    pub body: String,
+    pub ids: rustc_hash::FxHashSet<String>,
+}
+
+impl<'s> Picture<'s> {
+    pub fn new(scene: &'s Scene, motion: &Motion, options: &'s Options) -> Picture<'s> {
+        let [low, high] = with_traces(scene, motion, options);
+        let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
+        let margin = if options.labels { LABELLED_MARGIN } else { MARGIN };
+        let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
+        let size = options.size.unwrap_or_else(|| {
+            let scale = (inner(WIDTH) / extent[0]).min(inner(HEIGHTS[1]) / extent[1]);
+            let needed = (extent[1] * scale + 2.0 * margin).clamp(HEIGHTS[0], HEIGHTS[1]);
+            [WIDTH, crate::math::floor(needed + 0.5)]
+        });
+        let scale = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
+        let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
+        let (used, rules, body) = (Used::default(), String::new(), String::new());
+        Picture { scene, options, size, scale, middle, used, rules, body, ids: rustc_hash::FxHashSet::default() }
+    }
+
+    /// Where a place is in the picture.
+    pub fn placed(&self, [x, y]: Vector) -> Vector {
+        let [width, height] = self.size;
+        [0.5 * width + self.scale * (x - self.middle[0]), 0.5 * height - self.scale * (y - self.middle[1])]
+    }
+
+    /// Pixels of the size of symbols.
+    pub fn unit(&self) -> f64 {
+        self.scale * self.scene.unit
+    }
+
+    /// Where an anchor is in the picture at a moment.
+    pub fn anchored(&self, anchor: &Anchor, poses: &[Pose]) -> Vector {
+        self.placed(anchor.placed(poses))
+    }
+
+    /// The name of a declaration.
+    pub fn name(&self, declaration: usize) -> &'s str {
+        self.scene.declarations.get(declaration).map_or("", |declaration| &declaration.name)
+    }
+
+    /// An id for a name, which no other group has.
+    pub fn id(&mut self, name: &str) -> String {
+        let word = |c: char| if c.is_alphanumeric() || matches!(c, '_' | '-' | '.') { c } else { '_' };
+        let mut id: String = name.chars().map(word).collect();
+        if !id.starts_with(|c: char| c.is_alphabetic() || c == '_') {
+            id.insert(0, '_');
+        }
+        let free = (1..).map(|k| if k == 1 { id.clone() } else { format!("{id}-{k}") });
+        let found = free.into_iter().find(|id| !self.ids.contains(id)).unwrap_or(id);
+        self.ids.insert(found.clone());
+        found
+    }
+
+    /// The whole file.
+    pub fn finish(self) -> String {
+        let [width, height] = self.size.map(|side| number(side, 2));
+        let mut file = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+             aria-labelledby=\"title\">\n<title id=\"title\">{}</title>\n",
+            escaped(&self.scene.name)
+        );
+        let docs = self.scene.docs.join("\n");
+        if !docs.trim().is_empty() {
+            let _ = writeln!(file, "<desc>{}</desc>", escaped(docs.trim()));
+        }
+        let theme: Theme = self.options.theme;
+        let _ = writeln!(file, "<style>\n{}{}</style>", style::sheet(&self.used, theme, self.unit()), self.rules);
+        let _ = writeln!(file, "<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>");
+        file + &self.body + "</svg>\n"
+    }
+}
+
+/// What has to be in the picture: the mechanism and all traces.
+fn with_traces(scene: &Scene, motion: &Motion, options: &Options) -> [Vector; 2] {
+    let own = scene.traces.iter().flat_map(|trace| trace.path(motion));
+    let asked = options.traces.iter().flat_map(|(_, anchor)| motion.path(anchor.frame, anchor.at));
+    bounds(scene.extent.into_iter().chain(own).chain(asked)).unwrap_or(scene.extent)
+}

@@ -1,0 +1,148 @@
+//! The style sheet: how everything looks, in light and in dark. Colours are written out, for not every renderer knows variables.
+
+use super::Theme;
+use crate::scene::Look;
+use crate::view::text::number;
+use std::collections::BTreeSet;
+
+/// How many tints of bodies there are.
+pub(super) const TINTS: usize = 8;
+/// How many colours of traces there are.
+pub(super) const TRACE_COLORS: usize = 4;
+
+/// What a picture holds, for which there have to be rules.
+#[derive(Default)]
+pub(super) struct Used {
+    pub looks: BTreeSet<Look>,
+    pub tints: BTreeSet<usize>,
+    pub traces: BTreeSet<usize>,
+    /// The size of letters (px), if there are any.
+    pub labels: Option<f64>,
+    pub has_ghosts: bool,
+    pub vectors: BTreeSet<&'static str>,
+}
+
+/// Colours.
+struct Palette {
+    paper: &'static str,
+    ink: &'static str,
+    /// Of what is there, but is not looked at.
+    quiet: &'static str,
+    /// Of what a driver does.
+    driven: &'static str,
+    tints: [&'static str; TINTS],
+    traces: [&'static str; TRACE_COLORS],
+    velocity: &'static str,
+    acceleration: &'static str,
+}
+
+const LIGHT: Palette = Palette {
+    paper: "#fff",
+    ink: "#1d2a36",
+    quiet: "#6b7785",
+    driven: "#0b6e4f",
+    tints: ["#bcd9f5", "#ffd3a1", "#c4e6bd", "#f6c3cb", "#d9cdf2", "#f5e79e", "#b9e6e4", "#e3d0bd"],
+    traces: ["#c2185b", "#1565c0", "#6a1b9a", "#b45309"],
+    velocity: "#0a7d34",
+    acceleration: "#c62828",
+};
+
+const DARK: Palette = Palette {
+    paper: "#11181f",
+    ink: "#e8eef4",
+    quiet: "#8b98a6",
+    driven: "#5fd3a8",
+    tints: ["#2b5782", "#80551f", "#35703c", "#833b49", "#584687", "#766620", "#2a6f6d", "#66503c"],
+    traces: ["#ff6fa5", "#6db3ff", "#c99bff", "#ffb454"],
+    velocity: "#5bd98a",
+    acceleration: "#ff7b72",
+};
+
+/// The rules for all that is used; `unit` is the size of symbols in pixels.
+pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
+    let strong = (0.1 * unit).clamp(0.5, 2.0);
+    let mut sheet = shapes(used, strong);
+    match theme {
+        Theme::Light => sheet += &colors(used, &LIGHT),
+        Theme::Dark => sheet += &colors(used, &DARK),
+        Theme::Auto => {
+            sheet += &colors(used, &LIGHT);
+            sheet += &format!("@media (prefers-color-scheme:dark){{\n{}}}\n", colors(used, &DARK));
+        }
+    }
+    sheet
+}
+
+/// Widths and dashes, which both themes share.
+fn shapes(used: &Used, strong: f64) -> String {
+    let width = |part: f64| number(part * strong, 2);
+    let mut rules =
+        format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
+    for look in &used.looks {
+        let rule = match look {
+            Look::Hatching => format!("stroke-width:{}", width(0.6)),
+            Look::GroundLine | Look::Guide | Look::Track => format!("stroke-width:{}", width(1.25)),
+            Look::Pitch => format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5)),
+            Look::Face => format!("stroke-width:{}", width(3.0)),
+            Look::Arrow => format!("stroke-width:{}", width(1.6)),
+            Look::Spring => format!("stroke-width:{};vector-effect:non-scaling-stroke", width(1.2)),
+            Look::Gear | Look::Rack => format!("stroke-width:{};fill-rule:evenodd", width(0.8)),
+            _ => continue,
+        };
+        rules += &format!(".{}{{{rule}}}\n", look.word());
+    }
+    if !used.traces.is_empty() {
+        rules += &format!(".trace{{fill:none;stroke-width:{}}}\n", width(1.1));
+    }
+    if let Some(size) = used.labels {
+        rules += &format!(
+            "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
+             .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n",
+            number(size, 1)
+        );
+    }
+    if used.has_ghosts {
+        rules += ".ghost{opacity:.3}\n";
+    }
+    if !used.vectors.is_empty() {
+        rules += &format!(".vector{{stroke-width:{}}}\n", width(1.2));
+    }
+    rules
+}
+
+fn colors(used: &Used, palette: &Palette) -> String {
+    let &Palette { paper, ink, quiet, driven, .. } = palette;
+    let mut rules = format!(".paper{{fill:{paper}}}\n");
+    let mut group = |looks: &[Look], rule: &str| {
+        let words: Vec<String> =
+            looks.iter().filter(|look| used.looks.contains(look)).map(|look| format!(".{}", look.word())).collect();
+        if !words.is_empty() {
+            rules += &format!("{}{{{rule}}}\n", words.join(","));
+        }
+    };
+    // what is filled with its body's tint has it from its group
+    group(&[Look::Link, Look::Cam, Look::Gear, Look::Rack], &format!("stroke:{ink};fill-opacity:.82"));
+    group(&[Look::Block], &format!("stroke:{ink}"));
+    group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));
+    group(&[Look::MasslessLink, Look::Cylinder, Look::Rod], &format!("fill:{paper};stroke:{ink}"));
+    group(&[Look::Weld], &format!("fill:{ink};stroke:{ink}"));
+    group(&[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face], &format!("fill:none;stroke:{ink}"));
+    group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));
+    group(&[Look::Arrow], &format!("fill:none;stroke:{driven}"));
+    group(&[Look::ArrowHead], &format!("fill:{driven};stroke:none"));
+    for tint in &used.tints {
+        rules += &format!(".b{tint}{{fill:{}}}\n", palette.tints[tint % TINTS]);
+    }
+    for trace in &used.traces {
+        rules += &format!(".t{trace}{{stroke:{}}}\n", palette.traces[trace % TRACE_COLORS]);
+    }
+    for (word, color) in [("velocity", palette.velocity), ("acceleration", palette.acceleration)] {
+        if used.vectors.contains(word) {
+            rules += &format!(".{word}{{stroke:{color};fill:{color}}}\n");
+        }
+    }
+    if used.labels.is_some() {
+        rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
+    }
+    rules
+}

@@ -1,0 +1,56 @@
+//! Numbers and words as marked-up text has them.
+
+use std::borrow::Cow;
+
+/// A number with so many decimals at most, and no zero too many.
+#[must_use]
+pub fn number(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+}
+
+/// A text in which nothing is taken for mark-up, neither between tags nor in an attribute. What no such text may hold is left out.
+#[must_use]
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    let is_plain = |c: char| !matches!(c, '&' | '<' | '>' | '"' | '\'') && !is_forbidden(c);
+    if text.chars().all(is_plain) {
+        return Cow::Borrowed(text);
+    }
+    let mut made = String::with_capacity(text.len() + 16);
+    for c in text.chars().filter(|c| !is_forbidden(*c)) {
+        match c {
+            '&' => made.push_str("&amp;"),
+            '<' => made.push_str("&lt;"),
+            '>' => made.push_str("&gt;"),
+            '"' => made.push_str("&quot;"),
+            '\'' => made.push_str("&#39;"),
+            other => made.push(other),
+        }
+    }
+    Cow::Owned(made)
+}
+
+fn is_forbidden(c: char) -> bool {
+    (c < ' ' && !matches!(c, '\t' | '\n' | '\r')) || matches!(c, '\u{fffe}' | '\u{ffff}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{escaped, number};
+
+    #[test]
+    fn numbers_are_short() {
+        for (value, decimals, wanted) in
+            [(1.0, 2, "1"), (-0.001, 2, "0"), (0.5, 3, "0.5"), (1234.5678, 2, "1234.57"), (100.0, 0, "100"), (-0.25, 1, "-0.2")]
+        {
+            assert_eq!(number(value, decimals), wanted);
+        }
+    }
+
+    #[test]
+    fn nothing_of_a_text_is_mark_up() {
+        assert_eq!(escaped("<script>\"a\" & 'b'</script>\u{1}"), "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;");
+        assert_eq!(escaped("leg[2].föt"), "leg[2].föt");
+    }
+}
