@@ -22,7 +22,7 @@ export type Anchor = [frame: number, x: number, y: number];
 export interface Shape {
     /** What it means; a class of the style sheet. */
     look: string;
-    /** An SVG path, in absolute commands. */
+    /** An SVG path in metres, in absolute commands; as in every SVG its y axis points down. */
     d: string;
 }
 

@@ -3,7 +3,7 @@
 import type { Anchor, Node, Scene } from "../data/format.ts";
 import { OF_A_FRAME, placeOf, type Moment } from "../motion/motion.ts";
 import type { Camera } from "./camera.ts";
-import { mapped, parsed, scaled, written, type Command } from "./path.ts";
+import { mapped, parsed, upright, written, type Command } from "./path.ts";
 
 /** Bodies are tinted in turn by so many colours. */
 const TINTS = 8;
@@ -23,7 +23,7 @@ export interface Figure {
 export function figures(scene: Scene, camera: Camera): Figure[] {
     return scene.nodes.map((node) => {
         const shapes = node.shapes.map(({ look, d }) => {
-            const path = scaled(parsed(d), camera.scale);
+            const path = upright(parsed(d), camera.scale);
             return { look, path, d: written(path) };
         });
         const frame = node.fixed ?? node.upright?.[0] ?? 0;

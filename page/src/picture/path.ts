@@ -34,9 +34,12 @@ export function mapped(commands: Command[], x: (x: number) => number, y: (y: num
     });
 }
 
-export function scaled(commands: Command[], by: number): Command[] {
-    const times = (value: number) => value * by;
-    return mapped(commands, times, times, by);
+/** A path whose y axis points down, as it is written, as one whose y axis points up; in other units. */
+export function upright(commands: Command[], by: number): Command[] {
+    const up = mapped(commands, (x) => x * by, (y) => -y * by, by);
+    // arcs turn the other way round
+    for (const command of up) if (command[0] === "A") command[5] = 1 - command[5]!;
+    return up;
 }
 
 export function written(commands: Command[]): string {

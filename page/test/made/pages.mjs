@@ -45,13 +45,27 @@ export function motion(bodies, others, times, at) {
 
 export const grid = (from, to, rows) => Array.from({ length: rows }, (_, k) => (rows > 1 ? from + (k * (to - from)) / (rows - 1) : from));
 
+/** The path with its y axis pointing down, which is how paths are written. */
+const down = (d) => {
+    let letter = "";
+    let place = 0;
+    return d.replace(/[A-Z]|-?[\d.]+(?:e-?\d+)?/g, (token) => {
+        if (/[A-Z]/.test(token)) {
+            [letter, place] = [token, 0];
+            return token;
+        }
+        const isY = letter === "A" ? place % 7 === 6 : place % 2 === 1;
+        const isSweep = letter === "A" && place % 7 === 4;
+        place++;
+        return String(isY ? -token : isSweep ? 1 - token : token);
+    });
+};
+
 const bar = (length, half, from = 0) =>
     `M${from} ${-half}L${from + length} ${-half}A${half} ${half} 0 0 1 ${from + length} ${half}L${from} ${half}A${half} ${half} 0 0 1 ${from} ${-half}Z`;
 const circle = (r) => `M${-r} 0A${r} ${r} 0 1 1 ${r} 0A${r} ${r} 0 1 1 ${-r} 0Z`;
-const hatched = (r) => {
-    const d = [0, 1, 2, 3, 4].map((k) => `M${(-1.6 + 0.8 * k) * r} ${-2.4 * r}l0 0`).length;
-    return d ? Array.from({ length: 5 }, (_, k) => `M${(-1.6 + 0.8 * k) * r} ${-2 * r}L${(-2.1 + 0.8 * k) * r} ${-2.7 * r}`).join("") : "";
-};
+const hatched = (at, r) =>
+    [0, 1, 2, 3, 4].map((k) => `M${at + (-1.6 + 0.8 * k) * r} ${-2 * r}L${at + (-2.1 + 0.8 * k) * r} ${-2.7 * r}`).join("");
 
 /** Collects declarations with their places in a text that grows. */
 export class Sheet {
@@ -72,6 +86,8 @@ export class Sheet {
     }
 }
 
+const turned = (node) => ({ ...node, shapes: node.shapes.map(({ look, d }) => ({ look, d: down(d) })) });
+
 export function whole(name, sheet, scene, table, more = {}) {
     const { columns, values } = table;
     const rows = values[0].length;
@@ -83,7 +99,7 @@ export function whole(name, sheet, scene, table, more = {}) {
         name,
         docs: "",
         texts: [{ name: `${name}.mech`, text: sheet.text }],
-        scene: { declarations: sheet.declarations, traces: [], profiles: [], ...scene },
+        scene: { declarations: sheet.declarations, traces: [], profiles: [], ...scene, nodes: scene.nodes.map(turned) },
         columns,
         vary: [],
         variants: [variant],
@@ -160,7 +176,7 @@ export function fourBar({ rows = 1000, size = 0.4, names = {}, lengths = [0.1, 0
         shapes: [
             { look: "support", d: `M${at} 0L${at - 1.6 * half} ${-2 * half}L${at + 1.6 * half} ${-2 * half}Z` },
             { look: "ground-line", d: `M${at - 2.2 * half} ${-2 * half}L${at + 2.2 * half} ${-2 * half}` },
-            { look: "hatching", d: hatched(half).replace(/([ML])(\S+) /g, (_, letter, x) => `${letter}${Number(x) + at} `) },
+            { look: "hatching", d: hatched(at, half) },
         ],
     });
     const pin = (declaration, anchor) => ({ declaration, upright: anchor, shapes: [{ look: "pin", d: circle(0.55 * half) }] });
