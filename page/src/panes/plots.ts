@@ -237,14 +237,12 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
     const font = `${parseFloat(style.fontSize)}px ${style.fontFamily}`;
     const line = parseFloat(style.fontSize);
     const isTime = x.name === "t";
-    const axis = (of: Series, more: Partial<uPlot.Axis>): uPlot.Axis => ({
+    const axis = (more: Partial<uPlot.Axis>): uPlot.Axis => ({
         stroke: colour("--quiet"),
         font,
-        labelFont: font,
         ticks: { stroke: colour("--rule"), width: 1, size: 4 },
         grid: { stroke: colour("--rule"), width: 1 },
         values: (_, ticks) => ticks.map(short),
-        label: set(of.unit) && !more.side ? `${of.name} (${set(of.unit)})` : "",
         ...more,
     });
     const gaps = (values: Float64Array) => Array.from(values, (value) => (Number.isFinite(value) ? value : null));
@@ -255,7 +253,7 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
         legend: { show: false },
         cursor: { show: false },
         scales: { x: { time: false }, y: { range: (_, least, greatest) => around(least, greatest) } },
-        axes: [axis(x, { label: "", size: line * 1.9, gap: 3 }), axis(y, { side: 3, size: line * 4.6, gap: 4 })],
+        axes: [axis({ size: line * 2.1, gap: 3 }), axis({ side: 3, size: line * 4.6, gap: 4 })],
         series: [{}, isTime ? drawn : { ...drawn, paths: () => null }],
     };
     if (isTime) return new uPlot(options, [Array.from(x.values), gaps(y.values)], into);
