@@ -4,7 +4,7 @@ const TAKES_ALL = "input:not([type=range], [type=checkbox]), textarea, select, [
 const TAKES_SPACE = "button, summary, a[href], input[type=checkbox]";
 /** Arrows, Home and End belong to a slider of its own, but for that of time, and to what scrolls. */
 const TAKES_ARROWS = "input[type=range]:not(.scrub input), [role=tab]";
-const SCROLLS = ".sheet, .plot-list";
+const SCROLLS = ".sheet, .plot-list, .results";
 
 export function keys(deeds: Record<string, () => void>): void {
     addEventListener("keydown", (event) => {

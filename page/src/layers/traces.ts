@@ -10,7 +10,7 @@ import type { Wishes } from "../wishes.ts";
 import { inUnits, through, type Layer } from "./layer.ts";
 
 /** Marks on a way: about so many, at times that are 1, 2 or 5 of something. */
-const MARKS = 24;
+const MARKS = 12;
 /** A way has so many places at least, as far as rows let it. */
 const FINE = 400;
 

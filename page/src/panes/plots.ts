@@ -13,7 +13,7 @@ import { around, entries, measured, seriesOf, type Series } from "./series.ts";
 /** So many plots are made at first, at the most. */
 const AT_FIRST = 6;
 /** A plot's height, in lines of text. */
-const HEIGHT = 9.5;
+const HEIGHT = 8;
 
 export class Plots implements Pane {
     readonly element = html("section", { class: "pane plots", "aria-label": "plots" });
@@ -249,7 +249,7 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
     const drawn: uPlot.Series = { stroke: colour("--curve"), width: 2, pxAlign: 0, points: { show: false } };
     const options: uPlot.Options = {
         ...size,
-        padding: [line * 0.6, line * 0.9, 0, 0],
+        padding: [line * 0.7, line * 1.8, 0, 0],
         legend: { show: false },
         cursor: { show: false },
         scales: { x: { time: false }, y: { range: (_, least, greatest) => around(least, greatest) } },

@@ -8,7 +8,7 @@ import { six, told } from "../numbers.ts";
 import type { Deeds, Pane } from "./pane.ts";
 
 export class Results implements Pane {
-    readonly element = html("section", { class: "results", "aria-label": "results and messages" });
+    readonly element = html("section", { class: "results", "aria-label": "results and messages", tabindex: 0 });
     private readonly numbers = html("dl", { class: "numbers" });
     private readonly messages = html("ul", { class: "messages", role: "status", "aria-live": "polite" });
     private document: Document | undefined;

@@ -25,7 +25,7 @@ export class Rows implements Pane {
     ) {
         const back = button("earlier rows", sign("M15 5l-8 7 8 7"));
         const on = button("later rows", sign("M9 5l8 7-8 7"));
-        const here = button("the rows at this time", "now");
+        const here = button("now: the rows at this time", "now");
         const turn = (to: () => number) => () => {
             this.first = Math.max(0, Math.min(to(), (this.document?.table.rows ?? 0) - 1));
             this.fill();
