@@ -86,7 +86,7 @@ fn pictured(arguments: &ViewArguments, scene: &Scene) -> Result<Options, Failure
     };
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
     let ViewArguments { size, vectors, labels, .. } = *arguments;
-    Ok(Options { size, theme, traces, vectors, labels })
+    Ok(Options { size, theme, traces, vectors, labels, captions: Vec::new() })
 }
 
 /// A point by its path.

@@ -1,22 +1,44 @@
 //! Bodies as links: a disc, a bar, a rounded plate around what joints take hold of; the cross of a frame where nothing does.
 
 use super::Look;
-use super::drawing::{Drawing, Layer, shape};
-use super::plane::{around, hull};
-use super::symbols::{BAR, Symbols};
+use super::drawing::{DOT, Drawing, Layer, Outline, shape};
+use super::plane::{Path, Vector, around, distance, hull};
+use super::symbols::{BAR, SLOTTED_BAR, Symbols};
 
 /// Places of a body that are nearer to each other than this, in units, are one.
 const NEAR: f64 = 0.02;
+
+/// Whether all corners lie in a disc that is drawn of the body.
+fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
+    outline.discs.iter().any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
+}
+
+/// Gives a body that is shown by something else a group of its own.
+fn show(drawing: &mut Drawing, frame: usize) {
+    if drawing.has_node(frame) || drawing.declare_block(frame) {
+        return;
+    }
+    let places = &drawing.outlines[frame].places;
+    let at = places.first().copied().unwrap_or([0.0; 2]);
+    let dot = Path::Circle { at, radius: DOT * drawing.unit };
+    drawing.add_fixed(Layer::Bodies, frame, frame, vec![shape(Look::Dot, dot)]);
+}
 
 pub(super) fn draw(drawing: &mut Drawing) {
     for frame in 1..drawing.outlines.len() {
         let outline = &drawing.outlines[frame];
         let corners = hull(&outline.places, NEAR * drawing.unit);
         let shapes = match corners.as_slice() {
-            [] if outline.is_shown => continue,
+            [] | [_] if outline.is_shown => {
+                show(drawing, frame);
+                continue;
+            }
+            corners if !corners.is_empty() && is_covered(outline, corners) => continue,
             [] => vec![Symbols { unit: drawing.unit }.cross()],
-            [_] if outline.is_shown => continue,
-            corners => vec![shape(Look::Link, around(corners, BAR * drawing.unit))],
+            corners => {
+                let reach = if outline.is_slotted { SLOTTED_BAR } else { BAR };
+                vec![shape(Look::Link, around(corners, reach * drawing.unit))]
+            }
         };
         drawing.add_fixed(Layer::Bodies, frame, frame, shapes);
     }

@@ -1,7 +1,7 @@
 //! Cams and what runs on them.
 
 use super::drawing::{Drawing, Layer, shape};
-use super::plane::{Path, Vector, distance, dot, minus, plus, times};
+use super::plane::{Path, Vector, bounds, distance, dot, minus, plus, times};
 use super::symbols::PIN;
 use super::{Anchor, Look, Shape};
 use crate::model::{AxisId, PointId, Profile};
@@ -32,6 +32,16 @@ pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
     let (of_k, of_m) = (radius(k), radius(m));
     shown_profile(drawing, k, used[0], of_k.is_finite() && of_k < of_m);
     shown_profile(drawing, m, used[1], of_m.is_finite() && of_m <= of_k);
+    let declaration = drawing.first.joints + number;
+    let marks = [k, m].map(|profile| match profile {
+        Profile::Circle(circle) => Some(drawing.features.circle(circle)),
+        Profile::Curve(_) => None,
+    });
+    // where they touch is fixed to neither: what is the joint's own is the middle of its roller
+    let marked = marks.into_iter().flatten().min_by(|a, b| a.radius.total_cmp(&b.radius));
+    let mark = marked.map(|disc| center_mark(disc.center, disc.radius.min(drawing.unit)));
+    let frame = marked.map_or(0, |disc| disc.center.frame);
+    drawing.add_fixed(Layer::Blocks, declaration, frame, mark.into_iter().collect());
 }
 
 pub(super) fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profile, face: AxisId) {
@@ -94,14 +104,13 @@ fn shown_profile(drawing: &mut Drawing, profile: Profile, used: Option<[f64; 2]>
     };
     drawing.outlines[frame].is_shown |= is_filled || is_roller;
     let layer = if frame == 0 { Layer::Ground } else { Layer::Wheels };
-    let mut shapes = vec![shape(look, path)];
-    if let Profile::Circle(circle) = profile
-        && frame > 0
-    {
-        let disc = drawing.features.circle(circle);
-        shapes.push(center_mark(disc.center, disc.radius.min(drawing.unit)));
+    let (places, is_disc) = (path.places(), is_filled || is_roller);
+    if is_disc && let Some([low, high]) = bounds(places.iter().copied()) {
+        let middle = times(0.5, plus(low, high));
+        let radius = places.iter().map(|place| distance(*place, middle)).fold(f64::INFINITY, f64::min);
+        drawing.outlines[frame].discs.push((middle, radius));
     }
-    drawing.add_fixed(layer, declaration, frame, shapes);
+    drawing.add_fixed(layer, declaration, frame, vec![shape(look, path)]);
 }
 
 /// The centre of a disc, so that it is seen to turn.

@@ -14,6 +14,8 @@ use std::f64::consts::PI;
 pub(super) enum Layer {
     Ground,
     Wheels,
+    /// What holds pins on the ground, which is seen before a wheel.
+    Feet,
     Bodies,
     Slots,
     Links,
@@ -22,6 +24,8 @@ pub(super) enum Layer {
     Arrows,
 }
 
+/// The radius of a dot, in units.
+pub(super) const DOT: f64 = 0.17;
 /// Rows that are looked at to learn how far something goes.
 pub(super) const LOOKED_AT: usize = 400;
 /// Rows that are looked at for the extent of everything.
@@ -38,6 +42,10 @@ pub(super) struct Outline {
     pub places: Vec<Vector>,
     /// Whether something else shows the body, if it is no more than a place.
     pub is_shown: bool,
+    /// Whether there is a slot in it, for which it has to be wider.
+    pub is_slotted: bool,
+    /// Discs that are drawn of it, with their centres and radii (m): what lies in one of them needs no link.
+    pub discs: Vec<(Vector, f64)>,
 }
 
 pub(super) struct Drawing<'m> {
@@ -85,6 +93,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
     drivers::draw(&mut drawing);
     bodies::draw(&mut drawing);
     let traces = drawing.traces();
+    drawing.mark_pens(&traces);
     let Drawing { mut nodes, profiles, .. } = drawing;
     nodes.sort_by_key(|(layer, _)| *layer);
     let nodes: Vec<Node> = nodes.into_iter().map(|(_, node)| node).collect();
@@ -157,6 +166,37 @@ impl Drawing<'_> {
         };
         self.profiles.push(Profile { declaration, frame, is_closed, samples });
         self.profiles.len() - 1
+    }
+
+    /// A dot at what draws a trace.
+    fn mark_pens(&mut self, traces: &[Trace]) {
+        for trace in traces {
+            let Pen::Point(Anchor { frame, at }) = trace.pen else { continue };
+            let model = self.features.model;
+            let number = trace.declaration - self.first.traces;
+            let point = model.traces.get(number).and_then(|trace| self.shown(&[trace.point?]));
+            let path = Path::Circle { at, radius: DOT * self.unit };
+            self.add_fixed(Layer::Pins, trace.declaration, frame, vec![Shape { path, look: Look::Dot, point }]);
+        }
+    }
+
+    /// Whether a frame has a node of a declaration.
+    pub fn has_node(&self, declaration: usize) -> bool {
+        self.nodes.iter().any(|(_, node)| node.declaration == declaration)
+    }
+
+    /// Says of the first block of a frame that it is the body itself; whether there is one.
+    pub fn declare_block(&mut self, frame: usize) -> bool {
+        let is_block = |node: &Node| {
+            node.place == Place::Fixed(frame) && node.shapes.iter().any(|shape| shape.look == Look::Block)
+        };
+        match self.nodes.iter_mut().find(|(_, node)| is_block(node)) {
+            Some((_, node)) => {
+                node.declaration = frame;
+                true
+            }
+            None => false,
+        }
     }
 
     /// How many arrows there are around a place.

@@ -14,8 +14,10 @@ use crate::math;
 use crate::model::{AxisId, CircleId, JointKind};
 use std::f64::consts::{PI, TAU};
 
-/// Teeth of the smallest wheel of a train: the fewest that fit of these.
+/// Teeth of the smallest wheel of a train, at least and at most.
 const TEETH: [u32; 2] = [12, 60];
+/// A pitch that is well seen, in units.
+const PITCH: f64 = 2.0;
 /// Wheels with more teeth have none.
 const MOST_TEETH: f64 = 900.0;
 /// What a tooth may be off from the middle of a gap, in pitches.
@@ -149,7 +151,11 @@ impl Trains {
     fn fitting(&self, drawing: &Drawing, train: &[usize]) -> Option<(f64, Vec<Teeth>)> {
         let radii = || train.iter().filter_map(|&member| self.all[member].disc.map(|disc| disc.radius));
         let smallest = radii().fold(f64::INFINITY, f64::min);
-        (TEETH[0]..=TEETH[1]).find_map(|fewest| {
+        let [least, most] = TEETH;
+        #[allow(clippy::cast_sign_loss)] // clamped
+        let wanted = (TAU * smallest / (PITCH * drawing.unit)).clamp(f64::from(least), 0.75 * f64::from(most)) as u32;
+        // more teeth than are wanted before fewer
+        (wanted..=most).chain((least..wanted).rev()).find_map(|fewest| {
             let pitch = TAU * smallest / f64::from(fewest);
             if radii().any(|radius| TAU * radius / pitch > MOST_TEETH) {
                 return None;
@@ -331,5 +337,9 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
         _ => Layer::Wheels,
     };
     drawing.add_fixed(layer, toothed.frame, toothed.frame, shapes);
-    drawing.outlines[toothed.frame].is_shown = true;
+    let outline = &mut drawing.outlines[toothed.frame];
+    outline.is_shown = true;
+    if !toothed.is_ring {
+        outline.discs.push((at, radius));
+    }
 }

@@ -1,6 +1,6 @@
 //! What slides: blocks on their guides, bars in sleeves, pins in slots. Guides are as long as the motion asks for.
 
-use super::drawing::{Drawing, Layer, Outline, shape};
+use super::drawing::{DOT, Drawing, Layer, Outline, shape};
 use super::features::Line;
 use super::plane::{Path, Vector, cross, distance, dot, left, minus, plus, rectangle, times};
 use super::symbols::{BLOCK, SLEEVE, SLOT, Symbols};
@@ -49,8 +49,8 @@ pub(super) fn translational(drawing: &mut Drawing, declaration: usize, [a, b]: [
     let pin = drawing.features.model[axis].origin;
     if let Some(point) = drawing.shown(&[pin]).filter(|_| drawing.features.model[pin].name.is_some()) {
         // what slides is a place that a joint takes hold of, and may have no pin
-        let dot = Path::Circle { at: slider.at, radius: 0.12 * drawing.unit };
-        let dot = super::Shape { path: dot, look: Look::Weld, point: Some(point) };
+        let dot = Path::Circle { at: slider.at, radius: DOT * drawing.unit };
+        let dot = super::Shape { path: dot, look: Look::Dot, point: Some(point) };
         drawing.add_fixed(Layer::Blocks, declaration, slider.frame, vec![dot]);
     }
 }
@@ -176,7 +176,9 @@ pub(super) fn slot(drawing: &mut Drawing, declaration: usize, (p, axis): (PointI
         let hatching = symbols.hatching(plus(from, down), plus(to, down));
         drawing.add_fixed(Layer::Ground, declaration, 0, vec![hatching, stadium]);
     } else {
-        drawing.outlines[line.frame].places.extend(ends);
+        let outline = &mut drawing.outlines[line.frame];
+        outline.places.extend(ends);
+        outline.is_slotted = true;
         drawing.add_fixed(Layer::Slots, declaration, line.frame, vec![stadium]);
     }
     if pin.frame == 0 {

@@ -10,6 +10,7 @@
 //! ```
 
 mod bodies;
+mod catalogue;
 mod contacts;
 mod drawing;
 mod drivers;
@@ -24,6 +25,7 @@ mod sizes;
 mod symbols;
 mod teeth;
 
+pub use catalogue::catalogue;
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{
@@ -200,6 +202,8 @@ pub enum Look {
     Rod,
     /// Bodies can turn about it.
     Pin,
+    /// A place that a joint takes hold of without a pin, or that draws a trace.
+    Dot,
     /// What holds a pin on the ground.
     Support,
     /// The edge of the ground.
@@ -240,13 +244,14 @@ pub enum Look {
 
 impl Look {
     /// All of them.
-    pub const ALL: [Look; 24] = [
+    pub const ALL: [Look; 25] = [
         Look::Link,
         Look::Cross,
         Look::MasslessLink,
         Look::Cylinder,
         Look::Rod,
         Look::Pin,
+        Look::Dot,
         Look::Support,
         Look::GroundLine,
         Look::Hatching,
@@ -277,6 +282,7 @@ impl Look {
             Look::Cylinder => "cylinder",
             Look::Rod => "rod",
             Look::Pin => "pin",
+            Look::Dot => "dot",
             Look::Support => "support",
             Look::GroundLine => "ground-line",
             Look::Hatching => "hatching",

@@ -47,7 +47,7 @@ fn foot(drawing: &mut Drawing, declaration: usize, at: Vector) {
     }
     drawing.feet.push(at);
     let shapes = Symbols { unit: drawing.unit }.foot(at);
-    drawing.add_fixed(Layer::Ground, declaration, 0, shapes);
+    drawing.add_fixed(Layer::Feet, declaration, 0, shapes);
 }
 
 pub(super) fn weld(drawing: &mut Drawing, declaration: usize, [p, q]: [PointId; 2]) {

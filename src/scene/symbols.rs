@@ -8,6 +8,8 @@ use std::f64::consts::PI;
 pub(super) const PIN: f64 = 0.34;
 /// Half the width of a bar.
 pub(super) const BAR: f64 = 0.6;
+/// The same of one with a slot in it.
+pub(super) const SLOTTED_BAR: f64 = 0.82;
 /// Half the width of a bar that is no body.
 pub(super) const THIN_BAR: f64 = 0.3;
 /// Half the width of a slot.
@@ -15,7 +17,7 @@ pub(super) const SLOT: f64 = 0.42;
 /// Half the length and half the width of what slides.
 pub(super) const BLOCK: [f64; 2] = [1.25, 0.78];
 /// Half the length and half the inner width of what a bar slides in.
-pub(super) const SLEEVE: [f64; 2] = [1.1, 0.5];
+pub(super) const SLEEVE: [f64; 2] = [1.1, 0.78];
 /// How deep hatching is, and how far its lines are apart.
 const HATCHING: [f64; 2] = [0.5, 0.42];
 /// Of a support: how low the ground is below the pin, and half its width.

@@ -22,12 +22,28 @@ const LABELLED_AT: usize = 48;
 /// Decimals of a percentage of the run.
 const PERCENT: usize = 3;
 
-/// Where a group is, in pixels and degrees, and what x is stretched by (px).
+/// Where a group is, in pixels and degrees, and what it is stretched by along x and y.
 #[derive(Clone, Copy, Debug, PartialEq)]
-struct Key {
-    at: Vector,
-    turn: f64,
-    stretch: f64,
+pub(super) struct Key {
+    pub at: Vector,
+    pub turn: f64,
+    pub stretch: Vector,
+}
+
+/// What may be kept out of transforms, as nothing of a group ever needs it.
+#[derive(Clone, Copy, Debug)]
+struct Needs {
+    turns: bool,
+    stretches: bool,
+}
+
+impl Needs {
+    fn of<'k>(keys: impl Iterator<Item = &'k Key>) -> Needs {
+        keys.fold(Needs { turns: false, stretches: false }, |needs, key| Needs {
+            turns: needs.turns || key.rounded().turn != 0.0,
+            stretches: needs.stretches || key.stretch != [1.0; 2],
+        })
+    }
 }
 
 impl Key {
@@ -36,13 +52,13 @@ impl Key {
         Key {
             at: [mix(self.at[0], other.at[0]), mix(self.at[1], other.at[1])],
             turn: mix(self.turn, other.turn),
-            stretch: mix(self.stretch, other.stretch),
+            stretch: [mix(self.stretch[0], other.stretch[0]), mix(self.stretch[1], other.stretch[1])],
         }
     }
 
     fn placed(&self, [x, y]: Vector) -> Vector {
         let pose = Pose { at: self.at, phi: self.turn.to_radians() };
-        pose.placed([x * self.stretch, y])
+        pose.placed([x * self.stretch[0], y * self.stretch[1]])
     }
 
     /// As it is written.
@@ -52,7 +68,7 @@ impl Key {
         Key {
             at: self.at.map(|part| round(part, cent)),
             turn: round(self.turn, mille),
-            stretch: round(self.stretch, cent),
+            stretch: self.stretch.map(|part| round(part, cent)),
         }
     }
 }
@@ -87,21 +103,15 @@ impl Moments {
         }
         Moments { times, poses }
     }
-
-    /// The part of the run that has passed at a moment.
-    fn part(&self, moment: usize) -> f64 {
-        let (first, last) = (self.times[0], self.times[self.times.len() - 1]);
-        if last > first { (self.times[moment] - first) / (last - first) } else { 0.0 }
-    }
 }
 
 impl Picture<'_> {
     /// All nodes, moving.
     pub fn add_motion(&mut self, motion: &Motion) {
         let moments = Moments::of(motion);
-        let closes = self.closes(motion);
-        let direction = if closes { "" } else { " alternate" };
-        let mut tracks: Vec<(Mover, Option<String>, Key)> = Vec::new();
+        let direction = if self.closes(motion) { "" } else { " alternate" };
+        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", number(SECONDS, 1));
+        let mut known: Vec<(Mover, String)> = Vec::new();
         let mut by_frame: FxHashMap<usize, usize> = FxHashMap::default();
         let scene = self.scene;
         for node in &scene.nodes {
@@ -109,40 +119,33 @@ impl Picture<'_> {
                 self.add_group(node, [0.0; 2], "", true);
                 continue;
             }
-            let known = match node.place {
+            let found = match node.place {
                 Place::Fixed(frame) => by_frame.get(&frame).copied(),
-                _ => tracks.iter().position(|(mover, ..)| mover.place == node.place),
+                _ => known.iter().position(|(mover, _)| mover.place == node.place),
             };
-            let number = known.unwrap_or_else(|| {
+            let number = found.unwrap_or_else(|| {
                 let mover = self.mover(node, motion);
-                let (keyframes, first) = self.track(&mover, &moments);
+                let track = self.track(&mover, &moments);
+                known.push((mover, self.add_track(&track)));
                 if let Place::Fixed(frame) = node.place {
-                    by_frame.insert(frame, tracks.len());
+                    by_frame.insert(frame, known.len() - 1);
                 }
-                tracks.push((mover, keyframes, first));
-                tracks.len() - 1
+                known.len() - 1
             });
-            let (mover, keyframes, first) = &tracks[number];
-            // what stands still needs no keys; where nothing may move, all stay where they begin
-            let class = if keyframes.is_some() { format!(" class=\"m m{number}\"") } else { String::new() };
-            let attributes = format!(" transform=\"{}\"{class}", attribute(first, mover));
-            let origin = mover.origin;
-            self.add_group(node, origin, &attributes, true);
+            let (mover, attributes) = &known[number];
+            self.add_group(node, mover.origin, attributes, true);
+        }
+        self.add_traces(motion);
+        if self.options.vectors {
+            self.add_moving_vectors(motion);
         }
         if self.options.labels {
             let some: Vec<&[Pose]> = motion.sampled(LABELLED_AT).map(|row| motion.poses(row)).collect();
             for label in self.labels(&some) {
                 let mover = Mover { place: Place::Upright(label.anchor), origin: [0.0; 2] };
-                let (keyframes, first) = self.track(&mover, &moments);
-                let class = keyframes.as_ref().map_or(String::new(), |_| format!(" class=\"m m{}\"", tracks.len()));
-                self.add_label(&label, [0.0; 2], Some(&format!(" transform=\"{}\"{class}", attribute(&first, &mover))));
-                tracks.push((mover, keyframes, first));
-            }
-        }
-        self.rules += &format!(".m{{animation:{}s linear infinite{direction}}}\n", number(SECONDS, 1));
-        for (k, (_, keyframes, _)) in tracks.iter().enumerate() {
-            if let Some(keyframes) = keyframes {
-                self.rules += &format!(".m{k}{{animation-name:k{k}}}\n@keyframes k{k}{{{keyframes}}}\n");
+                let track = self.track(&mover, &moments);
+                let attributes = self.add_track(&track);
+                self.add_label(&label, [0.0; 2], Some(&attributes));
             }
         }
         self.rules += "@media (prefers-reduced-motion:reduce){.m{animation:none}}\n";
@@ -182,7 +185,7 @@ impl Picture<'_> {
         let (pose, stretch) = mover.place.pose(poses);
         let at = self.placed(pose.placed(mover.origin));
         let is_stretched = matches!(mover.place, Place::Between { held: Held::Stretched, .. });
-        Key { at, turn: degrees(pose.phi), stretch: if is_stretched { stretch * self.scale } else { 1.0 } }
+        Key { at, turn: degrees(pose.phi), stretch: if is_stretched { [stretch * self.scale, 1.0] } else { [1.0; 2] } }
     }
 
     /// Places that a mover shows, before its transform (px).
@@ -201,47 +204,75 @@ impl Picture<'_> {
         crate::scene::hull(&local.collect::<Vec<_>>(), 0.5)
     }
 
-    /// The keyframes of a mover, and where it begins; none if it stays there.
-    fn track(&self, mover: &Mover, moments: &Moments) -> (Option<String>, Key) {
-        let mut keys: Vec<Key> = moments.poses.iter().map(|poses| self.key(mover, poses)).collect();
-        if !matches!(mover.place, Place::Fixed(_)) {
-            unwrap(&mut keys);
-        }
-        let shown = self.shown_by(mover);
-        let chosen = chosen(&keys, &shown, moments);
-        let first = keys[0].rounded();
-        if chosen.iter().all(|&k| keys[k].rounded() == first) {
-            return (None, first);
-        }
-        let turns = chosen.iter().any(|&k| keys[k].rounded().turn != 0.0);
-        let stretches = matches!(mover.place, Place::Between { held: Held::Stretched, .. });
-        let mut text = String::new();
-        for &k in &chosen {
-            let Key { at: [x, y], turn, stretch } = keys[k];
-            let percent = number(100.0 * moments.part(k), PERCENT);
-            let (x, y) = (number(x, PIXELS), number(y, PIXELS));
-            text += &format!("{percent}%{{transform:translate({x}px,{y}px)");
-            if turns {
-                text += &format!(" rotate({}deg)", number(turn, DEGREES));
-            }
-            if stretches {
-                text += &format!(" scale({},1)", number(stretch, PIXELS));
-            }
-            text += "}";
-        }
-        (Some(text), first)
+    /// The track of a mover.
+    fn track(&self, mover: &Mover, moments: &Moments) -> Track {
+        let keys: Vec<Key> = moments.poses.iter().map(|poses| self.key(mover, poses)).collect();
+        let is_fixed = matches!(mover.place, Place::Fixed(_));
+        Track::of(keys, &self.shown_by(mover), &moments.times, is_fixed)
+    }
+
+    /// Adds a track to the style sheet, and gives the attributes of the groups that go on it.
+    pub(super) fn add_track(&mut self, track: &Track) -> String {
+        let first = format!(" transform=\"{}\"", track.first);
+        let Some(keyframes) = &track.keyframes else { return first };
+        let number = self.tracks;
+        self.tracks += 1;
+        self.rules += &format!(".m{number}{{animation-name:k{number}}}\n@keyframes k{number}{{{keyframes}}}\n");
+        // where nothing may move, all stay where they begin
+        format!("{first} class=\"m m{number}\"")
     }
 }
 
-/// The attribute that puts a mover where it begins.
-fn attribute(key: &Key, mover: &Mover) -> String {
+/// How a group moves.
+#[derive(Clone, Debug)]
+pub(super) struct Track {
+    /// None if it stays where it begins.
+    keyframes: Option<String>,
+    /// The attribute that puts it there.
+    first: String,
+}
+
+impl Track {
+    /// One with keys at some times (s), of a group that shows some places; its directions may be those of ways, which jump by a turn.
+    pub(super) fn of(mut keys: Vec<Key>, shown: &[Vector], times: &[f64], has_turns: bool) -> Track {
+        if !has_turns {
+            unwrap(&mut keys);
+        }
+        let needs = Needs::of(keys.iter());
+        let first = attribute(&keys[0], needs);
+        let chosen = chosen(&keys, shown, times);
+        if chosen.iter().all(|&k| keys[k].rounded() == keys[0].rounded()) {
+            return Track { keyframes: None, first };
+        }
+        let (begin, end) = (times[0], times[times.len() - 1]);
+        let mut text = String::new();
+        for &k in &chosen {
+            let Key { at: [x, y], turn, stretch } = keys[k];
+            let percent = number(100.0 * (times[k] - begin) / (end - begin), PERCENT);
+            text += &format!("{percent}%{{transform:translate({}px,{}px)", number(x, PIXELS), number(y, PIXELS));
+            if needs.turns {
+                text += &format!(" rotate({}deg)", number(turn, DEGREES));
+            }
+            if needs.stretches {
+                let [x, y] = stretch.map(|part| number(part, PIXELS));
+                text += &format!(" scale({x},{y})");
+            }
+            text += "}";
+        }
+        Track { keyframes: Some(text), first }
+    }
+}
+
+/// The attribute that puts a group where a key is.
+fn attribute(key: &Key, needs: Needs) -> String {
     let Key { at: [x, y], turn, stretch } = *key;
     let mut text = format!("translate({} {})", number(x, PIXELS), number(y, PIXELS));
-    if turn != 0.0 {
+    if needs.turns && key.rounded().turn != 0.0 {
         text += &format!(" rotate({})", number(turn, DEGREES));
     }
-    if matches!(mover.place, Place::Between { held: Held::Stretched, .. }) {
-        text += &format!(" scale({} 1)", number(stretch, PIXELS));
+    if needs.stretches {
+        let [x, y] = stretch.map(|part| number(part, PIXELS));
+        text += &format!(" scale({x} {y})");
     }
     text
 }
@@ -255,13 +286,13 @@ fn unwrap(keys: &mut [Key]) {
 }
 
 /// Which moments are keys: so few that all places are where they belong at each other one.
-fn chosen(keys: &[Key], shown: &[Vector], moments: &Moments) -> Vec<usize> {
+fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
     let held = |from: usize, to: usize| {
         let (a, b) = (keys[from].rounded(), keys[to].rounded());
-        let length = moments.times[to] - moments.times[from];
+        let length = times[to] - times[from];
         (from + 1..to).all(|k| {
-            let part = if length > 0.0 { (moments.times[k] - moments.times[from]) / length } else { 0.0 };
+            let part = if length > 0.0 { (times[k] - times[from]) / length } else { 0.0 };
             let guess = a.between(&b, part);
             distance(guess.at, keys[k].at) <= OFF
                 && shown.iter().all(|place| distance(guess.placed(*place), keys[k].placed(*place)) <= OFF)
@@ -289,45 +320,4 @@ fn chosen(keys: &[Key], shown: &[Vector], moments: &Moments) -> Vec<usize> {
         from = good;
     }
     chosen
-}
-
-/// Where a place that a frame shows is at a part of a run, as the keyframes of a file put it: for tests, which read them back.
-#[cfg(test)]
-pub(super) fn read_back(file: &str, point: &str, part: f64) -> Option<Vector> {
-    let mark = format!("data-point=\"{point}\"");
-    let at = file.find(&mark)?;
-    let group = file[..at].rfind("<g ")?;
-    let opening = &file[group..group + file[group..].find('>')?];
-    let element = &file[at..at + file[at..].find("/>")?];
-    let attribute = |text: &str, name: &str| -> Option<f64> {
-        let (_, behind) = text.split_once(&format!(" {name}=\""))?;
-        behind.split('"').next()?.parse().ok()
-    };
-    let local = [attribute(element, "cx").unwrap_or(0.0), attribute(element, "cy").unwrap_or(0.0)];
-    let numbers = |text: &str| -> Vec<f64> {
-        let is_part = |c: char| c.is_ascii_digit() || matches!(c, '-' | '.');
-        text.split(|c| !is_part(c)).filter_map(|word| word.parse().ok()).collect()
-    };
-    let key = |numbers: &[f64]| Key {
-        at: [numbers[0], numbers[1]],
-        turn: numbers.get(2).copied().unwrap_or(0.0),
-        stretch: 1.0,
-    };
-    let Some((_, class)) = opening.split_once(" m m") else {
-        let Some((_, transform)) = opening.split_once("transform=\"") else { return Some(local) };
-        return Some(key(&numbers(transform.split('"').next()?)).placed(local));
-    };
-    let number: usize = class.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok()?;
-    let (_, rules) = file.split_once(&format!("@keyframes k{number}{{"))?;
-    let rules = rules.split("}}").next()?;
-    let keys: Vec<(f64, Key)> = rules
-        .split('}')
-        .filter_map(|rule| {
-            let (percent, transform) = rule.split_once("%{")?;
-            Some((percent.parse::<f64>().ok()? / 100.0, key(&numbers(transform))))
-        })
-        .collect();
-    let behind = keys.iter().position(|(at, _)| *at >= part)?.max(1);
-    let ((from, a), (to, b)) = (keys[behind - 1], keys[behind]);
-    Some(a.between(&b, (part - from) / (to - from)).placed(local))
 }

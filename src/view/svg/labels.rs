@@ -8,9 +8,9 @@ use crate::view::text::{escaped, number};
 use unicode_width::UnicodeWidthChar;
 
 /// Of letters, in pixels; for the smallest and largest pictures.
-const SIZES: [f64; 2] = [11.0, 17.0];
+const SIZES: [f64; 2] = [13.0, 18.0];
 /// Of letters, as a part of the picture's shorter side.
-const SIZE: f64 = 1.0 / 38.0;
+const SIZE: f64 = 1.0 / 42.0;
 /// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
 const COLUMN: f64 = 0.62;
 /// Longer names are cut.
@@ -77,7 +77,11 @@ impl Picture<'_> {
         let placed = |anchor: &Anchor| -> Vec<Vector> {
             moments.iter().map(|poses| self.anchored(anchor, poses)).collect()
         };
-        let pins: Vec<Vec<Vector>> = self.pins().iter().map(placed).collect();
+        let pins: Vec<Vec<Vector>> = self
+            .pins()
+            .iter()
+            .map(|(place, at)| moments.iter().map(|poses| self.placed(place.pose(poses).0.placed(*at))).collect())
+            .collect();
         let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
         for (anchor, text, is_body) in self.named() {
             let half = [0.5 * COLUMN * size * columns(&text) as f64 + 2.0, 0.6 * size + 1.0];
@@ -155,18 +159,21 @@ impl Picture<'_> {
         named
     }
 
-    /// Where pins are, which labels leave free if they can.
-    fn pins(&self) -> Vec<Anchor> {
-        let mut pins = Vec::new();
+    /// What labels leave free if they can: pins and the heads of arrows.
+    fn pins(&self) -> Vec<(Place, Vector)> {
+        let mut taken = Vec::new();
         for node in &self.scene.nodes {
-            let Place::Fixed(frame) = node.place else { continue };
-            for shape in node.shapes.iter().filter(|shape| matches!(shape.look, Look::Pin | Look::Weld)) {
-                if let crate::scene::Path::Circle { at, .. } = shape.path {
-                    pins.push(Anchor { frame, at });
+            for shape in &node.shapes {
+                match (&shape.path, shape.look) {
+                    (crate::scene::Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
+                    (path, Look::Arrow | Look::ArrowHead | Look::Support) => {
+                        taken.extend(path.places().into_iter().map(|at| (node.place, at)));
+                    }
+                    _ => {}
                 }
             }
         }
-        pins
+        taken
     }
 }
 

@@ -11,7 +11,7 @@ mod picture;
 mod style;
 mod vectors;
 
-use crate::scene::{Anchor, Motion, Scene};
+use crate::scene::{Anchor, Motion, Scene, Vector};
 use picture::Picture;
 
 /// Which colours are used.
@@ -39,13 +39,14 @@ pub struct Options {
     pub vectors: bool,
     /// The names of bodies and pins.
     pub labels: bool,
+    /// Words below places (m).
+    pub captions: Vec<(Vector, String)>,
 }
 
 /// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.
 #[must_use]
 pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
     let mut picture = Picture::new(scene, motion, options);
-    picture.add_traces(motion);
     let count = moments.len();
     if count > 1 {
         picture.add_ground(moments.poses(0));
@@ -53,6 +54,7 @@ pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options
     for row in 0..count {
         picture.add_moment(moments, row, [row + 1 == count, count == 1]);
     }
+    picture.add_traces(motion);
     if options.vectors && count > 0 {
         picture.add_vectors(moments, motion);
     }
@@ -69,7 +71,6 @@ pub fn animated(scene: &Scene, motion: &Motion, options: &Options) -> String {
         return still(scene, motion, motion, options);
     }
     let mut picture = Picture::new(scene, motion, options);
-    picture.add_traces(motion);
     picture.add_motion(motion);
     picture.finish()
 }

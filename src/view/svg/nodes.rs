@@ -2,7 +2,7 @@
 
 use super::picture::Picture;
 use super::style::TINTS;
-use crate::scene::{Held, Motion, Node, Path, Place, Pose, Shape, Vector};
+use crate::scene::{Held, Look, Motion, Node, Path, Place, Pose, Shape, Vector};
 use crate::view::path::written;
 use crate::view::text::{escaped, number};
 
@@ -88,9 +88,14 @@ impl Picture<'_> {
             self.used.tints.insert(tint);
             classes.push(format!("b{tint}"));
         } else {
-            classes.push("b-ground".to_owned());
+            let is_filled = |shape: &Shape| matches!(shape.look, Look::Gear | Look::Rack | Look::Block);
+            if node.shapes.iter().any(is_filled) {
+                self.used.is_ground_filled = true;
+                classes.push("b-ground".to_owned());
+            }
         }
         let attributes = match attributes.split_once(" class=\"") {
+            _ if classes.is_empty() => attributes.to_owned(),
             // classes of a motion stand with those of the body
             Some((before, behind)) => format!(" class=\"{} {behind}{before}", classes.join(" ")),
             None => format!(" class=\"{}\"{attributes}", classes.join(" ")),

@@ -24,6 +24,8 @@ pub(super) struct Picture<'s> {
     pub used: Used,
     pub rules: String,
     pub body: String,
+    /// How many tracks there are.
+    pub tracks: usize,
     pub ids: rustc_hash::FxHashSet<String>,
 }
 
@@ -41,7 +43,7 @@ impl<'s> Picture<'s> {
         let scale = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
         let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
         let (used, rules, body) = (Used::default(), String::new(), String::new());
-        Picture { scene, options, size, scale, middle, used, rules, body, ids: rustc_hash::FxHashSet::default() }
+        Picture { scene, options, size, scale, middle, used, rules, body, tracks: 0, ids: rustc_hash::FxHashSet::default() }
     }
 
     /// Where a place is in the picture.
@@ -78,22 +80,36 @@ impl<'s> Picture<'s> {
         found
     }
 
+    fn caption(&self, (at, text): &(Vector, String)) -> String {
+        let [x, y] = self.placed(*at).map(|part| number(part, 2));
+        format!("<text class=\"caption\" x=\"{x}\" y=\"{y}\">{}</text>\n", escaped(text))
+    }
+
     /// The whole file.
-    pub fn finish(self) -> String {
+    pub fn finish(mut self) -> String {
         let [width, height] = self.size.map(|side| number(side, 2));
+        // pixels in a metre, and where the ground's origin is: x to the right, y up
+        let origin = self.placed([0.0; 2]);
         let mut file = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
-             aria-labelledby=\"title\">\n<title id=\"title\">{}</title>\n",
+             aria-labelledby=\"title\" data-scale=\"{}\" data-origin=\"{} {}\">\n<title id=\"title\">{}</title>\n",
+            self.scale,
+            number(origin[0], 3),
+            number(origin[1], 3),
             escaped(&self.scene.name)
         );
         let docs = self.scene.docs.join("\n");
         if !docs.trim().is_empty() {
             let _ = writeln!(file, "<desc>{}</desc>", escaped(docs.trim()));
         }
+        if !self.options.captions.is_empty() {
+            self.used.labels = Some(self.letters());
+        }
         let theme: Theme = self.options.theme;
         let _ = writeln!(file, "<style>\n{}{}</style>", style::sheet(&self.used, theme, self.unit()), self.rules);
         let _ = writeln!(file, "<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>");
-        file + &self.body + "</svg>\n"
+        let captions: String = self.options.captions.iter().map(|caption| self.caption(caption)).collect();
+        file + &self.body + &captions + "</svg>\n"
     }
 }
 

@@ -19,6 +19,8 @@ pub(super) struct Used {
     /// The size of letters (px), if there are any.
     pub labels: Option<f64>,
     pub has_ghosts: bool,
+    /// Whether something that is filled is on the ground.
+    pub is_ground_filled: bool,
     pub vectors: BTreeSet<&'static str>,
 }
 
@@ -28,6 +30,8 @@ struct Palette {
     ink: &'static str,
     /// Of what is there, but is not looked at.
     quiet: &'static str,
+    /// Of what is a part of the ground.
+    ground: &'static str,
     /// Of what a driver does.
     driven: &'static str,
     tints: [&'static str; TINTS],
@@ -40,6 +44,7 @@ const LIGHT: Palette = Palette {
     paper: "#fff",
     ink: "#1d2a36",
     quiet: "#6b7785",
+    ground: "#e2e7ec",
     driven: "#0b6e4f",
     tints: ["#bcd9f5", "#ffd3a1", "#c4e6bd", "#f6c3cb", "#d9cdf2", "#f5e79e", "#b9e6e4", "#e3d0bd"],
     traces: ["#c2185b", "#1565c0", "#6a1b9a", "#b45309"],
@@ -51,6 +56,7 @@ const DARK: Palette = Palette {
     paper: "#11181f",
     ink: "#e8eef4",
     quiet: "#8b98a6",
+    ground: "#2b3641",
     driven: "#5fd3a8",
     tints: ["#2b5782", "#80551f", "#35703c", "#833b49", "#584687", "#766620", "#2a6f6d", "#66503c"],
     traces: ["#ff6fa5", "#6db3ff", "#c99bff", "#ffb454"],
@@ -105,7 +111,7 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += ".ghost{opacity:.3}\n";
     }
     if !used.vectors.is_empty() {
-        rules += &format!(".vector{{stroke-width:{}}}\n", width(1.2));
+        rules += &format!(".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n", width(1.2));
     }
     rules
 }
@@ -125,11 +131,14 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::Block], &format!("stroke:{ink}"));
     group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::MasslessLink, Look::Cylinder, Look::Rod], &format!("fill:{paper};stroke:{ink}"));
-    group(&[Look::Weld], &format!("fill:{ink};stroke:{ink}"));
+    group(&[Look::Weld, Look::Dot], &format!("fill:{ink};stroke:{ink}"));
     group(&[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face], &format!("fill:none;stroke:{ink}"));
     group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));
     group(&[Look::Arrow], &format!("fill:none;stroke:{driven}"));
     group(&[Look::ArrowHead], &format!("fill:{driven};stroke:none"));
+    if used.is_ground_filled {
+        rules += &format!(".b-ground{{fill:{}}}\n", palette.ground);
+    }
     for tint in &used.tints {
         rules += &format!(".b{tint}{{fill:{}}}\n", palette.tints[tint % TINTS]);
     }

@@ -1,8 +1,9 @@
 //! Velocities and accelerations at the pins, as arrows.
 
+use super::keyframes::{Key, Track};
 use super::nodes::PIXELS;
 use super::picture::Picture;
-use crate::scene::{Motion, Point, Vector, length, minus, plus, times};
+use crate::scene::{Motion, Point, Pose, Vector, direction, length, minus, plus, times};
 use crate::view::text::{escaped, number};
 
 /// How long the longest arrow of a kind is, as a part of the picture's shorter side.
@@ -11,35 +12,85 @@ const LONGEST: f64 = 0.2;
 const LEAST: f64 = 2.0;
 /// The head of an arrow: its length and half its width (px), at most.
 const HEAD: [f64; 2] = [9.0, 3.4];
+/// From this length on (px) an arrow has a whole head.
+const FULL_HEAD_AT: f64 = 18.0;
 
-impl Picture<'_> {
+/// What is drawn as arrows: its word, and what it is of a point in a row.
+type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
+
+const KINDS: [Kind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
+
+impl<'s> Picture<'s> {
     /// At the last of some moments; arrows are to scale with the longest of the whole motion.
     pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
-        let scene = self.scene;
-        let pins: Vec<&Point> = scene.points.iter().filter(|point| point.is_pin && point.frame > 0).collect();
-        let longest = |of: fn(&Motion, usize, &Point) -> Vector| {
-            let all = motion.sampled(200).flat_map(|row| pins.iter().map(move |pin| length(of(motion, row, pin))));
-            all.filter(|way| way.is_finite()).fold(0.0, f64::max)
-        };
         let row = moments.len() - 1;
-        let reach = LONGEST * self.size[0].min(self.size[1]);
-        for (word, of) in [("velocity", velocity as fn(&Motion, usize, &Point) -> Vector), ("acceleration", acceleration)] {
-            let longest = longest(of).max(pins.iter().map(|pin| length(of(moments, row, pin))).fold(0.0, f64::max));
-            if !(longest.is_finite() && longest > 0.0) {
-                continue;
-            }
-            let mut drawn: Vec<Vector> = Vec::new();
-            for pin in &pins {
+        for (word, of) in KINDS {
+            let Some(scale) = self.pixels_of([moments, motion], of) else { continue };
+            for pin in self.free_pins(moments.poses(row)) {
                 let from = self.placed(moments.poses(row)[pin.frame].placed(pin.at));
-                // bodies share their pins
-                if drawn.iter().any(|known| length(minus(*known, from)) < 0.5) {
-                    continue;
-                }
-                drawn.push(from);
-                let [x, y] = times(reach / longest, of(moments, row, pin));
+                let [x, y] = times(scale, of(moments, row, pin));
                 self.add_vector(word, &pin.name, from, [x, -y]);
             }
         }
+    }
+
+    /// At all times: the line and the head of each arrow are on tracks of their own.
+    pub fn add_moving_vectors(&mut self, motion: &Motion) {
+        for (word, of) in KINDS {
+            let Some(scale) = self.pixels_of([motion, motion], of) else { continue };
+            for pin in self.free_pins(motion.poses(0)) {
+                let ways: Vec<[Vector; 2]> = (0..motion.len())
+                    .map(|row| {
+                        let [x, y] = times(scale, of(motion, row, pin));
+                        [self.placed(motion.poses(row)[pin.frame].placed(pin.at)), [x, -y]]
+                    })
+                    .collect();
+                if ways.iter().all(|[_, way]| length(*way) < LEAST) {
+                    continue;
+                }
+                self.used.vectors.insert(word);
+                let turn = |way: Vector| direction(way).to_degrees();
+                let line = |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
+                let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
+                let head = |[from, way]: &[Vector; 2]| Key {
+                    at: plus(*from, *way),
+                    turn: turn(*way),
+                    stretch: [size(*way); 2],
+                };
+                let [long, wide] = HEAD;
+                let name = escaped(&pin.name).into_owned();
+                let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], &motion.times, false);
+                let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], &motion.times, false);
+                for (track, d) in [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))] {
+                    let attributes = self.add_track(&track);
+                    self.body += &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
+                }
+            }
+        }
+    }
+
+    /// Pixels of one unit, by the longest of two motions; nothing where all are at rest.
+    fn pixels_of(&self, motions: [&Motion; 2], of: fn(&Motion, usize, &Point) -> Vector) -> Option<f64> {
+        let pins = || self.scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
+        let all = motions.into_iter().flat_map(|motion| {
+            motion.sampled(200).flat_map(move |row| pins().map(move |pin| length(of(motion, row, pin))))
+        });
+        let longest = all.filter(|way| way.is_finite()).fold(0.0, f64::max);
+        (longest > 0.0).then(|| LONGEST * self.size[0].min(self.size[1]) / longest)
+    }
+
+    /// The pins of bodies; of those that bodies share one.
+    fn free_pins(&self, poses: &[Pose]) -> Vec<&'s Point> {
+        let mut taken: Vec<Vector> = Vec::new();
+        let scene = self.scene;
+        let pins = scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
+        pins.filter(|pin| {
+            let at = self.placed(poses[pin.frame].placed(pin.at));
+            let is_free = taken.iter().all(|known| length(minus(*known, at)) >= 0.5);
+            taken.extend(is_free.then_some(at));
+            is_free
+        })
+        .collect()
     }
 
     fn add_vector(&mut self, word: &'static str, name: &str, from: Vector, way: Vector) {
@@ -49,7 +100,7 @@ impl Picture<'_> {
         }
         self.used.vectors.insert(word);
         let along = times(1.0 / far, way);
-        let [long, wide] = HEAD.map(|part| part * (far / 18.0).min(1.0));
+        let [long, wide] = HEAD.map(|part| part * (far / FULL_HEAD_AT).min(1.0));
         let tip = plus(from, way);
         let base = minus(tip, times(long, along));
         let side = times(wide, [-along[1], along[0]]);

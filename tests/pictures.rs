@@ -1,0 +1,415 @@
+//! Pictures of mechanisms: what is drawn is where the table has it, and nothing lies on what it should not.
+//!
+//! `UPDATE_GOLDENS=1 cargo test --test pictures` writes the pictures that a reviewer reads.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+mod support;
+
+use mechc::rooms::scene::{
+    Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Vector, catalogue, distance, dot, minus, plus, times,
+};
+use mechc::rooms::view::svg::{Options, Theme, animated, still};
+use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
+use std::fs;
+use std::path::Path;
+use support::random::Random;
+use support::{Disk, files, stem};
+
+fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
+    let mut sources = Sources::default();
+    let file = sources.add(path.display().to_string(), text);
+    let parsed = Parsed::of_source(sources, file, path);
+    let checked = parsed.check(&Choice::default(), &Disk::default());
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    let compiled = compiled.unwrap_or_else(|| panic!("{}: {said:?}", path.display()));
+    let times = times.or_else(|| compiled.times()).expect("an analysis");
+    let (seen, said) = checked.seen(&compiled, &times, &RunOptions::default(), 2000);
+    seen.unwrap_or_else(|| panic!("{}: {said:?}", path.display()))
+}
+
+fn seen_text(text: &str) -> Seen {
+    seen_as(Path::new("test.mech"), text, None)
+}
+
+/// All examples, with their names.
+fn examples() -> Vec<(String, Seen)> {
+    let read = |path: std::path::PathBuf| {
+        let text = fs::read_to_string(&path).expect("an example");
+        (stem(&path), seen_as(&path, &text, None))
+    };
+    files("examples", "mech").into_iter().map(read).collect()
+}
+
+fn example(name: &str) -> Seen {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("examples/{name}.mech"));
+    let text = fs::read_to_string(&path).expect("an example");
+    seen_as(&path, &text, None)
+}
+
+/// The value of an attribute in the text of a tag.
+fn attribute<'t>(tag: &'t str, name: &str) -> Option<&'t str> {
+    let (_, behind) = tag.split_once(&format!(" {name}=\""))?;
+    behind.split('"').next()
+}
+
+fn numbers(text: &str) -> Vec<f64> {
+    let is_part = |c: char| c.is_ascii_digit() || matches!(c, '-' | '.');
+    text.split(|c| !is_part(c)).filter_map(|word| word.parse().ok()).collect()
+}
+
+/// The points that a moving picture shows, with what it takes to tell where they are.
+struct Read<'f> {
+    file: &'f str,
+    /// Pixels in a metre, and where the ground's origin is.
+    scale: f64,
+    origin: Vector,
+    /// The path of each point, its place in its group, the group's tag.
+    points: Vec<(&'f str, Vector, &'f str)>,
+}
+
+impl<'f> Read<'f> {
+    fn of(file: &'f str) -> Read<'f> {
+        let root = &file[..file.find('>').expect("a root")];
+        let scale = attribute(root, "data-scale").expect("a scale").parse().expect("a number");
+        let origin = numbers(attribute(root, "data-origin").expect("an origin"));
+        let (mut points, mut group) = (Vec::new(), "");
+        for tag in file.split('<').filter_map(|tag| tag.split('>').next()) {
+            if tag.starts_with("g ") {
+                group = tag;
+            }
+            if let Some(point) = attribute(tag, "data-point") {
+                let part = |name| attribute(tag, name).map_or(0.0, |text| text.parse().expect("a number"));
+                points.push((point, [part("cx"), part("cy")], group));
+            }
+        }
+        Read { file, scale, origin: [origin[0], origin[1]], points }
+    }
+
+    /// Where a place of a group is at a part of the run (px), as the style sheet moves it.
+    fn placed(&self, local: Vector, group: &str, part: f64) -> Vector {
+        let put = |numbers: &[f64]| {
+            let turn = numbers.get(2).copied().unwrap_or(0.0).to_radians();
+            Pose { at: [numbers[0], numbers[1]], phi: turn }.placed(local)
+        };
+        let class = attribute(group, "class").unwrap_or("");
+        let Some((_, number)) = class.split_once("m m") else {
+            return attribute(group, "transform").map_or(local, |transform| put(&numbers(transform)));
+        };
+        let (_, rules) = self.file.split_once(&format!("@keyframes k{number}{{")).expect("keyframes");
+        let rules = rules.split("}}").next().expect("rules");
+        let key = |rule: &str| {
+            let (percent, transform) = rule.split_once("%{")?;
+            Some((percent.parse::<f64>().ok()? / 100.0, numbers(transform)))
+        };
+        let keys: Vec<(f64, Vec<f64>)> = rules.split('}').filter_map(key).collect();
+        let behind = keys.iter().position(|(at, _)| *at >= part).expect("a key").max(1);
+        let ((from, a), (to, b)) = (&keys[behind - 1], &keys[behind]);
+        let s = (part - from) / (to - from);
+        put(&a.iter().zip(b).map(|(a, b)| a + s * (b - a)).collect::<Vec<_>>())
+    }
+
+    /// A place of the ground in pixels.
+    fn pixels(&self, [x, y]: Vector) -> Vector {
+        [self.origin[0] + self.scale * x, self.origin[1] - self.scale * y]
+    }
+}
+
+/// The farthest that a pin of a moving picture is from its place, at random times (px).
+fn farthest_pin(name: &str, seen: &Seen, file: &str) -> f64 {
+    let read = Read::of(file);
+    let (mut random, mut poses, mut farthest) = (Random::new(7), Vec::new(), 0.0_f64);
+    let (first, last) = (seen.motion.times[0], seen.motion.times[seen.motion.len() - 1]);
+    assert!(!read.points.is_empty(), "{name}: no point is shown");
+    for k in 0..60 {
+        // in rows, where the table has them, and between them, where the quintic has them
+        let row = random.below(seen.motion.len());
+        let t = if k % 2 == 0 { seen.motion.times[row] } else { first + (last - first) * random.part() };
+        seen.motion.write_poses(t, &mut poses);
+        for (path, local, group) in &read.points {
+            let point = seen.scene.point_named(path).expect("a point of the scene");
+            let wanted = read.pixels(poses[point.frame].placed(point.at));
+            let found = read.placed(*local, group, (t - first) / (last - first));
+            farthest = farthest.max(distance(found, wanted));
+        }
+    }
+    farthest
+}
+
+#[test]
+fn pins_are_where_the_table_has_them_at_all_times() {
+    for (name, seen) in examples() {
+        let file = animated(&seen.scene, &seen.motion, &Options::default());
+        let farthest = farthest_pin(&name, &seen, &file);
+        assert!(farthest < 0.5, "{name}: a pin is {farthest} px from its place");
+        let most = if seen.scene.frames.len() <= 5 { 100_000 } else { 250_000 };
+        assert!(file.len() < most, "{name}: {} bytes", file.len());
+    }
+}
+
+#[test]
+fn pictures_of_any_size_are_alike() {
+    let text = fs::read_to_string("examples/hoeken.mech").expect("an example");
+    let mut pictures = Vec::new();
+    for length in ["40 mm", "0.4 um", "0.4 km"] {
+        let seen = seen_text(&text.replace("crank_length = 40 mm", &format!("crank_length = {length}")));
+        let file = animated(&seen.scene, &seen.motion, &Options::default());
+        assert!(farthest_pin(length, &seen, &file) < 0.5);
+        // but for pixels in a metre, and the last digits of keyframes
+        let (_, drawn) = file.split_once("<rect").expect("a background");
+        pictures.push((drawn.len(), drawn.matches("<g").count()));
+    }
+    assert!(pictures.iter().all(|picture| picture.1 == pictures[0].1 && picture.0.abs_diff(pictures[0].0) < 40), "{pictures:?}");
+}
+
+#[test]
+fn names_of_moments_do_not_lie_on_each_other() {
+    for (name, seen) in examples() {
+        for theme in [Theme::Light, Theme::Dark] {
+            let options = Options { labels: true, theme, ..Options::default() };
+            let file = still(&seen.scene, &seen.motion, &one_row(&seen, seen.motion.len() / 3), &options);
+            let boxes = boxes(&file);
+            assert!(!boxes.is_empty(), "{name}: nothing is named");
+            for (k, (text, [low, high])) in boxes.iter().enumerate() {
+                assert!(low[0] >= -0.01 && low[1] >= -0.01, "{name}: {text} is cut off");
+                for (other, [other_low, other_high]) in &boxes[k + 1..] {
+                    let meet = low[0] < other_high[0] && other_low[0] < high[0] && low[1] < other_high[1] && other_low[1] < high[1];
+                    assert!(!meet, "{name}: `{text}` lies on `{other}`");
+                }
+            }
+        }
+    }
+}
+
+/// The words of a still, with the boxes around them as letters of 0.6 em fill them.
+fn boxes(file: &str) -> Vec<(String, [Vector; 2])> {
+    let (_, font) = file.split_once("text{font:").expect("a font");
+    let size: f64 = font.split("px").next().expect("a size").parse().expect("a number");
+    let word = |tag: &str| {
+        let (attributes, text) = tag.split_once('>')?;
+        let [x, y] = ["x", "y"].map(|part| attribute(attributes, part).expect("a place").parse::<f64>().expect("a number"));
+        let half = 0.5 * 0.6 * size * text.chars().count() as f64;
+        Some((text.to_owned(), [[x - half, y - 0.8 * size], [x + half, y + 0.2 * size]]))
+    };
+    file.split('<').filter(|tag| tag.starts_with("text")).filter_map(word).collect()
+}
+
+/// A single moment of a motion.
+fn one_row(seen: &Seen, row: usize) -> Motion {
+    let rows = vec![seen.motion.rows()[row].clone()];
+    Motion::of_rows(seen.motion.frames() - 1, &seen.columns, rows, Vec::new())
+}
+
+/// The corners of a shape at a moment, contour by contour.
+fn corners(path: &Drawn, pose: &Pose) -> Vec<Vec<Vector>> {
+    match path {
+        Drawn::Circle { .. } => Vec::new(),
+        Drawn::Lines(contours) => {
+            contours.iter().map(|one| Drawn::Lines(vec![one.clone()]).moved(pose).places()).collect()
+        }
+    }
+}
+
+/// How deep a place lies in what some closed contours hold, an odd number of times.
+fn depth(place: Vector, contours: &[Vec<Vector>]) -> f64 {
+    let (mut is_inside, mut nearest) = (false, f64::INFINITY);
+    for contour in contours {
+        for (k, b) in contour.iter().enumerate() {
+            let a = contour[(k + contour.len() - 1) % contour.len()];
+            if (a[1] > place[1]) != (b[1] > place[1]) {
+                is_inside ^= place[0] < a[0] + (place[1] - a[1]) / (b[1] - a[1]) * (b[0] - a[0]);
+            }
+            let way = minus(*b, a);
+            let part = (dot(minus(place, a), way) / dot(way, way)).clamp(0.0, 1.0);
+            nearest = nearest.min(distance(place, plus(a, times(part, way))));
+        }
+    }
+    if is_inside { nearest } else { 0.0 }
+}
+
+/// The deepest that a tooth goes into what it meshes with along a motion, as a part of the size of symbols.
+fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
+    let toothed = |look| matches!(look, Look::Gear | Look::Rack);
+    let wheels: Vec<(&Place, &Drawn)> = scene
+        .nodes
+        .iter()
+        .flat_map(|node| node.shapes.iter().filter(|shape| toothed(shape.look)).map(|shape| (&node.place, &shape.path)))
+        .collect();
+    let mut deepest = 0.0_f64;
+    for row in motion.sampled(25) {
+        let placed: Vec<_> = wheels.iter().map(|(place, path)| corners(path, &place.pose(motion.poses(row)).0)).collect();
+        for (k, first) in placed.iter().enumerate() {
+            for second in placed.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, contours)| contours) {
+                let into = first.iter().flatten().map(|place| depth(*place, second)).fold(0.0, f64::max);
+                deepest = deepest.max(into);
+            }
+        }
+    }
+    (wheels.len(), deepest / scene.unit)
+}
+
+#[test]
+fn teeth_mesh_all_along_the_motion() {
+    for (name, wheels) in [("planetary_gear", 3), ("rhombic_drive", 2), ("rack_steering", 2)] {
+        let seen = example(name);
+        let (count, deepest) = deepest_overlap(&seen.scene, &seen.motion);
+        assert_eq!(count, wheels, "{name}");
+        assert!(deepest < 0.03, "{name}: teeth overlap by {deepest} of a symbol's size");
+    }
+}
+
+#[test]
+fn wheels_that_no_pitch_fits_have_no_teeth() {
+    let train = |radius: &str| {
+        seen_text(&format!(
+            "mechanism train {{
+                param r = {radius}
+                ground {{ point O = (0, 0) point P = (10 mm + r, 0) }}
+                body a {{ point O = (0, 0) circle c = O radius 10 mm }}
+                body b at (10 mm + r, 0, 0.3) {{ point O = (0, 0) circle c = O radius r }}
+                joint first: revolute(ground.O, a.O)
+                joint second: revolute(ground.P, b.O)
+                joint mesh: gear(a.c, b.c)
+                driver motor: rotation(first) = 40 * t
+                analysis from 0 s to 1 s every 10 ms
+            }}"
+        ))
+    };
+    let teeth = |seen: &Seen| {
+        let gears = seen.scene.nodes.iter().flat_map(|node| &node.shapes).filter(|shape| shape.look == Look::Gear);
+        gears.map(|shape| shape.path.places().len()).min().expect("a wheel")
+    };
+    let fitting = train("25 mm");
+    assert!(teeth(&fitting) > 100);
+    assert!(deepest_overlap(&fitting.scene, &fitting.motion).1 < 0.03);
+    assert!(teeth(&train("10 mm * pi")) <= 8, "the teeth of such wheels would run into each other");
+    // one turn hardly shows it
+    assert!(teeth(&train("1.9 m")) > 500, "a large one beside a small one");
+}
+
+#[test]
+fn guides_are_as_long_as_the_motion_asks_for() {
+    let seen = example("slider_crank");
+    let shapes = |look| {
+        seen.scene.nodes.iter().flat_map(move |node| {
+            node.shapes.iter().filter(move |shape| shape.look == look).map(|shape| (node.place, shape.path.places()))
+        })
+    };
+    let longest = |places: &[Vector]| distance(places[0], places[1]);
+    let (_, edge) = shapes(Look::GroundLine).max_by(|a, b| longest(&a.1).total_cmp(&longest(&b.1))).expect("a guide");
+    let (place, block) = shapes(Look::Block).next().expect("a block");
+    for row in 0..seen.motion.len() {
+        let (pose, _) = place.pose(seen.motion.poses(row));
+        for corner in block.iter().map(|corner| pose.placed(*corner)) {
+            assert!(edge[0][0] < corner[0] && corner[0] < edge[1][0], "the block leaves its guide in row {row}");
+        }
+    }
+    assert!(longest(&edge) < 0.1 + 10.0 * seen.scene.unit, "no longer than it takes");
+}
+
+#[test]
+fn everything_that_is_declared_is_there() {
+    for (name, seen) in examples() {
+        let file = still(&seen.scene, &seen.motion, &one_row(&seen, 0), &Options::default());
+        for declaration in &seen.scene.declarations {
+            let what = match declaration.kind {
+                "body" => "data-body",
+                "joint" => "data-joint",
+                "driver" => "data-driver",
+                _ => continue,
+            };
+            let mark = format!("{what}=\"{}\"", declaration.name);
+            assert!(file.contains(&mark), "{name}: {mark} is missing");
+        }
+        let ids: Vec<&str> = file.split(" id=\"").skip(1).filter_map(|rest| rest.split('"').next()).collect();
+        let mut distinct = ids.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(distinct.len(), ids.len(), "{name}: an id stands twice");
+    }
+}
+
+#[test]
+fn names_are_no_mark_up() {
+    let name = format!("größe_{}", "x".repeat(190));
+    let text = format!(
+        "/// <script>alert(1)</script> & \"so\" on 🚲\nmechanism odd {{
+            ground {{ point O = (0, 0) }}
+            body {name} {{ point O = (0, 0) point שלום = (1 m, 0) }}
+            joint j: revolute(ground.O, {name}.O)
+            driver d: rotation(j) = t
+            trace ende = {name}.שלום
+            analysis from 0 s to 1 s every 0.1 s
+        }}"
+    );
+    let seen = seen_text(&text);
+    let options = Options { labels: true, ..Options::default() };
+    for file in [animated(&seen.scene, &seen.motion, &options), still(&seen.scene, &seen.motion, &one_row(&seen, 0), &options)] {
+        assert!(!file.contains("<script"), "{file}");
+        assert!(file.contains("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;so&quot; on 🚲"));
+        assert!(file.contains(&format!("data-body=\"{name}\"")));
+        assert!(file.contains("שלום"));
+    }
+}
+
+#[test]
+fn what_hardly_is_anything_is_drawn() {
+    // one body with one point; one that is nothing but a frame; and a motion of a single row
+    for (bodies, joint) in [
+        ("body b { point O = (0, 0) }", "joint j: revolute(ground.O, b.O) driver d: angle(b) = t"),
+        ("body b {}", "driver x: x(b.O) = t driver y: y(b.O) = 0 m driver d: angle(b) = t"),
+    ] {
+        let bodies = if joint.contains("b.O") { bodies.replace("{}", "{ point O = (0, 0) }") } else { bodies.to_owned() };
+        let text = format!("mechanism m {{ ground {{ point O = (0, 0) }} {bodies} {joint} }}");
+        for times in [Times::grid(0.0, 1.0, 0.1), Times::grid(0.0, 0.0, 1.0)] {
+            let seen = seen_as(Path::new("m.mech"), &text, times);
+            let file = animated(&seen.scene, &seen.motion, &Options { vectors: true, labels: true, ..Options::default() });
+            assert!(!file.contains("NaN") && !file.contains("inf"), "{file}");
+            assert!(file.contains("data-body=\"b\""));
+        }
+    }
+}
+
+#[test]
+fn edges_are_known() {
+    let seen = seen_text(
+        "mechanism m {
+            ground { point O = (0, 0) }
+            body b { point O = (0, 0) point P = (1 m, 0) }
+            joint j: revolute(ground.O, b.O)
+            driver d: rotation(j) = if t < 0.35 then 0 else (t - 0.35)^2
+            analysis from 0 s to 1 s every 0.1 s
+        }",
+    );
+    assert_eq!(seen.motion.edges.len(), 1, "{:?}", seen.motion.edges);
+    assert!((seen.motion.edges[0] - 0.35).abs() < 1e-12);
+    let file = animated(&seen.scene, &seen.motion, &Options::default());
+    assert!(farthest_pin("m", &seen, &file) < 0.5);
+}
+
+/// Pictures that a reviewer reads, and the one of the docs.
+fn goldens() -> Vec<(&'static str, String)> {
+    let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
+    let (symbols, rest, captions) = catalogue(span);
+    let of_symbols = Options { captions, ..Options::default() };
+    let (hoeken, slider_crank) = (example("hoeken"), example("slider_crank"));
+    let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
+    let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
+    let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
+    vec![
+        ("docs/symbols.svg", still(&symbols, &rest, &rest, &of_symbols)),
+        ("tests/pictures/hoeken.svg", still(&hoeken.scene, &hoeken.motion, &one_row(&hoeken, 0), &labelled)),
+        ("tests/pictures/slider_crank.svg", animated(&slider_crank.scene, &slider_crank.motion, &Options::default())),
+    ]
+}
+
+#[test]
+fn goldens_are_what_is_drawn() {
+    for (path, drawn) in goldens() {
+        if std::env::var_os("UPDATE_GOLDENS").is_some() {
+            fs::write(path, &drawn).expect("written");
+        }
+        let golden = fs::read_to_string(path).expect("a golden");
+        assert!(golden == drawn, "{path} is not what is drawn now; UPDATE_GOLDENS=1 cargo test --test pictures writes it");
+    }
+}
