@@ -60,9 +60,9 @@ export class App implements Deeds {
         const rows = new Rows(() => this.plots.plotted, this);
         const closer = new Closer((name) => this.plots.add(name));
         const results = new Results(this);
-        this.plots.whenPlotted(() => rows.fill());
+        this.plots.whenPlotted(() => rows.plottedAnew());
         this.panes = [this.picture, this.transport, this.variants, results, this.plots, text, closer, rows];
-        const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]]);
+        const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]], () => this.draw());
         this.element.append(
             html(
                 "div",
@@ -115,6 +115,7 @@ export class App implements Deeds {
     begin(): void {
         if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.play();
         this.draw();
+        this.source.prepare?.();
     }
 
     play(): void {

@@ -16,11 +16,31 @@ export interface Document {
     readonly messages: readonly Message[];
 }
 
+const outlines = new WeakMap<Scene, string>();
+
+/** What a scene declares, as one text: two with the same one have the same names, places in the text, bodies and points. */
+export function outline(scene: Scene): string {
+    let text = outlines.get(scene);
+    if (text === undefined) {
+        const points = scene.points.map(({ name, frame, pin }) => [name, frame, pin]);
+        text = JSON.stringify([scene.declarations, scene.frames, points, scene.profiles]);
+        outlines.set(scene, text);
+    }
+    return text;
+}
+
+/** Whether two documents declare the same. */
+export function declareAlike(one: Document | undefined, other: Document): boolean {
+    return one !== undefined && (one.scene === other.scene || outline(one.scene) === outline(other.scene));
+}
+
 /** Where documents come from. */
 export interface Source {
     readonly page: Page;
     /** The document of a variant. */
     document(variant: number): Promise<Document>;
+    /** Makes ready, in the browser's idle time, what may be asked for. */
+    prepare?(): void;
 }
 
 async function unpacked(page: Page, variant: number): Promise<Document> {
@@ -47,6 +67,17 @@ export class Embedded implements Source {
         const page = JSON.parse(text) as Page;
         if (page.format !== FORMAT) throw new Error(`this page is of form ${page.format}, its script reads ${FORMAT}`);
         return new Embedded(page);
+    }
+
+    prepare(): void {
+        const { variants, columns } = this.page;
+        const size = variants.reduce((sum, { rows }) => sum + 8 * rows * columns.length, 0);
+        if (variants.length < 2 || size > KEPT_BYTES) return;
+        const one = async (variant: number): Promise<void> => {
+            await this.document(variant);
+            if (variant + 1 < variants.length) setTimeout(() => void one(variant + 1), 0);
+        };
+        setTimeout(() => void one(0), 0);
     }
 
     document(variant: number): Promise<Document> {

@@ -1,6 +1,6 @@
 // The named points: what is clicked, and their labels.
 
-import type { Document } from "../data/document.ts";
+import { declareAlike, type Document } from "../data/document.ts";
 import { svg } from "../elements.ts";
 import { anchor, meetings } from "../motion/meetings.ts";
 import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
@@ -20,7 +20,7 @@ export class Points implements Layer {
         if (this.document === document) return;
         const before = this.document;
         this.document = document;
-        if (before?.scene === document.scene) return;
+        if (declareAlike(before, document)) return;
         this.spots = document.scene.points.map(({ name, declaration, pin }, point) => {
             const circle = svg(
                 "g",

@@ -1,6 +1,6 @@
 // A closer look: the values of what is chosen, and a lecture's constructions.
 
-import type { Document } from "../data/document.ts";
+import { declareAlike, type Document } from "../data/document.ts";
 import type { Anchor } from "../data/format.ts";
 import { button, choice, fill, html, press } from "../elements.ts";
 import { degrees } from "../layers/constructions.ts";
@@ -64,7 +64,7 @@ class Values implements Pane {
     }
 
     show(document: Document, wishes: Wishes): void {
-        if (this.document?.scene !== document.scene) {
+        if (!declareAlike(this.document, document)) {
             const all = document.scene.declarations.map(([name, kind], number): [string, string] => [String(number), `${kind} ${name}`]);
             fill(this.what, [NONE, ...all]);
         }
@@ -134,7 +134,7 @@ class Poles implements Pane {
     }
 
     show(document: Document, wishes: Wishes): void {
-        if (this.document?.scene !== document.scene) {
+        if (!declareAlike(this.document, document)) {
             for (const select of [this.one, this.other]) fill(select, [NONE, ...frameNames(document)]);
         }
         [this.document, this.wishes] = [document, wishes];
@@ -175,7 +175,7 @@ class Transmission implements Pane {
     }
 
     show(document: Document, wishes: Wishes): void {
-        if (this.document?.scene !== document.scene) {
+        if (!declareAlike(this.document, document)) {
             this.document = document;
             this.groups = meetings(document.motion).filter((points) => this.linked(points).length === 2);
             const name = (points: number[]) => points.map((point) => document.scene.points[point]!.name).join(" = ");
@@ -247,7 +247,7 @@ class Cam implements Pane {
     }
 
     show(document: Document, wishes: Wishes): void {
-        if (this.document?.scene !== document.scene) {
+        if (!declareAlike(this.document, document)) {
             const { scene } = document;
             const cams = new Set(scene.profiles.map(({ frame }) => frame));
             fill(this.cam, [NONE, ...frameNames(document).filter(([frame]) => cams.has(Number(frame)))]);

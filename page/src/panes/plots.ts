@@ -140,8 +140,27 @@ class Plot {
 
     show(document: Document, wishes: Wishes): void {
         const same = this.document === document && this.series !== undefined && document.table.place(this.y) !== undefined;
+        const isNew = this.document !== document;
         [this.document, this.wishes] = [document, wishes];
-        if (!same) this.make();
+        if (same) return;
+        const named = this.chart && isNew ? this.named() : undefined;
+        if (named) this.renew(named);
+        else this.make();
+    }
+
+    private named(): [Series, Series] | undefined {
+        const [x, y] = [this.x, this.y].map((name) => seriesOf(this.document!, this.wishes!, name));
+        return x && y && [x, y];
+    }
+
+    /** Other numbers in the same chart. */
+    private renew(series: [Series, Series]): void {
+        const units = (of: [Series, Series]) => of.map(({ unit }) => unit).join();
+        if (!this.chart || !this.series || units(this.series) !== units(series)) return this.make();
+        this.series = series;
+        this.area.setAttribute("aria-label", inWords(...series));
+        this.chart.setData(dataOf(...series));
+        if (this.moment) this.draw(this.moment);
     }
 
     /** The chart anew: other data, other colours. */
@@ -151,14 +170,14 @@ class Plot {
             if (![...select.options].some(({ value }) => value === name)) fill(select, [[name, name]]);
             select.value = name;
         }
-        const [x, y] = [this.x, this.y].map((name) => seriesOf(this.document!, this.wishes!, name));
         this.chart?.destroy();
         this.chart = undefined;
-        this.series = x && y && [x, y];
+        this.series = this.named();
+        const [x, y] = this.series ?? [];
         this.element.setAttribute("data-column", this.y);
         this.area.setAttribute("aria-label", x && y ? inWords(x, y) : `${this.y}: not there`);
         if (!x || !y || this.area.clientWidth === 0) return;
-        this.chart = chart(x, y, this.area, this.size());
+        this.chart = chart(() => this.series!, this.area, this.size());
         this.chart.over.append(this.line, this.dot);
         if (this.moment) this.draw(this.moment);
     }
@@ -231,7 +250,19 @@ function inWords(x: Series, y: Series): string {
     return `${name(y)} ${range(y)}, over ${name(x)} ${range(x)}`;
 }
 
-function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; height: number }): uPlot {
+/** What a chart is given: the numbers over time; over anything else only their ends, for the curve is drawn by itself. */
+function dataOf(x: Series, y: Series): uPlot.AlignedData {
+    if (x.name !== "t") return [ends(x), ends(y)];
+    return [Array.from(x.values), Array.from(y.values, (value) => (Number.isFinite(value) ? value : null))];
+}
+
+function ends({ values }: Series): Pair {
+    const known = values.filter(Number.isFinite);
+    return known.length > 0 ? around(Math.min(...known), Math.max(...known)) : [0, 1];
+}
+
+function chart(shown: () => [Series, Series], into: HTMLElement, size: { width: number; height: number }): uPlot {
+    const [x, y] = shown();
     const style = getComputedStyle(into);
     const colour = (name: string) => style.getPropertyValue(name).trim();
     const font = `${parseFloat(style.fontSize)}px ${style.fontFamily}`;
@@ -245,7 +276,6 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
         values: (_, ticks) => ticks.map(short),
         ...more,
     });
-    const gaps = (values: Float64Array) => Array.from(values, (value) => (Number.isFinite(value) ? value : null));
     const drawn: uPlot.Series = { stroke: colour("--curve"), width: 2, pxAlign: 0, points: { show: false } };
     const options: uPlot.Options = {
         ...size,
@@ -256,15 +286,12 @@ function chart(x: Series, y: Series, into: HTMLElement, size: { width: number; h
         axes: [axis({ size: line * 2.1, gap: 3 }), axis({ side: 3, size: line * 4.6, gap: 4 })],
         series: [{}, isTime ? drawn : { ...drawn, paths: () => null }],
     };
-    if (isTime) return new uPlot(options, [Array.from(x.values), gaps(y.values)], into);
-    // over another column a curve goes to and fro: it is drawn by itself
-    const ends = ({ values }: Series): Pair => {
-        const known = values.filter(Number.isFinite);
-        return known.length > 0 ? around(Math.min(...known), Math.max(...known)) : [0, 1];
-    };
-    options.scales!.x!.range = () => ends(x);
-    options.hooks = { draw: [(chart) => drawCurve(chart, x, y, colour("--curve"))] };
-    return new uPlot(options, [ends(x), ends(y)], into);
+    if (!isTime) {
+        // over another column a curve goes to and fro
+        options.scales!.x!.range = () => ends(shown()[0]);
+        options.hooks = { draw: [(chart) => drawCurve(chart, ...shown(), colour("--curve"))] };
+    }
+    return new uPlot(options, dataOf(x, y), into);
 }
 
 function drawCurve(chart: uPlot, x: Series, y: Series, colour: string): void {

@@ -10,11 +10,11 @@ import type { Deeds, Pane } from "./pane.ts";
 export class Results implements Pane {
     readonly element = html("section", { class: "results", "aria-label": "results and messages", tabindex: 0 });
     private readonly numbers = html("dl", { class: "numbers" });
-    private readonly messages = html("ul", { class: "messages", role: "status", "aria-live": "polite" });
+    private readonly messages = html("ul", { class: "messages" });
     private document: Document | undefined;
 
     constructor(private readonly deeds: Deeds) {
-        this.element.append(this.messages, this.numbers);
+        this.element.append(html("div", { role: "status", "aria-live": "polite" }, this.messages), this.numbers);
     }
 
     show(document: Document): void {

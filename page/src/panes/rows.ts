@@ -16,6 +16,7 @@ export class Rows implements Pane {
     private readonly body = html("tbody");
     private readonly where = html("span", { role: "status" });
     private document: Document | undefined;
+    private isOld = true;
     private first = 0;
     private now = -1;
 
@@ -42,19 +43,27 @@ export class Rows implements Pane {
         if (this.document === document) return;
         this.document = document;
         this.first = 0;
-        this.fill();
+        this.isOld = true;
     }
 
     draw({ row }: Moment): void {
+        // rows that nobody sees are not written
+        if (this.isOld && !this.element.classList.contains("behind")) this.fill();
         if (row === this.now) return;
         this.body.querySelector(".current")?.classList.remove("current");
         this.now = row;
         this.body.children[row - this.first]?.classList.add("current");
     }
 
-    /** Other columns may be plotted. */
+    /** Other columns are plotted. */
+    plottedAnew(): void {
+        this.isOld = true;
+        if (!this.element.classList.contains("behind")) this.fill();
+    }
+
     fill(): void {
         if (!this.document) return;
+        this.isOld = false;
         const { table } = this.document;
         const places = [...new Set(["t", ...this.plotted()])].flatMap((name) => table.place(name) ?? []);
         const columns = places.map((place) => ({ column: table.columns[place]!, values: table.values[place]! }));

@@ -8,7 +8,10 @@ export class Tabs {
     readonly element = html("div", { class: "tabbed" });
     private readonly heads: HTMLButtonElement[];
 
-    constructor(private readonly entries: readonly [name: string, pane: HTMLElement][]) {
+    constructor(
+        private readonly entries: readonly [name: string, pane: HTMLElement][],
+        private readonly turned: () => void,
+    ) {
         this.heads = entries.map(([name, pane], number) => {
             pane.id = `pane-${made++}`;
             pane.setAttribute("role", "tabpanel");
@@ -35,5 +38,6 @@ export class Tabs {
             head.setAttribute("aria-selected", String(k === number));
             head.tabIndex = k === number ? 0 : -1;
         });
+        this.turned();
     }
 }

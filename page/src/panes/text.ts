@@ -1,6 +1,6 @@
 // The text of the mechanism: declarations light what is drawn of them, and the reverse.
 
-import type { Document } from "../data/document.ts";
+import { declareAlike, type Document } from "../data/document.ts";
 import type { Declaration } from "../data/format.ts";
 import { html } from "../elements.ts";
 import type { Moment } from "../motion/motion.ts";
@@ -18,6 +18,7 @@ export class Text implements Pane {
     readonly element = html("section", { class: "pane text", "aria-label": "the text" });
     private readonly tabs = html("div", { class: "tabs", role: "tablist", "aria-label": "files" });
     private readonly sheet = html("div", { class: "sheet", tabindex: 0, role: "region", "aria-label": "text of the mechanism" });
+    private document: Document | undefined;
     private texts: Document["page"]["texts"] | undefined;
     private declarations: readonly Declaration[] = [];
     private readonly marked = new Map<number, HTMLElement>();
@@ -46,7 +47,9 @@ export class Text implements Pane {
     show(document: Document, wishes: Wishes): void {
         this.wishes = wishes;
         const { page, scene } = document;
-        if (this.texts !== page.texts || this.declarations !== scene.declarations) {
+        const alike = this.texts === page.texts && declareAlike(this.document, document);
+        this.document = document;
+        if (!alike) {
             [this.texts, this.declarations] = [page.texts, scene.declarations];
             this.lay();
         }

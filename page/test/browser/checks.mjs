@@ -35,7 +35,7 @@ export function fitted(pairs) {
         above += (at[0] - x) * (pixel[0] - px) - (at[1] - y) * (pixel[1] - py);
         below += (at[0] - x) ** 2 + (at[1] - y) ** 2;
     }
-    const scale = below > 0 ? above / below : 1;
+    const scale = below > 1e-24 ? above / below : 1;
     const off = pairs.map(({ at, pixel }) => Math.hypot(px + scale * (at[0] - x) - pixel[0], py - scale * (at[1] - y) - pixel[1]));
     return { scale, worst: Math.max(0, ...off) };
 }
