@@ -115,7 +115,9 @@ export class Picture implements Pane {
         // traces lie below the mechanism, all else above
         const drawn = many ? [] : [this.drawing.element];
         this.over.replaceChildren(...layers.slice(0, 1), ...drawn, ...layers.slice(1));
-        this.resized();
+        // to measure anew takes longer than all else
+        if (before) this.looked();
+        else this.resized();
     }
 
     private resized(): void {

@@ -134,7 +134,7 @@ export async function plotsShowTheirColumns({ page }, path) {
         };
         const across = line(known.map(({ time, x }) => [time, x]));
         assert.ok(across.slope > 0 && across.worst < 1, `${column}: time is ${across.worst} px away`);
-        if (spread < 1e-9 * size) continue;
+        if (spread <= 1e-9 * size) continue;
         const up = line(known.map(({ value, y }) => [value / (spread || 1), y]));
         assert.ok(up.slope < 0 && up.worst < 1, `${column}: a value is ${up.worst} px away`);
     }
