@@ -37,8 +37,10 @@ const COMMAND_LINE: &[&str] = &[
     "expr::number",
     "lsp",
     "output",
+    "scene",
     "source",
     "stages",
+    "view",
     "vocabulary",
     "world",
 ];

@@ -148,7 +148,10 @@ fn docs(lines: &[String]) -> String {
     if rest.is_empty() {
         return format!("<div class=\"docs\">{first}</div>");
     }
-    format!("<div class=\"docs\">{first} <details><summary>more</summary><p class=\"rest\">{}</p></details></div>", escaped(rest))
+    format!(
+        "<div class=\"docs\">{first} <details><summary>more</summary><p class=\"rest\">{}</p></details></div>",
+        escaped(rest)
+    )
 }
 
 fn plain(text: &str) -> String {

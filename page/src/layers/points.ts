@@ -58,6 +58,8 @@ interface Label {
 /** Around a place: right above first, then the other corners, then sides; in parts of the label's size beside a gap. */
 const SIDES: readonly Pair[] = [[1, -1], [-1, -1], [1, 1], [-1, 1], [1, 0], [-1, 0], [0, -1], [0, 1]];
 const GAP = 9;
+/** What the buttons of the view take (pixels). */
+const CORNER: Pair = [44, 116];
 /** More labels than this say nothing. */
 const MOST = 120;
 
@@ -85,8 +87,11 @@ export class Labels implements Layer {
 
     draw(moment: Moment, camera: Camera): void {
         if (!this.shown) return;
-        const taken: [Pair, Pair][] = [];
-        const free = (from: Pair, to: Pair) => !taken.some(([a, b]) => a[0] < to[0] && from[0] < b[0] && a[1] < to[1] && from[1] < b[1]);
+        // buttons stand in the corner
+        const taken: [Pair, Pair][] = [[[camera.width - CORNER[0], 0], [camera.width, CORNER[1]]]];
+        const isInside = (from: Pair, to: Pair) => from[0] >= 0 && from[1] >= 0 && to[0] <= camera.width && to[1] <= camera.height;
+        const free = (from: Pair, to: Pair) =>
+            isInside(from, to) && !taken.some(([a, b]) => a[0] < to[0] && from[0] < b[0] && a[1] < to[1] && from[1] < b[1]);
         for (const label of this.labels) {
             const [x, y] = camera.pixel(label.at(moment));
             const box = (side: number): [Pair, Pair] => {

@@ -135,7 +135,19 @@ mod tests {
     #[test]
     fn numbers_at_the_ends_of_their_range_come_back() {
         let nan = f64::from_bits(0x7ff8_0000_0000_0000);
-        let odd = vec![0.0, -0.0, f64::MIN_POSITIVE, -5e-324, f64::MAX, f64::MIN, f64::INFINITY, f64::NEG_INFINITY, nan, 1.0, nan];
+        let odd = vec![
+            0.0,
+            -0.0,
+            f64::MIN_POSITIVE,
+            -5e-324,
+            f64::MAX,
+            f64::MIN,
+            f64::INFINITY,
+            f64::NEG_INFINITY,
+            nan,
+            1.0,
+            nan,
+        ];
         check(&[odd.clone(), odd.into_iter().rev().collect()]);
         check(&[vec![]]);
         check(&[vec![1.5]]);
@@ -144,7 +156,8 @@ mod tests {
     #[test]
     fn a_motion_takes_far_fewer_bytes() {
         let rows = 1000;
-        let column = |k: u32| (0..rows).map(|row| f64::from(k) + (f64::from(row) * 0.006 * f64::from(k + 1)).sin()).collect();
+        let column =
+            |k: u32| (0..rows).map(|row| f64::from(k) + (f64::from(row) * 0.006 * f64::from(k + 1)).sin()).collect();
         let columns: Vec<Vec<f64>> = (0..8).map(column).collect();
         let text = super::written(&columns);
         assert!(text.len() < 8 * 8 * 1000 * 2 / 3, "{} bytes", text.len());

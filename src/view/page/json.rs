@@ -174,7 +174,8 @@ fn written_node(node: &Node, decimals: usize) -> Value {
             ("between", json!([anchor(from), anchor(to), held]))
         }
     };
-    let shapes = node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
+    let shapes =
+        node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
     json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
 }
 

@@ -19,7 +19,9 @@ pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
     }
     let scale = SIZE / longer;
     let [width, height] = [right - left, top - bottom].map(|side| number(scale * side, DECIMALS));
-    let mut svg = format!("<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">");
+    let mut svg = format!(
+        "<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">"
+    );
     for node in &scene.nodes {
         add(&mut svg, node, motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
     }
