@@ -455,8 +455,7 @@ pub(super) enum ThemeChoice {
 const SIDES: [f64; 2] = [16.0, 16_384.0];
 
 fn size(text: &str) -> Result<[f64; 2], String> {
-    let sides =
-        text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.trim().parse::<f64>()));
+    let sides = text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.trim().parse::<f64>()));
     match sides {
         Some([Ok(width), Ok(height)]) if [width, height].iter().all(|side| (SIDES[0]..=SIDES[1]).contains(side)) => {
             Ok([width, height])

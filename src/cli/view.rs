@@ -112,9 +112,7 @@ fn output(arguments: &ViewArguments) -> Result<&str, Failure> {
         let file = if arguments.input.file == "-" { "mechanism.mech" } else { &arguments.input.file };
         let picture = Path::new(file).with_extension("svg");
         let example = picture.file_name().map_or("picture.svg".into(), |name| name.to_string_lossy());
-        unusable("it is not said where the picture goes".to_owned())
-            .help(format!("name a file, as in `-o {example}`"))
-            .into()
+        unusable("it is not said where the picture goes".to_owned()).help(format!("name a file, as in `-o {example}`")).into()
     })
 }
 

@@ -10,10 +10,7 @@ const NEAR: f64 = 0.02;
 
 /// Whether all corners lie in a disc that is drawn of the body.
 fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
-    outline
-        .discs
-        .iter()
-        .any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
+    outline.discs.iter().any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
 }
 
 /// Gives a body that is shown by something else a group of its own.

@@ -29,8 +29,8 @@ pub use catalogue::catalogue;
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{
-    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
-    minus, plus, polar, times, unit,
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length, minus,
+    plus, polar, times, unit,
 };
 
 use crate::model::Mechanism;

@@ -74,8 +74,9 @@ impl Picture<'_> {
     /// The names with their places, which hold at all of some moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
         let size = self.letters();
-        let placed =
-            |anchor: &Anchor| -> Vec<Vector> { moments.iter().map(|poses| self.anchored(anchor, poses)).collect() };
+        let placed = |anchor: &Anchor| -> Vec<Vector> {
+            moments.iter().map(|poses| self.anchored(anchor, poses)).collect()
+        };
         let pins: Vec<Vec<Vector>> = self
             .pins()
             .iter()

@@ -43,18 +43,7 @@ impl<'s> Picture<'s> {
         let scale = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
         let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
         let (used, rules, body) = (Used::default(), String::new(), String::new());
-        Picture {
-            scene,
-            options,
-            size,
-            scale,
-            middle,
-            used,
-            rules,
-            body,
-            tracks: 0,
-            ids: rustc_hash::FxHashSet::default(),
-        }
+        Picture { scene, options, size, scale, middle, used, rules, body, tracks: 0, ids: rustc_hash::FxHashSet::default() }
     }
 
     /// Where a place is in the picture.

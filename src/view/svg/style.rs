@@ -82,14 +82,13 @@ pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
 /// Widths and dashes, which both themes share.
 fn shapes(used: &Used, strong: f64) -> String {
     let width = |part: f64| number(part * strong, 2);
-    let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
+    let mut rules =
+        format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
     for look in &used.looks {
         let rule = match look {
             Look::Hatching => format!("stroke-width:{}", width(0.6)),
             Look::GroundLine | Look::Guide | Look::Track => format!("stroke-width:{}", width(1.25)),
-            Look::Pitch => {
-                format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5))
-            }
+            Look::Pitch => format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5)),
             Look::Face => format!("stroke-width:{}", width(3.0)),
             Look::Arrow => format!("stroke-width:{}", width(1.6)),
             Look::Spring => format!("stroke-width:{};vector-effect:non-scaling-stroke", width(1.2)),
@@ -133,10 +132,7 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::MasslessLink, Look::Cylinder, Look::Rod], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::Weld, Look::Dot], &format!("fill:{ink};stroke:{ink}"));
-    group(
-        &[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face],
-        &format!("fill:none;stroke:{ink}"),
-    );
+    group(&[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face], &format!("fill:none;stroke:{ink}"));
     group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));
     group(&[Look::Arrow], &format!("fill:none;stroke:{driven}"));
     group(&[Look::ArrowHead], &format!("fill:{driven};stroke:none"));

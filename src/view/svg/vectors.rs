@@ -50,8 +50,7 @@ impl<'s> Picture<'s> {
                 }
                 self.used.vectors.insert(word);
                 let turn = |way: Vector| direction(way).to_degrees();
-                let line =
-                    |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
+                let line = |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
                 let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
                 let head = |[from, way]: &[Vector; 2]| Key {
                     at: plus(*from, *way),
@@ -62,12 +61,9 @@ impl<'s> Picture<'s> {
                 let name = escaped(&pin.name).into_owned();
                 let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], &motion.times, false);
                 let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], &motion.times, false);
-                for (track, d) in
-                    [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))]
-                {
+                for (track, d) in [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))] {
                     let attributes = self.add_track(&track);
-                    self.body +=
-                        &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
+                    self.body += &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
                 }
             }
         }
