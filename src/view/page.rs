@@ -98,7 +98,7 @@ impl Page<'_> {
                 break;
             }
             // tables are nearly all of it; thinned ones are compressed less well
-            every = (every + 1).max(every * html.len().div_ceil(longest));
+            every = (every + 1).max(every * html.len() / longest);
             html = self.with_every(every);
         }
         html
@@ -160,7 +160,92 @@ fn plain(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{docs, filled};
+    use super::{Column, Page, Variant, docs, filled};
+    use crate::scene::{Declaration, Motion, Point, Scene};
+    use crate::source::{FileId, Source, Sources, Span};
+    use serde_json::Value;
+
+    /// A name that would like to be something else.
+    const HOSTILE: &str = "</script><script>alert(1)</script><!-- & \" ' \u{5d0}\u{1f600}";
+
+    fn scene(file: FileId) -> Scene {
+        let declared =
+            |name: &str, kind, start, end| Declaration { name: name.to_owned(), kind, span: Span { file, start, end } };
+        Scene {
+            name: HOSTILE.to_owned(),
+            docs: vec![HOSTILE.to_owned()],
+            declarations: vec![
+                declared("ground", "ground", 0, 0),
+                declared("b", "body", 0, 4),
+                declared("b.<P>", "point", 0, 4),
+            ],
+            frames: vec![0, 1],
+            points: vec![Point { declaration: 2, name: "b.<P>".to_owned(), frame: 1, at: [0.1, -0.0], is_pin: true }],
+            nodes: Vec::new(),
+            traces: Vec::new(),
+            profiles: Vec::new(),
+            unit: 0.01,
+            extent: [[0.0; 2], [1.0; 2]],
+        }
+    }
+
+    fn motion(rows: u32) -> Motion {
+        let columns = ["t", "b.x", "b.y", "b.phi"].map(str::to_owned);
+        let row = |k: u32| vec![f64::from(k) * 0.1, f64::from(k).sin(), f64::NAN, f64::from(k) / 3.0];
+        Motion::of_rows(1, &columns, (0..rows).map(row).collect(), vec![0.25])
+    }
+
+    /// The page of a motion, and the data in it.
+    fn written(rows: u32, longest: usize) -> (String, Value) {
+        let mut sources = Sources::default();
+        let file = sources.add("/somewhere/secret/b.mech", format!("body {HOSTILE}"));
+        let (scene, motion) = (scene(file), motion(rows));
+        let source: &Source = sources.get(file);
+        let column = |name| Column { name, unit: "m", scale: [1.0, 1000.0, 1.0] };
+        let variant = Variant {
+            scene: &scene,
+            motion: &motion,
+            all_rows: rows as usize,
+            results: vec![(column("r"), None)],
+            messages: vec![],
+        };
+        let columns = ["t", "b.x", "b.y", "b.phi"].map(column).to_vec();
+        let page = Page { texts: vec![(file, source)], columns, vary: vec![], variants: vec![variant] };
+        let html = page.at_most(longest);
+        assert_eq!(html, page.at_most(longest), "the same input gives the same bytes");
+        let (_, behind) = html.split_once("id=\"mechc\">").expect("the data");
+        let data = serde_json::from_str(behind.split_once("</script>").expect("their end").0).expect("JSON");
+        (html, data)
+    }
+
+    #[test]
+    fn nothing_of_a_text_becomes_html() {
+        let (html, data) = written(5, usize::MAX);
+        assert_eq!(html.matches("<script").count(), 2, "the data, and the script");
+        assert!(!html.contains("alert(1)</script"));
+        assert!(!html.contains("secret"), "where a file lies is in the page");
+        assert_eq!(data["name"], HOSTILE);
+        assert_eq!(data["texts"][0]["name"], "b.mech");
+        assert_eq!(data["scene"]["declarations"][2][0], "b.<P>");
+        assert_eq!(data["variants"][0]["edges"][0], 0.25);
+        assert_eq!(data["columns"][0]["scale"][1], 1000.0);
+        assert!(
+            html.contains(env!("CARGO_PKG_VERSION")) && html.contains("uPlot") && html.contains("default-src 'none'")
+        );
+    }
+
+    #[test]
+    fn a_page_that_is_too_long_has_fewer_rows_and_says_so() {
+        let (whole, data) = written(2000, usize::MAX);
+        assert_eq!(data["variants"][0]["rows"], 2000);
+        assert_eq!(data["thinned"], Value::Null);
+        let longest = whole.len() - 3000;
+        let (html, data) = written(2000, longest);
+        assert!(html.len() <= longest, "{} bytes", html.len());
+        let rows = data["variants"][0]["rows"].as_u64().expect("a number");
+        assert!(rows < 2000);
+        assert_eq!(data["thinned"], format!("This page has {rows} of the 2000 rows of the motion, evenly spread."));
+    }
 
     #[test]
     fn gaps_are_filled_once() {
