@@ -156,8 +156,8 @@ mod tests {
     #[test]
     fn a_motion_takes_far_fewer_bytes() {
         let rows = 1000;
-        let column =
-            |k: u32| (0..rows).map(|row| f64::from(k) + (f64::from(row) * 0.006 * f64::from(k + 1)).sin()).collect();
+        let smooth = |k: u32, t: f64| f64::from(k) + 1.0 / (1.0 + t * t * f64::from(k + 1));
+        let column = |k: u32| (0..rows).map(|row| smooth(k, f64::from(row) * 0.004)).collect();
         let columns: Vec<Vec<f64>> = (0..8).map(column).collect();
         let text = super::written(&columns);
         assert!(text.len() < 8 * 8 * 1000 * 2 / 3, "{} bytes", text.len());
