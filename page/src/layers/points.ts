@@ -60,6 +60,8 @@ const SIDES: readonly Pair[] = [[1, -1], [-1, -1], [1, 1], [-1, 1], [1, 0], [-1,
 const GAP = 9;
 /** What the buttons of the view take (pixels). */
 const CORNER: Pair = [44, 116];
+/** Between one label and the next (pixels). */
+const AIR = 3;
 /** More labels than this say nothing. */
 const MOST = 120;
 
@@ -81,7 +83,7 @@ export class Labels implements Layer {
         this.element.replaceChildren(...this.labels.map(({ text }) => text));
         for (const label of this.labels) {
             const { width, height } = label.text.getBBox();
-            label.size = [width, height];
+            label.size = [width + 2 * AIR, height];
         }
     }
 
@@ -109,7 +111,7 @@ export class Labels implements Layer {
             label.side = side;
             const [from, to] = box(side);
             taken.push([from, to]);
-            label.text.setAttribute("x", from[0].toFixed(1));
+            label.text.setAttribute("x", (from[0] + AIR).toFixed(1));
             label.text.setAttribute("y", (to[1] - 0.22 * label.size[1]).toFixed(1));
         }
     }

@@ -6,7 +6,7 @@ use crate::view::text::number;
 
 /// The longer side (pixels), and decimals of them.
 const SIZE: f64 = 800.0;
-const DECIMALS: usize = 2;
+const DECIMALS: usize = 1;
 /// Bodies are tinted in turn by so many colours (`page/src/picture/figures.ts`).
 const TINTS: usize = 8;
 
