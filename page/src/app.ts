@@ -77,7 +77,10 @@ export class App implements Deeds {
         );
         this.wishes.onChange((change) => this.wish(change));
         keys(this.keyed());
-        const print = () => this.plots.print();
+        const print = () => {
+            this.plots.print();
+            text.print();
+        };
         addEventListener("beforeprint", print);
         matchMedia("print").addEventListener("change", print);
     }

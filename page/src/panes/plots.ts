@@ -133,6 +133,9 @@ class Plot {
                 changed();
             });
         };
+        this.value.addEventListener("pointerenter", () => {
+            if (this.series && this.moment) this.value.title = this.series[1].si(this.moment);
+        });
         all(this.chooseX);
         all(this.chooseY);
         this.scrubs();
@@ -195,6 +198,8 @@ class Plot {
         if (!this.series || !this.chart) return;
         const [x, y] = this.series.map((series) => series.at(moment)) as Pair;
         this.value.textContent = withUnit(six(y), this.series[1].unit);
+        // nobody hovers over what is not under the pointer
+        if (this.value.matches(":hover")) this.value.title = this.series[1].si(moment);
         const [left, top] = [this.chart.valToPos(x, "x"), this.chart.valToPos(y, "y")];
         this.line.style.transform = `translateX(${left}px)`;
         this.line.hidden = !Number.isFinite(left) || this.x !== "t";

@@ -5,6 +5,7 @@ import { printed } from "../data/table.ts";
 import { HEAD } from "../elements.ts";
 import { pressure, transmission } from "../motion/angles.ts";
 import type { Moment, Pair } from "../motion/motion.ts";
+import { six, told } from "../numbers.ts";
 import type { Wishes } from "../wishes.ts";
 
 /** A row of numbers in a unit, one for each row of the table; NaN is a gap. */
@@ -14,6 +15,8 @@ export interface Series {
     values: Float64Array;
     /** Its value at a moment. */
     at(moment: Moment): number;
+    /** The same in SI, as text. */
+    si(moment: Moment): string;
 }
 
 export const TRANSMISSION = "transmission angle";
@@ -33,14 +36,16 @@ export function seriesOf(document: Document, wishes: Wishes, name: string): Seri
     if (place === undefined) return undefined;
     const column = table.columns[place]!;
     const values = table.values[place]!.map((value) => printed(column, value));
-    return { name, unit: column.unit, values, at: ({ time }) => printed(column, motion.value(place, time)) };
+    const value = ({ time }: Moment) => motion.value(place, time);
+    return { name, unit: column.unit, values, at: (moment) => printed(column, value(moment)), si: (moment) => told(column, value(moment)).si };
 }
 
 /** An angle that is no column, in degrees. */
 function computed({ motion, table }: Document, name: string, of: (moment: Moment) => number): Series {
     const moment = motion.moment();
     const values = Float64Array.from({ length: table.rows }, (_, row) => of(motion.atRow(row, moment)) * DEGREES);
-    return { name, unit: "deg", values, at: (moment) => of(moment) * DEGREES };
+    const si = (moment: Moment) => `${six(of(moment))} rad (SI)`;
+    return { name, unit: "deg", values, at: (moment) => of(moment) * DEGREES, si };
 }
 
 /** Columns of the table that are no body's, nor a derivative: what the text measures. */

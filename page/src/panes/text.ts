@@ -19,6 +19,7 @@ export class Text implements Pane {
     private readonly tabs = html("div", { class: "tabs", role: "tablist", "aria-label": "files" });
     private readonly sheet = html("div", { class: "sheet", tabindex: 0, role: "region", "aria-label": "text of the mechanism" });
     private document: Document | undefined;
+    private readonly paper = html("div", { class: "paper" });
     private texts: Document["page"]["texts"] | undefined;
     private declarations: readonly Declaration[] = [];
     private readonly marked = new Map<number, HTMLElement>();
@@ -28,7 +29,7 @@ export class Text implements Pane {
     private chosen: number | undefined;
 
     constructor() {
-        this.element.append(this.tabs, this.sheet);
+        this.element.append(this.tabs, this.sheet, this.paper);
         const declared = (event: Event) => {
             const mark = event.target instanceof Element ? event.target.closest("[data-declared]") : null;
             return mark ? mark.getAttribute("data-declared")!.split(" ").map(Number) : [];
@@ -78,6 +79,14 @@ export class Text implements Pane {
     }
 
     draw(_: Moment): void {}
+
+    /** The other texts, for paper. */
+    print(): void {
+        const others = (this.texts ?? []).filter((_, number) => number !== this.shown);
+        this.paper.replaceChildren(
+            ...others.flatMap(({ name, text }) => [html("h2", {}, name), html("pre", { class: "plain" }, ...coloured(text))]),
+        );
+    }
 
     private lay(): void {
         const texts = this.texts!;

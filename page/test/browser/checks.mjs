@@ -235,7 +235,7 @@ export async function printsWhole({ page }, path) {
             plots: seen(".plotted .curve").map((curve) => curve.getAttribute("d").length),
             canvases: seen(".plot canvas").length,
             picture: seen(".picture .over, .picture canvas").map((element) => element.getBoundingClientRect().height),
-            text: seen(".source").map((element) => element.textContent).join(""),
+            texts: seen(".text .source, .text .paper pre").map((element) => element.textContent),
             cut: cut.slice(0, 3).map((element) => `${element.tagName}.${element.className}`),
         };
     });
@@ -245,6 +245,6 @@ export async function printsWhole({ page }, path) {
     assert.ok(paper.plots.every((length) => length > 10), "a plot is empty");
     assert.equal(paper.canvases, 0, "plots are printed as drawings");
     assert.ok(paper.picture.some((height) => height > 100), "there is no picture");
-    assert.equal(paper.text, data.texts[0].text);
+    assert.deepEqual(paper.texts, data.texts.map(({ text }) => text));
     return { pdf, plots: paper.plots.length };
 }
