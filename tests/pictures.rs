@@ -159,7 +159,10 @@ fn pictures_of_any_size_are_alike() {
         let (_, drawn) = file.split_once("<rect").expect("a background");
         pictures.push((drawn.len(), drawn.matches("<g").count()));
     }
-    assert!(pictures.iter().all(|picture| picture.1 == pictures[0].1 && picture.0.abs_diff(pictures[0].0) < 40), "{pictures:?}");
+    assert!(
+        pictures.iter().all(|picture| picture.1 == pictures[0].1 && picture.0.abs_diff(pictures[0].0) < 40),
+        "{pictures:?}"
+    );
 }
 
 #[test]
@@ -173,7 +176,10 @@ fn names_of_moments_do_not_lie_on_each_other() {
             for (k, (text, [low, high])) in boxes.iter().enumerate() {
                 assert!(low[0] >= -0.01 && low[1] >= -0.01, "{name}: {text} is cut off");
                 for (other, [other_low, other_high]) in &boxes[k + 1..] {
-                    let meet = low[0] < other_high[0] && other_low[0] < high[0] && low[1] < other_high[1] && other_low[1] < high[1];
+                    let meet = low[0] < other_high[0]
+                        && other_low[0] < high[0]
+                        && low[1] < other_high[1]
+                        && other_low[1] < high[1];
                     assert!(!meet, "{name}: `{text}` lies on `{other}`");
                 }
             }
@@ -187,7 +193,8 @@ fn boxes(file: &str) -> Vec<(String, [Vector; 2])> {
     let size: f64 = font.split("px").next().expect("a size").parse().expect("a number");
     let word = |tag: &str| {
         let (attributes, text) = tag.split_once('>')?;
-        let [x, y] = ["x", "y"].map(|part| attribute(attributes, part).expect("a place").parse::<f64>().expect("a number"));
+        let [x, y] =
+            ["x", "y"].map(|part| attribute(attributes, part).expect("a place").parse::<f64>().expect("a number"));
         let half = 0.5 * 0.6 * size * text.chars().count() as f64;
         Some((text.to_owned(), [[x - half, y - 0.8 * size], [x + half, y + 0.2 * size]]))
     };
@@ -237,7 +244,8 @@ fn deepest_overlap(scene: &Scene, motion: &Motion) -> (usize, f64) {
         .collect();
     let mut deepest = 0.0_f64;
     for row in motion.sampled(25) {
-        let placed: Vec<_> = wheels.iter().map(|(place, path)| corners(path, &place.pose(motion.poses(row)).0)).collect();
+        let placed: Vec<_> =
+            wheels.iter().map(|(place, path)| corners(path, &place.pose(motion.poses(row)).0)).collect();
         for (k, first) in placed.iter().enumerate() {
             for second in placed.iter().enumerate().filter(|(other, _)| *other != k).map(|(_, contours)| contours) {
                 let into = first.iter().flatten().map(|place| depth(*place, second)).fold(0.0, f64::max);
@@ -344,7 +352,9 @@ fn names_are_no_mark_up() {
     );
     let seen = seen_text(&text);
     let options = Options { labels: true, ..Options::default() };
-    for file in [animated(&seen.scene, &seen.motion, &options), still(&seen.scene, &seen.motion, &one_row(&seen, 0), &options)] {
+    for file in
+        [animated(&seen.scene, &seen.motion, &options), still(&seen.scene, &seen.motion, &one_row(&seen, 0), &options)]
+    {
         assert!(!file.contains("<script"), "{file}");
         assert!(file.contains("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;so&quot; on 🚲"));
         assert!(file.contains(&format!("data-body=\"{name}\"")));
@@ -359,11 +369,13 @@ fn what_hardly_is_anything_is_drawn() {
         ("body b { point O = (0, 0) }", "joint j: revolute(ground.O, b.O) driver d: angle(b) = t"),
         ("body b {}", "driver x: x(b.O) = t driver y: y(b.O) = 0 m driver d: angle(b) = t"),
     ] {
-        let bodies = if joint.contains("b.O") { bodies.replace("{}", "{ point O = (0, 0) }") } else { bodies.to_owned() };
+        let bodies =
+            if joint.contains("b.O") { bodies.replace("{}", "{ point O = (0, 0) }") } else { bodies.to_owned() };
         let text = format!("mechanism m {{ ground {{ point O = (0, 0) }} {bodies} {joint} }}");
         for times in [Times::grid(0.0, 1.0, 0.1), Times::grid(0.0, 0.0, 1.0)] {
             let seen = seen_as(Path::new("m.mech"), &text, times);
-            let file = animated(&seen.scene, &seen.motion, &Options { vectors: true, labels: true, ..Options::default() });
+            let file =
+                animated(&seen.scene, &seen.motion, &Options { vectors: true, labels: true, ..Options::default() });
             assert!(!file.contains("NaN") && !file.contains("inf"), "{file}");
             assert!(file.contains("data-body=\"b\""));
         }
@@ -410,6 +422,9 @@ fn goldens_are_what_is_drawn() {
             fs::write(path, &drawn).expect("written");
         }
         let golden = fs::read_to_string(path).expect("a golden");
-        assert!(golden == drawn, "{path} is not what is drawn now; UPDATE_GOLDENS=1 cargo test --test pictures writes it");
+        assert!(
+            golden == drawn,
+            "{path} is not what is drawn now; UPDATE_GOLDENS=1 cargo test --test pictures writes it"
+        );
     }
 }

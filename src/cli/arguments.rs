@@ -423,7 +423,7 @@ pub(super) struct ViewArguments {
     #[arg(long)]
     pub labels: bool,
 
-    /// Width and height in pixels: `--size 1280x720`; 800 wide and as high as it takes if not given
+    /// Width and height in pixels: `--size 1280x720`; 800 wide at most, and as high as it takes, if not given
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
 
@@ -455,7 +455,8 @@ pub(super) enum ThemeChoice {
 const SIDES: [f64; 2] = [16.0, 16_384.0];
 
 fn size(text: &str) -> Result<[f64; 2], String> {
-    let sides = text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.trim().parse::<f64>()));
+    let sides =
+        text.split_once(['x', '×']).map(|(width, height)| [width, height].map(|side| side.trim().parse::<f64>()));
     match sides {
         Some([Ok(width), Ok(height)]) if [width, height].iter().all(|side| (SIDES[0]..=SIDES[1]).contains(side)) => {
             Ok([width, height])

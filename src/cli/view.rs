@@ -8,6 +8,7 @@ use super::page;
 use super::report::Reporter;
 use super::times::Bounds;
 use super::timings::Timings;
+use crate::analysis::Times;
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::scene::{Anchor, Motion, Scene};
 use crate::stages::{Checked, Compiled, RunOptions};
@@ -51,7 +52,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         _ if form == Form::Html => (page::written(&seen, &reporter.sources), seen.stopped),
         None => (svg::animated(&seen.scene, &seen.motion, &pictured), seen.stopped),
         Some(times) => {
-            let (motion, stopped) = moments((checked, compiled), &times, &options, reporter)?;
+            let (motion, stopped) = moments((checked, compiled), &times, &options)?;
             (svg::still(&seen.scene, &seen.motion, &motion, &pictured), stopped)
         }
     };
@@ -63,14 +64,12 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
 /// The moments that are asked for, and why the last of them are missing, if they are.
 fn moments(
     (checked, compiled): (&Checked, &Compiled),
-    times: &crate::analysis::Times,
+    times: &Times,
     options: &RunOptions,
-    reporter: &Reporter,
 ) -> Result<(Motion, Option<Diagnostic>), Failure> {
+    // what there is to remark has been said of the whole motion
     let (found, said) = checked.moments(compiled, times, options);
     let Some((motion, stopped)) = found else { return Err(said.into()) };
-    // the same has been said of the whole motion
-    let _ = (said, reporter);
     match stopped {
         Some(why) if motion.is_empty() => Err(why.into()),
         stopped => Ok((motion, stopped)),
@@ -112,13 +111,17 @@ fn output(arguments: &ViewArguments) -> Result<&str, Failure> {
         let file = if arguments.input.file == "-" { "mechanism.mech" } else { &arguments.input.file };
         let picture = Path::new(file).with_extension("svg");
         let example = picture.file_name().map_or("picture.svg".into(), |name| name.to_string_lossy());
-        unusable("it is not said where the picture goes".to_owned()).help(format!("name a file, as in `-o {example}`")).into()
+        unusable("it is not said where the picture goes".to_owned())
+            .help(format!("name a file, as in `-o {example}`"))
+            .into()
     })
 }
 
 /// What is drawn, by the ending of a file.
 fn form(output: &str) -> Result<Form, Failure> {
-    if output == "-" {
+    // standard output, a pipe, a device
+    let is_special = || Path::new(output).metadata().is_ok_and(|found| !found.is_file() && !found.is_dir());
+    if output == "-" || is_special() {
         return Ok(Form::Svg);
     }
     let ending = Path::new(output).extension().map(|ending| ending.to_string_lossy().to_lowercase());

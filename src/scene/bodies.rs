@@ -2,15 +2,20 @@
 
 use super::Look;
 use super::drawing::{DOT, Drawing, Layer, Outline, shape};
-use super::plane::{Path, Vector, around, distance, hull};
+use super::plane::{Path, Vector, around, distance, hull, plus};
 use super::symbols::{BAR, SLOTTED_BAR, Symbols};
 
 /// Places of a body that are nearer to each other than this, in units, are one.
 const NEAR: f64 = 0.02;
+/// How long a body is that is held in one place alone, in units.
+const STUB: f64 = 1.6;
 
 /// Whether all corners lie in a disc that is drawn of the body.
 fn is_covered(outline: &Outline, corners: &[Vector]) -> bool {
-    outline.discs.iter().any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
+    outline
+        .discs
+        .iter()
+        .any(|(center, radius)| corners.iter().all(|corner| distance(*corner, *center) <= 1.001 * radius))
 }
 
 /// Gives a body that is shown by something else a group of its own.
@@ -35,6 +40,11 @@ pub(super) fn draw(drawing: &mut Drawing) {
             }
             corners if !corners.is_empty() && is_covered(outline, corners) => continue,
             [] => vec![Symbols { unit: drawing.unit }.cross()],
+            [at] => {
+                // a stub, so that it is seen to turn
+                let stub = [*at, plus(*at, [STUB * drawing.unit, 0.0])];
+                vec![shape(Look::Link, around(&stub, BAR * drawing.unit))]
+            }
             corners => {
                 let reach = if outline.is_slotted { SLOTTED_BAR } else { BAR };
                 vec![shape(Look::Link, around(corners, reach * drawing.unit))]

@@ -1,12 +1,9 @@
 //! A scene in the making: what all kinds of symbols share.
 
 use super::features::Features;
-use super::plane::{Path, Vector, bounds, distance, minus, plus};
-use super::{
-    Anchor, Declaration, Look, Motion, Node, Pen, Place, Point, Profile, Sample, Scene, Shape, Trace, bodies, drivers,
-    gears, joints, sizes,
-};
-use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
+use super::plane::{Path, Vector, bounds, distance};
+use super::{Anchor, Look, Motion, Node, Pen, Place, Profile, Sample, Shape, Trace};
+use crate::model::{self, PointId};
 use std::f64::consts::PI;
 
 /// What is drawn above what, from below.
@@ -28,8 +25,6 @@ pub(super) enum Layer {
 pub(super) const DOT: f64 = 0.17;
 /// Rows that are looked at to learn how far something goes.
 pub(super) const LOOKED_AT: usize = 400;
-/// Rows that are looked at for the extent of everything.
-const LOOKED_AT_FOR_EXTENT: usize = 100;
 /// Places on a profile.
 const PLACES_ON_PROFILE: u32 = 360;
 /// A profile is closed if its ends are no farther apart than this part of its size.
@@ -58,10 +53,10 @@ pub(super) struct Drawing<'m> {
     pub feet: Vec<Vector>,
     pub profiles: Vec<Profile>,
     /// The number of each model point among the points of the scene.
-    numbers: Vec<Option<usize>>,
+    pub numbers: Vec<Option<usize>>,
     /// The declarations of the first joint, equation, circle and curve.
     pub first: First,
-    nodes: Vec<(Layer, Node)>,
+    pub nodes: Vec<(Layer, Node)>,
 }
 
 /// Where the declarations of a kind begin.
@@ -71,36 +66,7 @@ pub(super) struct First {
     pub curves: usize,
     pub joints: usize,
     pub equations: usize,
-    traces: usize,
-}
-
-pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
-    let features = Features::of(model);
-    let (declarations, first) = declarations(model);
-    let (points, numbers) = points(&features);
-    let mut outlines = vec![Outline::default(); motion.frames().max(1)];
-    for id in places_of_bodies(model) {
-        let Anchor { frame, at } = features.point(id);
-        if frame > 0 && super::is_finite(at) {
-            outlines[frame].places.push(at);
-        }
-    }
-    let unit = sizes::unit(&features, motion, &outlines);
-    let (feet, profiles, nodes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, numbers, first, nodes };
-    gears::draw(&mut drawing);
-    joints::draw(&mut drawing);
-    drivers::draw(&mut drawing);
-    bodies::draw(&mut drawing);
-    let traces = drawing.traces();
-    drawing.mark_pens(&traces);
-    let Drawing { mut nodes, profiles, .. } = drawing;
-    nodes.sort_by_key(|(layer, _)| *layer);
-    let nodes: Vec<Node> = nodes.into_iter().map(|(_, node)| node).collect();
-    let extent = extent(&nodes, motion, unit);
-    let frames = (0..motion.frames().max(1)).collect();
-    let (name, docs) = (model.declared.name.clone(), model.docs.clone());
-    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, unit, extent }
+    pub traces: usize,
 }
 
 impl Drawing<'_> {
@@ -169,7 +135,7 @@ impl Drawing<'_> {
     }
 
     /// A dot at what draws a trace.
-    fn mark_pens(&mut self, traces: &[Trace]) {
+    pub fn mark_pens(&mut self, traces: &[Trace]) {
         for trace in traces {
             let Pen::Point(Anchor { frame, at }) = trace.pen else { continue };
             let model = self.features.model;
@@ -210,7 +176,7 @@ impl Drawing<'_> {
         self.nodes.iter().filter(|(layer, node)| *layer == Layer::Arrows && is_there(node)).count()
     }
 
-    fn traces(&self) -> Vec<Trace> {
+    pub fn traces(&self) -> Vec<Trace> {
         let model = self.features.model;
         let pen = |trace: &model::Trace| match trace.point {
             Some(point) => Pen::Point(self.features.point(point)),
@@ -222,102 +188,6 @@ impl Drawing<'_> {
         let numbered = model.traces.iter().enumerate();
         numbered.map(|(k, trace)| Trace { declaration: self.first.traces + k, pen: pen(trace) }).collect()
     }
-}
-
-/// All that can be pointed at: frames first, then points, circles, curves, joints, equations, measures, traces.
-fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
-    let mut all = vec![Declaration { name: "ground".to_owned(), kind: "ground", span: model.declared.span }];
-    let of = |declared: &model::Declared, kind| Declaration { name: declared.name.clone(), kind, span: declared.span };
-    let feature = |frame: Frame, name: &str, kind, span| Declaration {
-        name: format!("{}.{name}", model.frame_name(frame)),
-        kind,
-        span,
-    };
-    all.extend(model.bodies.iter().map(|body| of(&body.declared, "body")));
-    let named = model.points.iter().filter_map(|point| Some((point, point.name.as_ref()?)));
-    all.extend(named.map(|(point, name)| feature(point.frame, name, "point", point.span)));
-    let mut first = First { circles: all.len(), ..First::default() };
-    all.extend(model.circles.iter().map(|circle| feature(circle.frame, &circle.name, "circle", circle.span)));
-    first.curves = all.len();
-    all.extend(model.curves.iter().map(|curve| feature(curve.frame, &curve.name, "curve", curve.span)));
-    first.joints = all.len();
-    all.extend(model.joints.iter().map(|joint| of(&joint.declared, "joint")));
-    first.equations = all.len();
-    let word = |equation: &model::Equation| if equation.driver { "driver" } else { "constraint" };
-    all.extend(model.equations.iter().map(|equation| of(&equation.declared, word(equation))));
-    all.extend(model.measures.iter().map(|measure| of(&measure.declared, "measure")));
-    first.traces = all.len();
-    all.extend(model.traces.iter().map(|trace| of(&trace.declared, "trace")));
-    (all, first)
-}
-
-/// The points that have a name, and by model point its number among them.
-fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
-    let model = features.model;
-    let mut is_pin = vec![false; model.points.len()];
-    for joint in &model.joints {
-        joint.kind.points(model).into_iter().for_each(|point| is_pin[point.index()] = true);
-    }
-    for equation in &model.equations {
-        if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
-            [p, q].into_iter().for_each(|point| is_pin[point.index()] = true);
-        }
-    }
-    let (mut points, mut numbers) = (Vec::new(), Vec::new());
-    for (point, is_pin) in model.points.iter().zip(is_pin) {
-        numbers.push(point.name.as_ref().map(|name| {
-            let Anchor { frame, at } = features.placed(point.frame, point.at.map(|part| features.value(part)));
-            let (name, number) = (format!("{}.{name}", model.frame_name(point.frame)), points.len());
-            points.push(Point { declaration: 1 + model.bodies.len() + number, name, frame, at, is_pin });
-            number
-        }));
-    }
-    (points, numbers)
-}
-
-/// The points that show what a body is: where joints and drivers take hold, what is traced and measured.
-fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
-    let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
-    for equation in &model.equations {
-        if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
-            points.extend([p, q]);
-        }
-    }
-    points.extend(model.traces.iter().filter_map(|trace| trace.point));
-    for named in &model.named {
-        let Named::Quantity(_, quantity) = named else { continue };
-        match *quantity {
-            Quantity::X(from, to) | Quantity::Y(from, to) => points.extend(from.into_iter().chain([to])),
-            Quantity::Distance(p, q) => points.extend([p, q]),
-            Quantity::Speed(p) | Quantity::Curvature(p) => points.push(p),
-            Quantity::Corner(corners) => points.extend(corners),
-            _ => {}
-        }
-    }
-    points
-}
-
-/// The least and greatest coordinates of all nodes along the motion.
-fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
-    let mut all: Option<[Vector; 2]> = None;
-    let places: Vec<Vec<Vector>> =
-        nodes.iter().map(|node| node.shapes.iter().flat_map(|shape| shape.path.places()).collect()).collect();
-    let corners: Vec<Vec<Vector>> = places.iter().map(|places| super::plane::hull(places, 1e-3 * unit)).collect();
-    for row in motion.sampled(LOOKED_AT_FOR_EXTENT) {
-        for (node, corners) in nodes.iter().zip(&corners) {
-            let (pose, stretch) = node.place.pose(motion.poses(row));
-            let placed = corners.iter().map(|[x, y]| pose.placed([stretch * x, *y]));
-            if let Some([low, high]) = bounds(placed) {
-                let [least, greatest] = all.unwrap_or([low, high]);
-                all = Some([
-                    [least[0].min(low[0]), least[1].min(low[1])],
-                    [greatest[0].max(high[0]), greatest[1].max(high[1])],
-                ]);
-            }
-        }
-    }
-    let margin = [0.5 * unit; 2];
-    all.map_or([[-unit; 2], [unit; 2]], |[low, high]| [minus(low, margin), plus(high, margin)])
 }
 
 /// A shape that shows no point.

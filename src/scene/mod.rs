@@ -24,13 +24,14 @@ mod plane;
 mod sizes;
 mod symbols;
 mod teeth;
+mod whole;
 
 pub use catalogue::catalogue;
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{
-    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length, minus,
-    plus, polar, times, unit,
+    Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
+    minus, plus, polar, times, unit,
 };
 
 use crate::model::Mechanism;
@@ -66,7 +67,7 @@ impl Scene {
     /// What there is to draw of a mechanism that moves so; the motion has one row at least.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        drawing::scene(model, motion)
+        whole::scene(model, motion)
     }
 
     /// The point of a path such as `crank.pin`.

@@ -41,16 +41,24 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        for (value, decimals, wanted) in
-            [(1.0, 2, "1"), (-0.001, 2, "0"), (0.5, 3, "0.5"), (1234.5678, 2, "1234.57"), (100.0, 0, "100"), (-0.25, 1, "-0.2")]
-        {
+        for (value, decimals, wanted) in [
+            (1.0, 2, "1"),
+            (-0.001, 2, "0"),
+            (0.5, 3, "0.5"),
+            (1234.5678, 2, "1234.57"),
+            (100.0, 0, "100"),
+            (-0.25, 1, "-0.2"),
+        ] {
             assert_eq!(number(value, decimals), wanted);
         }
     }
 
     #[test]
     fn nothing_of_a_text_is_mark_up() {
-        assert_eq!(escaped("<script>\"a\" & 'b'</script>\u{1}"), "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;");
+        assert_eq!(
+            escaped("<script>\"a\" & 'b'</script>\u{1}"),
+            "&lt;script&gt;&quot;a&quot; &amp; &#39;b&#39;&lt;/script&gt;"
+        );
         assert_eq!(escaped("leg[2].föt"), "leg[2].föt");
     }
 }

@@ -56,9 +56,14 @@ impl Key {
         }
     }
 
-    fn placed(&self, [x, y]: Vector) -> Vector {
-        let pose = Pose { at: self.at, phi: self.turn.to_radians() };
-        pose.placed([x * self.stretch[0], y * self.stretch[1]])
+    /// Puts places of a group where it is.
+    fn placing(&self) -> impl Fn(Vector) -> Vector + use<> {
+        let (sin, cos) = crate::math::sin_cos(self.turn.to_radians());
+        let Key { at, stretch, .. } = *self;
+        move |[x, y]| {
+            let [x, y] = [x * stretch[0], y * stretch[1]];
+            [at[0] + x * cos - y * sin, at[1] + x * sin + y * cos]
+        }
     }
 
     /// As it is written.
@@ -288,14 +293,16 @@ fn unwrap(keys: &mut [Key]) {
 /// Which moments are keys: so few that all places are where they belong at each other one.
 fn chosen(keys: &[Key], shown: &[Vector], times: &[f64]) -> Vec<usize> {
     let last = keys.len() - 1;
+    let wanted: Vec<Vector> = keys.iter().flat_map(|key| shown.iter().copied().map(key.placing())).collect();
     let held = |from: usize, to: usize| {
         let (a, b) = (keys[from].rounded(), keys[to].rounded());
         let length = times[to] - times[from];
         (from + 1..to).all(|k| {
             let part = if length > 0.0 { (times[k] - times[from]) / length } else { 0.0 };
             let guess = a.between(&b, part);
-            distance(guess.at, keys[k].at) <= OFF
-                && shown.iter().all(|place| distance(guess.placed(*place), keys[k].placed(*place)) <= OFF)
+            let wanted = wanted[k * shown.len()..].iter();
+            let mut places = shown.iter().copied().map(guess.placing()).zip(wanted);
+            distance(guess.at, keys[k].at) <= OFF && places.all(|(found, wanted)| distance(found, *wanted) <= OFF)
         })
     };
     let (mut chosen, mut from) = (vec![0], 0);

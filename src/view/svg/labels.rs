@@ -3,7 +3,7 @@
 
 use super::nodes::PIXELS;
 use super::picture::Picture;
-use crate::scene::{Anchor, Look, Place, Pose, Vector, bounds, distance, plus, times};
+use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
 use unicode_width::UnicodeWidthChar;
 
@@ -12,7 +12,7 @@ const SIZES: [f64; 2] = [13.0, 18.0];
 /// Of letters, as a part of the picture's shorter side.
 const SIZE: f64 = 1.0 / 42.0;
 /// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
-const COLUMN: f64 = 0.62;
+const COLUMN: f64 = 0.66;
 /// Longer names are cut.
 const LONGEST: usize = 32;
 /// More names than this are not looked at.
@@ -74,9 +74,8 @@ impl Picture<'_> {
     /// The names with their places, which hold at all of some moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
         let size = self.letters();
-        let placed = |anchor: &Anchor| -> Vec<Vector> {
-            moments.iter().map(|poses| self.anchored(anchor, poses)).collect()
-        };
+        let placed =
+            |anchor: &Anchor| -> Vec<Vector> { moments.iter().map(|poses| self.anchored(anchor, poses)).collect() };
         let pins: Vec<Vec<Vector>> = self
             .pins()
             .iter()
@@ -84,7 +83,8 @@ impl Picture<'_> {
             .collect();
         let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
         for (anchor, text, is_body) in self.named() {
-            let half = [0.5 * COLUMN * size * columns(&text) as f64 + 2.0, 0.6 * size + 1.0];
+            let wide = (COLUMN * columns(&text) as f64).max(1.0);
+            let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
             let at = placed(&anchor);
             // the same name at the same place is that of a pin that bodies share
             let is_told = |(known, places): &(Label, Vec<Vector>)| {
@@ -151,7 +151,8 @@ impl Picture<'_> {
                 named.push((Anchor { frame, at }, cut(self.name(node.declaration)), true));
             }
         }
-        for point in scene.points.iter().filter(|point| point.is_pin) {
+        let shown = scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
+        for point in shown {
             let own = point.name.rsplit('.').next().unwrap_or(&point.name);
             named.push((Anchor { frame: point.frame, at: point.at }, cut(own), false));
         }
@@ -165,7 +166,7 @@ impl Picture<'_> {
         for node in &self.scene.nodes {
             for shape in &node.shapes {
                 match (&shape.path, shape.look) {
-                    (crate::scene::Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
+                    (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
                     (path, Look::Arrow | Look::ArrowHead | Look::Support) => {
                         taken.extend(path.places().into_iter().map(|at| (node.place, at)));
                     }

@@ -9,9 +9,11 @@ use std::fmt::Write;
 /// Pixels around what is drawn, and around it with the labels beside it.
 const MARGIN: f64 = 14.0;
 const LABELLED_MARGIN: f64 = 34.0;
-/// How wide a picture is unless its size is said, and how high at least and at most.
-const WIDTH: f64 = 800.0;
+/// How wide and how high a picture is at least and at most, unless its size is said.
+const WIDTHS: [f64; 2] = [320.0, 800.0];
 const HEIGHTS: [f64; 2] = [220.0, 760.0];
+/// Symbols are no larger than this (px), unless the size of the picture is said.
+const LARGEST_UNIT: f64 = 30.0;
 
 pub(super) struct Picture<'s> {
     pub scene: &'s Scene,
@@ -33,17 +35,32 @@ impl<'s> Picture<'s> {
     pub fn new(scene: &'s Scene, motion: &Motion, options: &'s Options) -> Picture<'s> {
         let [low, high] = with_traces(scene, motion, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
-        let margin = if options.labels { LABELLED_MARGIN } else { MARGIN };
+        let margin = if options.labels || options.vectors { LABELLED_MARGIN } else { MARGIN };
         let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
+        let largest = LARGEST_UNIT / scene.unit;
         let size = options.size.unwrap_or_else(|| {
-            let scale = (inner(WIDTH) / extent[0]).min(inner(HEIGHTS[1]) / extent[1]);
-            let needed = (extent[1] * scale + 2.0 * margin).clamp(HEIGHTS[0], HEIGHTS[1]);
-            [WIDTH, crate::math::floor(needed + 0.5)]
+            let scale = (inner(WIDTHS[1]) / extent[0]).min(inner(HEIGHTS[1]) / extent[1]).min(largest);
+            let needed = |side: usize, [least, most]: [f64; 2]| {
+                crate::math::floor((extent[side] * scale + 2.0 * margin).clamp(least, most) + 0.5)
+            };
+            [needed(0, WIDTHS), needed(1, HEIGHTS)]
         });
-        let scale = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
+        let fitting = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
+        let scale = if options.size.is_some() { fitting } else { fitting.min(largest) };
         let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
         let (used, rules, body) = (Used::default(), String::new(), String::new());
-        Picture { scene, options, size, scale, middle, used, rules, body, tracks: 0, ids: rustc_hash::FxHashSet::default() }
+        Picture {
+            scene,
+            options,
+            size,
+            scale,
+            middle,
+            used,
+            rules,
+            body,
+            tracks: 0,
+            ids: rustc_hash::FxHashSet::default(),
+        }
     }
 
     /// Where a place is in the picture.

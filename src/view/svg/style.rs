@@ -45,7 +45,7 @@ const LIGHT: Palette = Palette {
     ink: "#1d2a36",
     quiet: "#6b7785",
     ground: "#e2e7ec",
-    driven: "#0b6e4f",
+    driven: "#0d5fb3",
     tints: ["#bcd9f5", "#ffd3a1", "#c4e6bd", "#f6c3cb", "#d9cdf2", "#f5e79e", "#b9e6e4", "#e3d0bd"],
     traces: ["#c2185b", "#1565c0", "#6a1b9a", "#b45309"],
     velocity: "#0a7d34",
@@ -57,7 +57,7 @@ const DARK: Palette = Palette {
     ink: "#e8eef4",
     quiet: "#8b98a6",
     ground: "#2b3641",
-    driven: "#5fd3a8",
+    driven: "#7ab8ff",
     tints: ["#2b5782", "#80551f", "#35703c", "#833b49", "#584687", "#766620", "#2a6f6d", "#66503c"],
     traces: ["#ff6fa5", "#6db3ff", "#c99bff", "#ffb454"],
     velocity: "#5bd98a",
@@ -82,13 +82,14 @@ pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
 /// Widths and dashes, which both themes share.
 fn shapes(used: &Used, strong: f64) -> String {
     let width = |part: f64| number(part * strong, 2);
-    let mut rules =
-        format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
+    let mut rules = format!("path,circle{{stroke-width:{};stroke-linecap:round;stroke-linejoin:round}}\n", width(1.0));
     for look in &used.looks {
         let rule = match look {
             Look::Hatching => format!("stroke-width:{}", width(0.6)),
             Look::GroundLine | Look::Guide | Look::Track => format!("stroke-width:{}", width(1.25)),
-            Look::Pitch => format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5)),
+            Look::Pitch => {
+                format!("stroke-width:{};stroke-dasharray:{} {} {0} {1}", width(0.6), width(4.0), width(2.5))
+            }
             Look::Face => format!("stroke-width:{}", width(3.0)),
             Look::Arrow => format!("stroke-width:{}", width(1.6)),
             Look::Spring => format!("stroke-width:{};vector-effect:non-scaling-stroke", width(1.2)),
@@ -103,7 +104,7 @@ fn shapes(used: &Used, strong: f64) -> String {
     if let Some(size) = used.labels {
         rules += &format!(
             "text{{font:{}px system-ui,sans-serif;text-anchor:middle;stroke-width:3;stroke-linejoin:round;paint-order:stroke}}\n\
-             .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n",
+             .body-name{{font-weight:600}}\n.point-name{{font-style:italic}}\n.legend{{text-anchor:start}}\n",
             number(size, 1)
         );
     }
@@ -132,7 +133,10 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::Pin, Look::Roller, Look::Slot, Look::Sleeve, Look::Support], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::MasslessLink, Look::Cylinder, Look::Rod], &format!("fill:{paper};stroke:{ink}"));
     group(&[Look::Weld, Look::Dot], &format!("fill:{ink};stroke:{ink}"));
-    group(&[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face], &format!("fill:none;stroke:{ink}"));
+    group(
+        &[Look::Cross, Look::GroundLine, Look::Guide, Look::Track, Look::Spring, Look::Face],
+        &format!("fill:none;stroke:{ink}"),
+    );
     group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));
     group(&[Look::Arrow], &format!("fill:none;stroke:{driven}"));
     group(&[Look::ArrowHead], &format!("fill:{driven};stroke:none"));

@@ -14,6 +14,9 @@ const LEAST: f64 = 2.0;
 const HEAD: [f64; 2] = [9.0, 3.4];
 /// From this length on (px) an arrow has a whole head.
 const FULL_HEAD_AT: f64 = 18.0;
+/// Where the legend begins, and how long its arrows are (px).
+const LEGEND: f64 = 12.0;
+const LEGEND_ARROW: f64 = 26.0;
 
 /// What is drawn as arrows: its word, and what it is of a point in a row.
 type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
@@ -25,7 +28,7 @@ impl<'s> Picture<'s> {
     pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
         let row = moments.len() - 1;
         for (word, of) in KINDS {
-            let Some(scale) = self.pixels_of([moments, motion], of) else { continue };
+            let Some(scale) = self.scaled([moments, motion], (word, of)) else { continue };
             for pin in self.free_pins(moments.poses(row)) {
                 let from = self.placed(moments.poses(row)[pin.frame].placed(pin.at));
                 let [x, y] = times(scale, of(moments, row, pin));
@@ -37,7 +40,7 @@ impl<'s> Picture<'s> {
     /// At all times: the line and the head of each arrow are on tracks of their own.
     pub fn add_moving_vectors(&mut self, motion: &Motion) {
         for (word, of) in KINDS {
-            let Some(scale) = self.pixels_of([motion, motion], of) else { continue };
+            let Some(scale) = self.scaled([motion, motion], (word, of)) else { continue };
             for pin in self.free_pins(motion.poses(0)) {
                 let ways: Vec<[Vector; 2]> = (0..motion.len())
                     .map(|row| {
@@ -50,7 +53,8 @@ impl<'s> Picture<'s> {
                 }
                 self.used.vectors.insert(word);
                 let turn = |way: Vector| direction(way).to_degrees();
-                let line = |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
+                let line =
+                    |[from, way]: &[Vector; 2]| Key { at: *from, turn: turn(*way), stretch: [length(*way), 1.0] };
                 let size = |way: Vector| (length(way) / FULL_HEAD_AT).min(1.0);
                 let head = |[from, way]: &[Vector; 2]| Key {
                     at: plus(*from, *way),
@@ -61,22 +65,40 @@ impl<'s> Picture<'s> {
                 let name = escaped(&pin.name).into_owned();
                 let lines = Track::of(ways.iter().map(line).collect(), &[[1.0, 0.0]], &motion.times, false);
                 let heads = Track::of(ways.iter().map(head).collect(), &[[-long, wide]], &motion.times, false);
-                for (track, d) in [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))] {
+                for (track, d) in
+                    [(lines, "M0 0L1 0".to_owned()), (heads, format!("M0 0L{0} {wide}L{0} -{wide}Z", -long))]
+                {
                     let attributes = self.add_track(&track);
-                    self.body += &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
+                    self.body +=
+                        &format!("<g{attributes}><path class=\"vector {word}\" data-name=\"{name}\" d=\"{d}\"/></g>\n");
                 }
             }
         }
     }
 
-    /// Pixels of one unit, by the longest of two motions; nothing where all are at rest.
-    fn pixels_of(&self, motions: [&Motion; 2], of: fn(&Motion, usize, &Point) -> Vector) -> Option<f64> {
-        let pins = || self.scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
+    /// Pixels of one unit, by the longest arrow of two motions, which a legend tells; nothing where all are at rest.
+    fn scaled(&mut self, motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
+        let scene = self.scene;
+        let pins = || scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
         let all = motions.into_iter().flat_map(|motion| {
             motion.sampled(200).flat_map(move |row| pins().map(move |pin| length(of(motion, row, pin))))
         });
         let longest = all.filter(|way| way.is_finite()).fold(0.0, f64::max);
-        (longest > 0.0).then(|| LONGEST * self.size[0].min(self.size[1]) / longest)
+        if longest <= 0.0 {
+            return None;
+        }
+        let (unit, line) = if word == "velocity" { ("m/s", 1.0) } else { ("m/s²", 0.0) };
+        let size = self.letters();
+        let [x, y] = [LEGEND, self.size[1] - 0.6 * size - line * 1.3 * size];
+        self.add_vector(word, word, [x, y - 0.35 * size], [LEGEND_ARROW, 0.0]);
+        self.used.labels = Some(size);
+        self.body += &format!(
+            "<text class=\"legend\" x=\"{}\" y=\"{}\">{word}, at most {} {unit}</text>\n",
+            number(x + LEGEND_ARROW + 6.0, PIXELS),
+            number(y, PIXELS),
+            three_digits(longest)
+        );
+        Some(LONGEST * self.size[0].min(self.size[1]) / longest)
     }
 
     /// The pins of bodies; of those that bodies share one.
@@ -114,6 +136,17 @@ impl<'s> Picture<'s> {
             pair(plus(base, side)),
             pair(minus(base, side)),
         );
+    }
+}
+
+/// A number with three digits that count.
+fn three_digits(value: f64) -> String {
+    match value {
+        _ if !(1e-3..1e6).contains(&value) => format!("{value:.2e}"),
+        _ if value >= 100.0 => number(value, 0),
+        _ if value >= 10.0 => number(value, 1),
+        _ if value >= 1.0 => number(value, 2),
+        _ => number(value, 5),
     }
 }
 
