@@ -245,6 +245,12 @@ impl ColumnUnit {
         ColumnUnit { text: text.into(), scale: [1.0; 3] }
     }
 
+    /// What SI is divided by, multiplied with and divided by to be in this unit.
+    #[must_use]
+    pub fn scale(&self) -> [f64; 3] {
+        self.scale
+    }
+
     /// A value in SI, in this unit.
     #[must_use]
     pub fn printed(&self, value: f64) -> f64 {

@@ -19,6 +19,7 @@ mod input;
 mod interrupts;
 #[cfg(feature = "lsp")]
 mod lsp;
+mod page;
 mod progress;
 mod report;
 mod results;

@@ -4,6 +4,7 @@ use super::arguments::{ThemeChoice, ViewArguments};
 use super::failure::Failure;
 use super::files::Output;
 use super::input;
+use super::page;
 use super::report::Reporter;
 use super::times::Bounds;
 use super::timings::Timings;
@@ -21,15 +22,16 @@ const MOST_ROWS: usize = 2000;
 /// What can be drawn, by the endings of files.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Form {
+    Html,
     Svg,
 }
 
 /// The forms by their endings.
-const FORMS: [(&str, Form); 1] = [("svg", Form::Svg)];
+const FORMS: [(&str, Form); 2] = [("html", Form::Html), ("svg", Form::Svg)];
 
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let output = output(arguments)?;
-    let Form::Svg = form(output)?;
+    let form = form(output)?;
     let (mut timings, given) = (Timings::new(false), &arguments.input);
     let parsed = input::parsed(given, reporter)?;
     let stages = input::checked_and_compiled(&parsed, (given, &[]), arguments.allow_redundant, reporter, &mut timings)?;
@@ -47,6 +49,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let seen = reporter.settle(seen, said)?;
     let pictured = pictured(arguments, &seen.scene)?;
     let (text, stopped) = match listed {
+        _ if form == Form::Html => (page::written(&seen, &reporter.sources), seen.stopped),
         None => (svg::animated(&seen.scene, &seen.motion, &pictured), seen.stopped),
         Some(times) => {
             let (motion, stopped) = moments((checked, compiled), &times, &options)?;

@@ -76,7 +76,9 @@ fn edit_in_words(edit: &Edit, sources: &Sources) -> String {
 }
 
 impl Severity {
-    fn as_str(self) -> &'static str {
+    /// In a word.
+    #[must_use]
+    pub fn as_str(self) -> &'static str {
         match self {
             Severity::Note => "note",
             Severity::Warning => "warning",

@@ -1,0 +1,250 @@
+// The page's parts, laid out, and what goes between them. A document comes in from outside (`show`); time goes on by the browser's frames.
+
+import type { Document, Source } from "./data/document.ts";
+import type { Page } from "./data/format.ts";
+import { button, html, press } from "./elements.ts";
+import { keys } from "./keys.ts";
+import { Clock } from "./motion/clock.ts";
+import type { Moment } from "./motion/motion.ts";
+import { Closer } from "./panes/closer.ts";
+import { help } from "./panes/help.ts";
+import type { Deeds, Pane } from "./panes/pane.ts";
+import { Picture } from "./panes/picture.ts";
+import { Plots } from "./panes/plots.ts";
+import { Results } from "./panes/results.ts";
+import { Rows } from "./panes/rows.ts";
+import { Tabs } from "./panes/tabs.ts";
+import { Text } from "./panes/text.ts";
+import { Transport } from "./panes/transport.ts";
+import { Variants, variantOf } from "./panes/variants.ts";
+import { Wishes, type Change } from "./wishes.ts";
+
+/** A frame that comes later than this is no step of the motion: the page was not looked at (s). */
+const LONGEST_FRAME = 0.25;
+/** Frames that the pace is the median of. */
+const PACE = 60;
+/** What can be switched on: the key, the wish, in words. */
+const SWITCHES = [
+    ["L", "labels", "Labels"],
+    ["V", "vectors", "Vectors"],
+    ["T", "traces", "Traces"],
+    ["S", "strobe", "Strobe"],
+] as const;
+
+type Switch = (typeof SWITCHES)[number][1];
+
+export class App implements Deeds {
+    readonly element = html("div", { class: "app" });
+    readonly picture = new Picture();
+    private readonly clock = new Clock();
+    private readonly wishes = new Wishes();
+    private readonly transport = new Transport(this.clock, this);
+    private readonly plots = new Plots(this);
+    private readonly variants: Variants;
+    private readonly panes: Pane[];
+    private readonly helping: HTMLDialogElement;
+    private readonly switches = new Map<Switch, HTMLButtonElement>();
+    private document: Document | undefined;
+    private moment: Moment | undefined;
+    private before: number | undefined;
+    private wanted = 0;
+    private readonly times: { between: number; drawing: number }[] = [];
+
+    constructor(
+        readonly page: Page,
+        private readonly source: Source,
+    ) {
+        this.variants = new Variants(page, (variant) => void this.turnTo(variant));
+        this.helping = help(page.mechc);
+        const text = new Text();
+        const rows = new Rows(() => this.plots.plotted, this);
+        const closer = new Closer((name) => this.plots.add(name));
+        const results = new Results(this);
+        this.plots.whenPlotted(() => rows.plottedAnew());
+        this.panes = [this.picture, this.transport, this.variants, results, this.plots, text, closer, rows];
+        const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]], () => this.draw());
+        this.element.append(
+            html(
+                "div",
+                { class: "stage" },
+                html("div", { class: "frame" }, this.picture.element, this.toolbar()),
+                this.transport.element,
+                this.variants.element,
+                results.element,
+            ),
+            html("div", { class: "beside" }, this.plots.element, tabs.element),
+            this.helping,
+        );
+        this.wishes.onChange((change) => this.wish(change));
+        keys(this.keyed());
+        const print = () => {
+            this.plots.print();
+            text.print();
+        };
+        addEventListener("beforeprint", print);
+        matchMedia("print").addEventListener("change", print);
+    }
+
+    get firstVariant(): number {
+        return variantOf(this.page, this.page.vary.map(({ own }) => own));
+    }
+
+    get time(): number {
+        return this.clock.time;
+    }
+
+    get shown(): Document | undefined {
+        return this.document;
+    }
+
+    get pace(): { between: number; drawing: number } {
+        const middle = (of: number[]) => of.sort((a, b) => a - b)[of.length >> 1] ?? NaN;
+        return { between: middle(this.times.map((time) => time.between)), drawing: middle(this.times.map((time) => time.drawing)) };
+    }
+
+    /** Another motion takes the place of what was shown; time stays where it is. */
+    show(document: Document): void {
+        const { from, to } = document.motion;
+        const anew = this.document === undefined;
+        this.document = document;
+        this.moment = document.motion.moment();
+        this.clock.span(from, to, anew);
+        this.element.classList.toggle("still", document.table.rows < 2);
+        for (const pane of this.panes) pane.show(document, this.wishes);
+        this.draw();
+    }
+
+    /** Begins to move, unless the reader asked for little motion. */
+    begin(): void {
+        if (!matchMedia("(prefers-reduced-motion: reduce)").matches) this.play();
+        this.draw();
+        this.source.prepare?.();
+    }
+
+    play(): void {
+        if (this.clock.playing || (this.document?.table.rows ?? 0) < 2) return;
+        this.clock.playing = true;
+        this.before = undefined;
+        this.times.length = 0;
+        requestAnimationFrame((now) => this.frame(now));
+        this.draw();
+    }
+
+    pause(): void {
+        if (!this.clock.playing) return;
+        this.clock.playing = false;
+        this.draw();
+        this.transport.say();
+    }
+
+    seek(time: number): Promise<void> {
+        this.clock.time = this.clock.held(time);
+        this.draw();
+        if (!this.clock.playing) this.transport.say();
+        return drawn();
+    }
+
+    step(rows: number): void {
+        const { document } = this;
+        if (!document || document.table.rows === 0) return;
+        this.pause();
+        const { table } = document;
+        const here = table.rowAt(this.time);
+        // between two rows a step back goes to the one before
+        const from = rows < 0 && table.times[here]! < this.time ? here + 1 : here;
+        const row = Math.min(Math.max(from + rows, 0), table.rows - 1);
+        void this.seek(table.times[row]!);
+    }
+
+    async set(name: string, value: number): Promise<void> {
+        await this.turnTo(this.variants.nearest(name, value));
+        await drawn();
+    }
+
+    private async turnTo(variant: number): Promise<void> {
+        const turn = ++this.wanted;
+        const document = await this.source.document(variant);
+        // what was asked for meanwhile comes later
+        if (turn === this.wanted) this.show(document);
+    }
+
+    private frame(now: number): void {
+        if (!this.clock.playing) return;
+        const began = performance.now();
+        const seconds = this.before === undefined ? 0 : (now - this.before) / 1000;
+        this.clock.advance(Math.min(seconds, LONGEST_FRAME));
+        this.draw();
+        if (this.before !== undefined) this.times.push({ between: now - this.before, drawing: performance.now() - began });
+        if (this.times.length > PACE) this.times.shift();
+        this.before = now;
+        requestAnimationFrame((next) => this.frame(next));
+    }
+
+    private draw(): void {
+        const { document, moment } = this;
+        if (!document || !moment) return;
+        document.motion.at(this.time, moment);
+        for (const pane of this.panes) pane.draw(moment);
+    }
+
+    private wish(change: Change): void {
+        if (!this.document) return;
+        for (const pane of this.panes) {
+            if (change === "pointer") pane.light?.(this.wishes);
+            else pane.show(this.document, this.wishes);
+        }
+        if (change === "pointer") return;
+        for (const [wish, made] of this.switches) press(made, this.wishes[wish]);
+        this.draw();
+    }
+
+    private flip(wish: Switch): void {
+        this.wishes.change((wishes) => (wishes[wish] = !wishes[wish]));
+    }
+
+    private toolbar(): HTMLElement {
+        const bar = html("div", { class: "toolbar", role: "toolbar", "aria-label": "what is shown" });
+        for (const [key, wish, shown] of SWITCHES) {
+            const made = button(shown, shown, { title: `${shown} (${key})` });
+            press(made, this.wishes[wish]);
+            made.addEventListener("click", () => this.flip(wish));
+            this.switches.set(wish, made);
+            bar.append(made);
+        }
+        const asks = button("help", "?", { class: "asks" });
+        asks.addEventListener("click", () => this.helping.showModal());
+        bar.append(asks);
+        return bar;
+    }
+
+    private keyed(): Record<string, () => void> {
+        const flips = SWITCHES.map(([key, wish]) => [key.toLowerCase(), () => this.flip(wish)]);
+        return {
+            ...(Object.fromEntries(flips) as Record<string, () => void>),
+            " ": () => (this.clock.playing ? this.pause() : this.play()),
+            ArrowLeft: () => this.step(-1),
+            ArrowRight: () => this.step(1),
+            "Shift ArrowLeft": () => this.step(-10),
+            "Shift ArrowRight": () => this.step(10),
+            Home: () => this.end(-1),
+            End: () => this.end(1),
+            "+": () => this.transport.change(() => this.clock.faster()),
+            "-": () => this.transport.change(() => this.clock.slower()),
+            b: () => this.transport.turnOver(),
+            f: () => this.element.classList.toggle("lecture"),
+            "0": () => this.picture.whole(),
+            "?": () => this.helping.showModal(),
+        };
+    }
+
+    /** To the begin or the end. */
+    private end(which: -1 | 1): void {
+        this.pause();
+        void this.seek(which < 0 ? -Infinity : Infinity);
+    }
+}
+
+/** When what was changed is on the screen. */
+function drawn(): Promise<void> {
+    return new Promise((resolve) => requestAnimationFrame(() => resolve()));
+}

@@ -1,0 +1,135 @@
+// What the page is given: the form of the JSON in it, number 1. `src/view/page` writes it. Lengths are metres, angles radians, times
+// seconds; what a column is printed in stands beside it.
+
+/** The number of the form that this script reads. */
+export const FORMAT = 1;
+
+/** Name, kind (`body`, `joint`, …), which text, and from where to where in it (UTF-16). */
+export type Declaration = [name: string, kind: string, text: number, from: number, to: number];
+
+export interface NamedPoint {
+    name: string;
+    declaration: number;
+    frame: number;
+    at: [number, number];
+    /** Whether a joint takes hold there. */
+    pin?: boolean;
+}
+
+/** A frame and a place in it. */
+export type Anchor = [frame: number, x: number, y: number];
+
+export interface Shape {
+    /** What it means; a class of the style sheet. */
+    look: string;
+    /** An SVG path in metres, in absolute commands; as in every SVG its y axis points down. */
+    d: string;
+}
+
+/** Something drawn: it moves with a frame, or stays upright at a place of one, or is held between two places. */
+export interface Node {
+    declaration: number;
+    shapes: Shape[];
+    fixed?: number;
+    upright?: Anchor;
+    /** x runs from one place to the other; its origin is at the one or the other, or it is stretched, 1 being the whole way. */
+    between?: [from: Anchor, to: Anchor, held: "from" | "to" | "stretched"];
+}
+
+export interface Trace {
+    declaration: number;
+    /** In which frame it is written. */
+    frame: number;
+    /** A point of the frame. */
+    at?: [number, number];
+    /** Else the columns NAME.x and NAME.y hold it, */
+    columns?: string;
+    /** in a frame that is fixed so in the other one, */
+    pose?: [x: number, y: number, phi: number];
+    /** and turned over. */
+    mirrored?: boolean;
+}
+
+export interface Profile {
+    declaration: number;
+    frame: number;
+}
+
+export interface Scene {
+    unit: number;
+    extent: [[number, number], [number, number]];
+    declarations: Declaration[];
+    /** The declaration of each frame; frame 0 is the ground. */
+    frames: number[];
+    points: NamedPoint[];
+    nodes: Node[];
+    traces: Trace[];
+    profiles: Profile[];
+}
+
+export interface Column {
+    name: string;
+    unit: string;
+    /** What SI is divided by, multiplied with and divided by to be in the unit; left out where it is the unit. */
+    scale?: [number, number, number];
+}
+
+/** A number for the whole motion, in SI, printed as a column is; null where it has no value. */
+export interface Result extends Column {
+    value: number | null;
+}
+
+export interface Label {
+    declaration?: number;
+    text: number;
+    from: number;
+    to: number;
+    says: string;
+}
+
+export interface Message {
+    severity: string;
+    code: string;
+    text: string;
+    labels?: Label[];
+    notes?: string[];
+    help?: string[];
+    /** When it happened, where it happened on the way. */
+    time?: number;
+}
+
+export interface Variant {
+    rows: number;
+    data: string;
+    results: Result[];
+    messages: Message[];
+    edges: number[];
+    /** Where the frames are (x, y, phi of each) if there is no row: as they are drawn in the text. */
+    drawn?: [number, number, number][];
+    /** Where it is not the file's own. */
+    scene?: Scene;
+}
+
+export interface Vary {
+    name: string;
+    unit: string;
+    /** In the unit. */
+    values: number[];
+    /** Which of them the file's own is nearest to. */
+    own: number;
+}
+
+export interface Page {
+    format: number;
+    mechc: string;
+    name: string;
+    docs: string;
+    texts: { name: string; text: string }[];
+    scene: Scene;
+    columns: Column[];
+    vary: Vary[];
+    /** In the order of the product of what varies, the last fastest. */
+    variants: Variant[];
+    /** Why rows were left out, if they were. */
+    thinned?: string;
+}

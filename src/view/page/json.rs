@@ -1,0 +1,212 @@
+//! The data of a page as JSON.
+
+use super::places::Texts;
+use super::{Column, FORMAT, Page, Variant, columns};
+use crate::diag::Diagnostic;
+use crate::scene::{Anchor, Held, Node, Pen, Place, Scene, Trace};
+use crate::source::Source;
+use crate::view::path::data;
+use serde_json::{Map, Value, json};
+use std::path::Path;
+
+/// What is as large as a symbol is written with six digits, which are enough for what is drawn.
+const LEAST_DIGITS: f64 = 1e5;
+/// Nothing is so small that it takes more decimals than this.
+const MOST_DECIMALS: usize = 30;
+
+/// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
+pub(super) fn written(page: &Page, every: usize) -> String {
+    let texts = Texts::of(&page.texts);
+    let Some(first) = page.variants.first() else { return String::new() };
+    let scene = scene(first.scene, &texts);
+    let variants: Vec<Value> =
+        page.variants.iter().map(|variant| variant_with(variant, every, page.columns.len(), &texts, &scene)).collect();
+    let mut all = json!({
+        "format": FORMAT,
+        "mechc": env!("CARGO_PKG_VERSION"),
+        "name": first.scene.name,
+        "docs": first.scene.docs.join("\n"),
+        "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
+        "scene": scene,
+        "columns": page.columns.iter().map(|column| Value::Object(column_of(column))).collect::<Vec<_>>(),
+        "vary": page.vary.iter().map(|vary| {
+            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "own": vary.own })
+        }).collect::<Vec<_>>(),
+        "variants": variants,
+    });
+    if let (Some(said), Some(object)) = (thinned(first, every), all.as_object_mut()) {
+        object.insert("thinned".to_owned(), said.into());
+    }
+    // an element of a script ends at `</script`, and `<!--` begins something else
+    all.to_string().replace('<', "\\u003c")
+}
+
+/// A text by the name of its file: where that lies is nobody's business.
+fn text(source: &Source) -> Value {
+    let name = Path::new(&source.name).file_name().map_or(source.name.clone().into(), |name| name.to_string_lossy());
+    json!({ "name": name, "text": source.text })
+}
+
+fn column_of(column: &Column) -> Map<String, Value> {
+    let mut object = Map::new();
+    object.insert("name".to_owned(), column.name.into());
+    object.insert("unit".to_owned(), column.unit.into());
+    if column.scale.iter().any(|part| part.to_bits() != 1.0_f64.to_bits()) {
+        object.insert("scale".to_owned(), json!(column.scale));
+    }
+    object
+}
+
+/// What is said of rows that are not there.
+fn thinned(variant: &Variant, every: usize) -> Option<String> {
+    let (all, kept) = (variant.all_rows, kept(variant.motion.rows().len(), every).count());
+    (kept < all).then(|| format!("This page has {kept} of the {all} rows of the motion, evenly spread."))
+}
+
+/// Every so-manyth row, and the last.
+fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
+    let last = rows.checked_sub(1);
+    (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
+}
+
+fn variant_with(variant: &Variant, every: usize, count: usize, texts: &Texts, shared: &Value) -> Value {
+    let (motion, table) = (variant.motion, variant.motion.rows());
+    let rows: Vec<usize> = kept(table.len(), every).collect();
+    let of_column = |column: usize| {
+        // what is infinite has no place in a table either
+        let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
+        rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
+    };
+    let columns: Vec<Vec<f64>> = (0..count).map(of_column).collect();
+    let results = variant.results.iter().map(|(column, value)| {
+        let mut object = column_of(column);
+        object.insert("value".to_owned(), json!(value));
+        Value::Object(object)
+    });
+    let mut object = json!({
+        "rows": rows.len(),
+        "data": if rows.is_empty() { String::new() } else { columns::written(&columns) },
+        "results": results.collect::<Vec<_>>(),
+        "messages": variant.messages.iter().map(|said| message(said, texts)).collect::<Vec<_>>(),
+        "edges": motion.edges,
+    });
+    if let Some(object) = object.as_object_mut() {
+        if rows.is_empty() && !motion.is_empty() {
+            let drawn: Vec<[f64; 3]> = motion.poses(0).iter().map(|pose| [pose.at[0], pose.at[1], pose.phi]).collect();
+            object.insert("drawn".to_owned(), json!(drawn));
+        }
+        let own = scene(variant.scene, texts);
+        if own != *shared {
+            object.insert("scene".to_owned(), own);
+        }
+    }
+    object
+}
+
+fn message(said: &Diagnostic, texts: &Texts) -> Value {
+    let label = |label: &crate::diag::Label| {
+        let (text, from, to) = texts.place(label.span)?;
+        Some(json!({ "text": text, "from": from, "to": to, "says": label.text }))
+    };
+    let mut object = json!({
+        "severity": said.severity().as_str(),
+        "code": said.code.as_str(),
+        "text": said.message,
+        "labels": said.labels.iter().filter_map(label).collect::<Vec<_>>(),
+        "notes": said.notes,
+        "help": said.help,
+    });
+    if let (Some(time), Some(object)) = (said.data.get("t").and_then(Value::as_f64), object.as_object_mut()) {
+        object.insert("time".to_owned(), time.into());
+    }
+    object
+}
+
+fn scene(scene: &Scene, texts: &Texts) -> Value {
+    let decimals = decimals(scene.unit);
+    let declarations = scene.declarations.iter().map(|declaration| {
+        let (text, from, to) = texts.place(declaration.span).unwrap_or_default();
+        json!([declaration.name, declaration.kind, text, from, to])
+    });
+    let points = scene.points.iter().map(|point| {
+        json!({
+            "name": point.name, "declaration": point.declaration, "frame": point.frame, "at": point.at, "pin": point.is_pin,
+        })
+    });
+    // where nothing is finite the page makes an extent of its own
+    let extent = if scene.extent.iter().flatten().all(|part| part.is_finite()) { scene.extent } else { [[0.0; 2]; 2] };
+    json!({
+        "unit": scene.unit,
+        "extent": extent,
+        "declarations": declarations.collect::<Vec<_>>(),
+        "frames": scene.frames,
+        "points": points.collect::<Vec<_>>(),
+        "nodes": scene.nodes.iter().map(|node| written_node(node, decimals)).collect::<Vec<_>>(),
+        "traces": scene.traces.iter().map(trace).collect::<Vec<_>>(),
+        "profiles": scene.profiles.iter().map(|profile| {
+            json!({ "declaration": profile.declaration, "frame": profile.frame })
+        }).collect::<Vec<_>>(),
+    })
+}
+
+/// Decimals of metres that give what is as large as a symbol so many digits.
+fn decimals(unit: f64) -> usize {
+    // without logarithms, whose bits are not the same everywhere
+    let (mut decimals, mut size) = (0, unit * (1.0 + f64::EPSILON));
+    while size < LEAST_DIGITS && decimals < MOST_DECIMALS {
+        size *= 10.0;
+        decimals += 1;
+    }
+    decimals
+}
+
+fn written_node(node: &Node, decimals: usize) -> Value {
+    let anchor = |anchor: &Anchor| json!([anchor.frame, anchor.at[0], anchor.at[1]]);
+    let (name, place) = match &node.place {
+        Place::Fixed(frame) => ("fixed", json!(frame)),
+        Place::Upright(at) => ("upright", anchor(at)),
+        Place::Between { from, to, held } => {
+            let held = match held {
+                Held::From => "from",
+                Held::To => "to",
+                Held::Stretched => "stretched",
+            };
+            ("between", json!([anchor(from), anchor(to), held]))
+        }
+    };
+    let shapes =
+        node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
+    json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
+}
+
+fn trace(trace: &Trace) -> Value {
+    match &trace.pen {
+        Pen::Point(anchor) => json!({ "declaration": trace.declaration, "frame": anchor.frame, "at": anchor.at }),
+        Pen::Columns { name, frame, pose, is_mirrored } => json!({
+            "declaration": trace.declaration, "frame": frame, "columns": name,
+            "pose": [pose.at[0], pose.at[1], pose.phi], "mirrored": is_mirrored,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{decimals, kept};
+
+    #[test]
+    fn the_last_row_is_kept() {
+        let kept = |rows, every| kept(rows, every).collect::<Vec<_>>();
+        assert_eq!(kept(7, 3), [0, 3, 6]);
+        assert_eq!(kept(6, 3), [0, 3, 5]);
+        assert_eq!(kept(3, 1), [0, 1, 2]);
+        assert_eq!(kept(1, 5), [0]);
+        assert!(kept(0, 2).is_empty());
+    }
+
+    #[test]
+    fn shapes_have_six_digits_of_a_symbol() {
+        for (unit, wanted) in [(0.004, 8), (40.0, 4), (4e-8, 13), (1.0, 5)] {
+            assert_eq!(decimals(unit), wanted, "{unit}");
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The first moment as SVG within the page, for who has no script: drawn with the page's own style sheet.
+
+use crate::scene::{Motion, Node, Place, Pose, Scene};
+use crate::view::path::written;
+use crate::view::text::number;
+
+/// The longer side (pixels), and decimals of them.
+const SIZE: f64 = 800.0;
+const DECIMALS: usize = 1;
+/// Bodies are tinted in turn by so many colours (`page/src/picture/figures.ts`).
+const TINTS: usize = 8;
+
+/// Nothing where there is nothing to draw.
+pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
+    let [[left, bottom], [right, top]] = scene.extent;
+    let longer = (right - left).max(top - bottom);
+    if motion.is_empty() || !longer.is_finite() || longer <= 0.0 {
+        return String::new();
+    }
+    let scale = SIZE / longer;
+    let [width, height] = [right - left, top - bottom].map(|side| number(scale * side, DECIMALS));
+    let mut svg = format!(
+        "<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">"
+    );
+    for node in &scene.nodes {
+        add(&mut svg, node, motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
+    }
+    svg + "</svg>"
+}
+
+fn add(svg: &mut String, node: &Node, poses: &[Pose], placed: &dyn Fn([f64; 2]) -> [f64; 2], scale: f64) {
+    let (pose, stretch) = node.place.pose(poses);
+    let frame = match node.place {
+        Place::Fixed(frame) => frame,
+        Place::Upright(anchor) => anchor.frame,
+        Place::Between { .. } => 0,
+    };
+    let tint = frame.checked_sub(1).map_or("ground".to_owned(), |body| (body % TINTS).to_string());
+    *svg += &format!("<g class=\"node tint-{tint}\">");
+    for shape in &node.shapes {
+        let d = written(&shape.path, &|[x, y]| placed(pose.placed([stretch * x, y])), scale, DECIMALS);
+        *svg += &format!("<path class=\"look-{}\" d=\"{d}\"/>", shape.look.word());
+    }
+    *svg += "</g>";
+}
