@@ -26,7 +26,7 @@ use std::path::Path;
 use wanted::{Wanted, wanted};
 
 /// More items than these nobody reads.
-const MOST: usize = 500;
+const MOST: usize = 200;
 
 /// What fits at a place.
 #[derive(Clone, PartialEq, Debug, Default)]

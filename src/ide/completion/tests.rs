@@ -373,7 +373,7 @@ fn of_very_many_names_those_come_that_go_with_the_letters() {
         completions(&snapshot, &place).expect("a file")
     };
     let found = of("");
-    assert_eq!((found.items.len(), found.is_incomplete), (500, true));
+    assert_eq!((found.items.len(), found.is_incomplete), (200, true));
     let found = of("L77");
     assert!(found.is_incomplete, "other letters go with other names");
     let labels: Vec<&str> = found.items.iter().map(|item| item.label.as_str()).collect();
