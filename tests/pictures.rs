@@ -2,7 +2,7 @@
 //!
 //! `UPDATE_GOLDENS=1 cargo test --test pictures` writes the pictures that a reviewer reads.
 
-#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
 mod support;
 
