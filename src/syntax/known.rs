@@ -57,7 +57,8 @@ impl<'a> Known<'a> {
         }
         let mut item = Item { docs: Vec::new(), ..item.clone() };
         moved.item(&mut item);
-        Some(item)
+        // of a text that ends in the middle of a declaration the beginning is the same as well
+        (item.span.end as usize <= stretch.end).then_some(item)
     }
 
     /// The same of a feature.
@@ -69,7 +70,7 @@ impl<'a> Known<'a> {
         }
         let mut feature = Feature { docs: Vec::new(), ..feature.clone() };
         moved.feature(&mut feature);
-        Some(feature)
+        (feature.span.end as usize <= stretch.end).then_some(feature)
     }
 
     /// The head of the body, from its keyword to its brace, that is a stretch that has not changed.
@@ -191,6 +192,21 @@ mod tests {
                 let (reread, fresh) = (reread(&old, &text, &sources, file), parse(&sources, file));
                 assert_eq!(reread, fresh, "from\n{text}\nto\n{new}");
                 (old, text) = (reread, new);
+            }
+        }
+    }
+
+    #[test]
+    fn a_text_that_is_cut_off_is_read_as_if_it_were_new() {
+        for original in TEXTS {
+            let mut sources = Sources::default();
+            let file = sources.add("text.mech", original);
+            let old = parse(&sources, file);
+            for cut in (0..original.len()).filter(|&at| original.is_char_boundary(at)).step_by(7) {
+                let mut sources = Sources::default();
+                let file = sources.add("text.mech", &original[..cut]);
+                let (reread, fresh) = (reread(&old, original, &sources, file), parse(&sources, file));
+                assert_eq!(reread, fresh, "{}", &original[..cut]);
             }
         }
     }
