@@ -298,7 +298,8 @@ fn wheels_that_no_pitch_fits_have_no_teeth() {
     assert!(teeth(&fitting) > 100);
     assert!(deepest_overlap(&fitting.scene, &fitting.motion).1 < 0.03);
     assert!(teeth(&train("10 mm * pi")) <= 8, "the teeth of such wheels would run into each other");
-    assert!(teeth(&train("1.9 m")) > 100, "a large one beside a small one");
+    assert!(teeth(&train("0.7 m")) > 100, "a large one beside a small one");
+    assert!(teeth(&train("1.9 m")) <= 8, "nobody could see so many");
 }
 
 #[test]

@@ -90,6 +90,8 @@ fn on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &L
 struct Busy {
     /// From where the bar is to come out, in the frame of what slides.
     away_from: Option<Anchor>,
+    /// How far what is there reaches (m).
+    reach: f64,
 }
 
 /// Whether a contact is where an axis begins that something slides along.
@@ -108,12 +110,16 @@ fn busy(drawing: &Drawing, axis: AxisId) -> Option<Busy> {
         let line = drawing.features.axis(axis);
         Anchor { frame: line.frame, at: line.at }
     };
-    let of = |own: Anchor, other: Anchor| near(own).then_some(Busy { away_from: Some(other) });
+    let radius = |profile: Profile| match profile {
+        Profile::Circle(circle) => drawing.features.circle(circle).radius,
+        Profile::Curve(_) => 0.0,
+    };
+    let of = |own: Anchor, other: Anchor, reach| near(own).then_some(Busy { away_from: Some(other), reach });
     model.joints.iter().find_map(|joint| match joint.kind {
-        JointKind::PointFollower(p, profile) => of(drawing.features.point(p), middle(profile)),
-        JointKind::Cam(k, m) => of(middle(k), middle(m)).or_else(|| of(middle(m), middle(k))),
-        JointKind::FlatFollower(profile, face) => of(line(face), middle(profile)),
-        JointKind::RackPinion { rack, .. } => near(line(rack)).then_some(Busy { away_from: None }),
+        JointKind::PointFollower(p, profile) => of(drawing.features.point(p), middle(profile), 0.0),
+        JointKind::Cam(k, m) => of(middle(k), middle(m), radius(k)).or_else(|| of(middle(m), middle(k), radius(m))),
+        JointKind::FlatFollower(profile, face) => of(line(face), middle(profile), 0.0),
+        JointKind::RackPinion { rack, .. } => near(line(rack)).then_some(Busy { away_from: None, reach: 0.0 }),
         _ => None,
     })
 }
@@ -133,7 +139,8 @@ fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
     };
     let [low, high] = widened(way, 0.0);
     let (near, far) = if sign > 0.0 { (low, high) } else { (-high, -low) };
-    let along = sign * (far + TO_SLEEVE * unit);
+    let to_sleeve = busy.reach + TO_SLEEVE * unit;
+    let along = sign * (far + to_sleeve);
     let middle = on(guide, along);
     if guide.frame == 0 {
         let across = times(SLEEVE[1] * unit, left(guide.along));
@@ -143,14 +150,14 @@ fn in_sleeve(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line,
             symbols.edge(plus(minus(middle, half), minus([0.0; 2], across)), minus(plus(middle, half), across)),
         );
         shapes.extend(symbols.edge(plus(plus(middle, half), across), plus(minus(middle, half), across)));
-        drawing.add_fixed(Layer::Ground, declaration, 0, shapes);
+        drawing.add_fixed(Layer::Feet, declaration, 0, shapes);
     } else {
         let sleeve = rectangle(middle, guide.along, SLEEVE[0] * unit, 1.3 * SLEEVE[1] * unit);
         drawing.add_fixed(Layer::Blocks, declaration, guide.frame, vec![shape(Look::Sleeve, sleeve)]);
         drawing.outlines[guide.frame].places.push(middle);
     }
     // the bar reaches through the sleeve wherever the body is
-    let long = (far - near) + (TO_SLEEVE + SLEEVE[0] + 0.4) * unit;
+    let long = (far - near) + to_sleeve + (SLEEVE[0] + 0.4) * unit;
     let outward = if is_same { sign } else { -sign };
     let Outline { places, .. } = &mut drawing.outlines[slider.frame];
     places.extend([slider.at, plus(slider.at, times(outward * long, slider.along))]);

@@ -69,7 +69,7 @@ mod tests {
         let triangle = Path::polygon([[0.0, 0.0], [1.0, 0.0], [1.0, 2.0]]);
         assert_eq!(data(&triangle, 10.0, 2), "M0 0L10 0 10-20Z");
         let arc = Path::arc([0.0; 2], 1.0, 0.0, std::f64::consts::PI);
-        assert_eq!(data(&arc, 10.0, 2), "M10 0A10 10 0 0 0 0-10A10 10 0 0 0-10 0");
+        assert_eq!(data(&arc, 10.0, 2), "M10 0A10 10 0 0 0 0-10A10 10 0 0 0 -10 0");
         let circle = Path::Circle { at: [1.0, 1.0], radius: 0.5 };
         assert_eq!(data(&circle, 2.0, 1), "M1-2A1 1 0 1 0 3-2A1 1 0 1 0 1-2Z");
     }

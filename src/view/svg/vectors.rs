@@ -146,6 +146,8 @@ fn three_digits(value: f64) -> String {
         _ if value >= 100.0 => number(value, 0),
         _ if value >= 10.0 => number(value, 1),
         _ if value >= 1.0 => number(value, 2),
+        _ if value >= 0.1 => number(value, 3),
+        _ if value >= 0.01 => number(value, 4),
         _ => number(value, 5),
     }
 }
