@@ -191,7 +191,8 @@ mod tests {
 
     fn motion(rows: u32) -> Motion {
         let columns = ["t", "b.x", "b.y", "b.phi"].map(str::to_owned);
-        let row = |k: u32| vec![f64::from(k) * 0.1, f64::from(k.wrapping_mul(2_654_435_761)), f64::NAN, f64::from(k) / 3.0];
+        let row =
+            |k: u32| vec![f64::from(k) * 0.1, f64::from(k.wrapping_mul(2_654_435_761)), f64::NAN, f64::from(k) / 3.0];
         Motion::of_rows(1, &columns, (0..rows).map(row).collect(), vec![0.25])
     }
 
