@@ -396,6 +396,7 @@ pub(super) struct RunArguments {
 }
 
 #[derive(Args, Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is an option of its own
 pub(super) struct ViewArguments {
     #[command(flatten)]
     pub input: Input,

@@ -46,14 +46,14 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         let pose = Pose { at, phi: 0.0 };
         declarations.push(named(entry.name, "symbol"));
         let declaration = declarations.len() - 1;
-        for (frame, part) in entry.shapes {
-            let shapes = vec![Shape { path: part.path.moved(&pose), ..part }];
-            nodes.push(Node { declaration, place: Place::Fixed(frame), shapes });
-        }
         if let Some([from, to]) = entry.spring {
             let [from, to] = [from, to].map(|end| Anchor { frame: 0, at: plus(at, end) });
             let place = Place::Between { from, to, held: Held::Stretched };
             nodes.push(Node { declaration, place, shapes: vec![symbols.spring(5)] });
+        }
+        for (frame, part) in entry.shapes {
+            let shapes = vec![Shape { path: part.path.moved(&pose), ..part }];
+            nodes.push(Node { declaration, place: Place::Fixed(frame), shapes });
         }
         captions.push((plus(at, [0.0, -3.5]), entry.name.to_owned()));
     }
@@ -102,7 +102,7 @@ fn slider(symbols: Symbols) -> Entry {
 fn slot(symbols: Symbols) -> Entry {
     let body = bar(&[[-2.6, 0.0], [2.6, 0.0]], SLOTTED_BAR);
     let opening = symbols.stadium([-1.8, 0.0], [1.8, 0.0], SLOT, Look::Slot);
-    let other = bar(&[[0.7, 0.0], [1.8, -2.2]], BAR);
+    let other = bar(&[[0.7, 0.0], [1.6, -1.7]], BAR);
     entry("pin in a slot", vec![(1, body), (1, opening), (2, other), (2, symbols.pin([0.7, 0.0], None))])
 }
 

@@ -178,12 +178,12 @@ impl Drawing<'_> {
 
     pub fn traces(&self) -> Vec<Trace> {
         let model = self.features.model;
-        let pen = |trace: &model::Trace| match trace.point {
-            Some(point) => Pen::Point(self.features.point(point)),
-            None => {
-                let (frame, pose, is_mirrored) = self.features.text_of(trace.part);
-                Pen::Columns { name: trace.declared.name.clone(), frame, pose, is_mirrored }
+        let pen = |trace: &model::Trace| {
+            if let Some(point) = trace.point {
+                return Pen::Point(self.features.point(point));
             }
+            let (frame, pose, is_mirrored) = self.features.text_of(trace.part);
+            Pen::Columns { name: trace.declared.name.clone(), frame, pose, is_mirrored }
         };
         let numbered = model.traces.iter().enumerate();
         numbered.map(|(k, trace)| Trace { declaration: self.first.traces + k, pen: pen(trace) }).collect()

@@ -80,7 +80,9 @@ pub(super) fn draw(drawing: &mut Drawing) {
             continue;
         }
         let train = trains.connected(first);
-        train.iter().for_each(|&member| is_done[member] = true);
+        for &member in &train {
+            is_done[member] = true;
+        }
         let (pitch, teeth) = trains.fitting(drawing, &train).map_or((None, Vec::new()), |(p, teeth)| (Some(p), teeth));
         for (k, &member) in train.iter().enumerate() {
             let toothed = &trains.all[member];
@@ -182,10 +184,8 @@ impl Trains {
             // what a change of its own phase by one pitch adds
             let is_second = mesh.members[1] == train[k];
             let sign = match (mesh.kind, is_second) {
-                (MeshKind::External, _) => 1.0,
-                (MeshKind::Internal, true) => -1.0,
-                (MeshKind::Internal, false) => 1.0,
-                (MeshKind::Rack, true) => -1.0,
+                (MeshKind::External, _) | (MeshKind::Internal, false) => 1.0,
+                (MeshKind::Internal | MeshKind::Rack, true) => -1.0,
                 (MeshKind::Rack, false) => self.side(drawing, mesh, 0),
             };
             let step = if teeth[k].count == 0 { pitch } else { TAU / f64::from(teeth[k].count) };
@@ -257,19 +257,16 @@ impl Trains {
         let pitch = teeth.map_or(TAU * disc.radius / 12.0, |(pitch, _)| pitch);
         let [from, to] = [way[0] - 2.0 * pitch, way[1] + 2.0 * pitch];
         let declaration = line.frame;
-        let outline = match teeth {
-            Some((pitch, teeth)) => {
-                let rack = Rack { at: line.at, along: line.along, side, pitch, phase: teeth.phase };
-                rack.outline([from, to], 0.5 * pitch)
-            }
-            None => {
-                let place = |x: f64, y: f64| {
-                    plus(plus(line.at, super::times(x, line.along)), super::times(side * y, super::left(line.along)))
-                };
-                let corners = [place(from, 0.0), place(to, 0.0), place(to, -0.5 * pitch), place(from, -0.5 * pitch)];
-                let segments = corners[1..].iter().map(|corner| Segment::Line(*corner)).collect();
-                Contour { start: corners[0], segments, is_closed: true }
-            }
+        let outline = if let Some((pitch, teeth)) = teeth {
+            let rack = Rack { at: line.at, along: line.along, side, pitch, phase: teeth.phase };
+            rack.outline([from, to], 0.5 * pitch)
+        } else {
+            let place = |x: f64, y: f64| {
+                plus(plus(line.at, super::times(x, line.along)), super::times(side * y, super::left(line.along)))
+            };
+            let corners = [place(from, 0.0), place(to, 0.0), place(to, -0.5 * pitch), place(from, -0.5 * pitch)];
+            let segments = corners[1..].iter().map(|corner| Segment::Line(*corner)).collect();
+            Contour { start: corners[0], segments, is_closed: true }
         };
         let layer = if line.frame == 0 { Layer::Ground } else { Layer::Slots };
         drawing.add_fixed(layer, declaration, line.frame, vec![shape(Look::Rack, Path::Lines(vec![outline]))]);
@@ -309,13 +306,12 @@ impl Trains {
 /// A wheel or ring; without teeth a disc with a mark, so that it is seen to turn.
 fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&Teeth>) {
     let (unit, at, radius) = (drawing.unit, disc.center.at, disc.radius);
-    let symbols = Symbols { unit };
     let shapes: Vec<Shape> = match teeth {
         Some(teeth) => {
             let wheel = Wheel { at, radius, teeth: teeth.count, phase: teeth.phase };
             if toothed.is_ring {
                 let rim = radius + DEDENDUM * wheel.module() + (1.2 * wheel.module()).max(0.6 * unit).min(0.2 * radius);
-                vec![symbols.ring(wheel.inner_outline(), at, rim, Look::Gear)]
+                vec![Symbols::ring(wheel.inner_outline(), at, rim, Look::Gear)]
             } else {
                 vec![shape(Look::Gear, Path::Lines(vec![wheel.outline()]))]
             }
@@ -324,7 +320,7 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
             let half = |to: f64| Segment::Arc { to: plus(at, [to, 0.0]), radius, is_left: true };
             let start = plus(at, [radius, 0.0]);
             let inner = Contour { start, segments: vec![half(-radius), half(radius)], is_closed: true };
-            vec![symbols.ring(inner, at, radius + (0.8 * unit).min(0.2 * radius), Look::Gear)]
+            vec![Symbols::ring(inner, at, radius + (0.8 * unit).min(0.2 * radius), Look::Gear)]
         }
         None => {
             let mark = [plus(at, polar(0.55 * radius, 0.0)), plus(at, polar(0.95 * radius, 0.0))];

@@ -86,6 +86,7 @@ fn on_bar(drawing: &mut Drawing, declaration: usize, (guide, slider): (&Line, &L
 }
 
 /// What takes up the place where a block would be.
+#[derive(Clone, Copy)]
 struct Busy {
     /// From where the bar is to come out, in the frame of what slides.
     away_from: Option<Anchor>,

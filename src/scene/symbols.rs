@@ -165,7 +165,7 @@ impl Symbols {
     }
 
     /// A ring of two contours, one in the other.
-    pub fn ring(self, inner: Contour, at: Vector, radius: f64, look: Look) -> Shape {
+    pub fn ring(inner: Contour, at: Vector, radius: f64, look: Look) -> Shape {
         let half = |to: f64| Segment::Arc { to: plus(at, [to, 0.0]), radius, is_left: true };
         let outer =
             Contour { start: plus(at, [radius, 0.0]), segments: vec![half(-radius), half(radius)], is_closed: true };

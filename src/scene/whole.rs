@@ -88,7 +88,9 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     }
     for equation in &model.equations {
         if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
-            [p, q].into_iter().for_each(|point| is_pin[point.index()] = true);
+            for point in [p, q] {
+                is_pin[point.index()] = true;
+            }
         }
     }
     let (mut points, mut numbers) = (Vec::new(), Vec::new());

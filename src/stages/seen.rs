@@ -33,7 +33,7 @@ pub struct Seen {
 
 /// The rows of a run, and how it ended.
 struct Rows {
-    rows: Vec<Vec<f64>>,
+    kept: Vec<Vec<f64>>,
     all: usize,
     edges: Vec<f64>,
     stopped: Option<Diagnostic>,
@@ -58,10 +58,10 @@ impl Checked {
         let (columns, units) = (run.columns().to_vec(), run.units().to_vec());
         let found = rows(run, most);
         said.extend(found.said);
-        let motion = if found.rows.is_empty() {
+        let motion = if found.kept.is_empty() {
             Motion::still(drawn_poses(model))
         } else {
-            Motion::of_rows(model.bodies.len(), &columns, found.rows, found.edges)
+            Motion::of_rows(model.bodies.len(), &columns, found.kept, found.edges)
         };
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
@@ -95,7 +95,7 @@ impl Checked {
         let columns = run.columns().to_vec();
         let found = rows(run, usize::MAX);
         said.extend(found.said);
-        (Some((Motion::of_rows(model.bodies.len(), &columns, found.rows, found.edges), found.stopped)), said)
+        (Some((Motion::of_rows(model.bodies.len(), &columns, found.kept, found.edges), found.stopped)), said)
     }
 
     /// Declarations have the places of their names; here they get those of all that is written of them.
@@ -154,7 +154,7 @@ fn rows(mut run: Run, most: usize) -> Rows {
     said.extend(answers.notes);
     let (first, end) = (rows.first().map_or(0.0, |row| row[0]), rows.last().map_or(0.0, |row| row[0]));
     let edges = run.edges().into_iter().filter(|edge| first < *edge && *edge < end).collect();
-    Rows { rows, all, edges, stopped, results: answers.values, said }
+    Rows { kept: rows, all, edges, stopped, results: answers.values, said }
 }
 
 /// The places of declarations, by those of their names.

@@ -41,7 +41,7 @@ impl Needs {
     fn of<'k>(keys: impl Iterator<Item = &'k Key>) -> Needs {
         keys.fold(Needs { turns: false, stretches: false }, |needs, key| Needs {
             turns: needs.turns || key.rounded().turn != 0.0,
-            stretches: needs.stretches || key.stretch != [1.0; 2],
+            stretches: needs.stretches || key.stretch.iter().any(|part| (part - 1.0).abs() > 0.0),
         })
     }
 }

@@ -37,17 +37,13 @@ impl Picture<'_> {
 
     fn add_at(&mut self, node: &Node, poses: &[Pose], with_ids: bool) {
         let (pose, stretch) = node.place.pose(poses);
-        let transform = match node.place {
-            Place::Fixed(0) => String::new(),
-            _ => {
-                let scale = if matches!(node.place, Place::Between { held: Held::Stretched, .. }) {
-                    format!(" scale({} 1)", number(stretch * self.scale, PIXELS))
-                } else {
-                    String::new()
-                };
-                format!(" transform=\"{}{scale}\"", self.transform(&pose))
-            }
-        };
+        let mut transform = String::new();
+        if node.place != Place::Fixed(0) {
+            let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
+            let stretched = || format!(" scale({} 1)", number(stretch * self.scale, PIXELS));
+            let scale = if is_stretched { stretched() } else { String::new() };
+            transform = format!(" transform=\"{}{scale}\"", self.transform(&pose));
+        }
         self.add_group(node, [0.0; 2], &transform, with_ids);
     }
 
@@ -134,7 +130,7 @@ impl Picture<'_> {
                 let center = if x == "0" && y == "0" { String::new() } else { format!(" cx=\"{x}\" cy=\"{y}\"") };
                 format!("<circle class=\"{class}\"{point}{center} r=\"{}\"/>", number(scale * radius, PIXELS))
             }
-            path => {
+            path @ Path::Lines(_) => {
                 let d = written(path, &placed, scale, PIXELS);
                 format!("<path class=\"{class}\"{point} d=\"{d}\"/>")
             }
