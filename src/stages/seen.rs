@@ -15,7 +15,7 @@ use rustc_hash::FxHashMap;
 pub struct Seen {
     /// What there is to draw, at any moment.
     pub scene: Scene,
-    /// Where everything is, row by row, and the table itself ([`Motion::rows`]), in SI; as it is drawn in the text where there is no row.
+    /// Where everything is, row by row, and the table itself (its rows), in SI; as it is drawn in the text where there is no row.
     pub motion: Motion,
     /// The names of the table's columns.
     pub columns: Vec<String>,
