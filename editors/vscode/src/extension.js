@@ -3,6 +3,9 @@
 const vscode = require('vscode');
 const { LanguageClient } = require('vscode-languageclient/node');
 const { argumentsOf, serverOf } = require('./commands');
+const { quietAtStart } = require('./quiet');
+
+const QuietClient = quietAtStart(LanguageClient);
 
 /** @type {LanguageClient | undefined} */
 let client;
@@ -18,7 +21,7 @@ async function start() {
     return;
   }
   const log = vscode.workspace.getConfiguration('mechc').get('log', '');
-  client = new LanguageClient('mechc', 'mechc', serverOf(path(), log), {
+  client = new QuietClient('mechc', 'mechc', serverOf(path(), log), {
     documentSelector: [{ language: 'mech', scheme: 'file' }, { language: 'mech', scheme: 'untitled' }],
     // what the lenses above a mechanism may ask for
     initializationOptions: { commands: ['mechc.run', 'mechc.check'] },
@@ -28,11 +31,17 @@ async function start() {
     await client.start();
   } catch (fault) {
     client = undefined;
-    const settings = 'Say Where It Is';
-    const chosen = await vscode.window.showErrorMessage(`\`${path()} lsp\` does not start: ${fault}`, settings);
-    if (chosen === settings) {
-      await vscode.commands.executeCommand('workbench.action.openSettings', 'mechc.path');
-    }
+    // not waited for: the rest of the extension works while the message stands
+    void complain(fault);
+  }
+}
+
+/** @param {unknown} fault */
+async function complain(fault) {
+  const settings = 'Say Where It Is';
+  const chosen = await vscode.window.showErrorMessage(`\`${path()} lsp\` does not start: ${fault}`, settings);
+  if (chosen === settings) {
+    await vscode.commands.executeCommand('workbench.action.openSettings', 'mechc.path');
   }
 }
 

@@ -7,6 +7,7 @@ const os = require('node:os');
 const path = require('node:path');
 const test = require('node:test');
 const { argumentsOf, serverOf } = require('../src/commands');
+const { quietAtStart } = require('../src/quiet');
 
 const root = path.join(__dirname, '..');
 const manifest = JSON.parse(fs.readFileSync(path.join(root, 'package.json'), 'utf8'));
@@ -16,6 +17,26 @@ test('commands name the file last, so that no name of a file is an option', () =
   assert.deepStrictEqual(argumentsOf('check', '/a b.mech', 'arm'), ['check', '--mechanism', 'arm', '--', '/a b.mech']);
   assert.deepStrictEqual(serverOf('mechc', ''), { command: 'mechc', args: ['lsp'] });
   assert.deepStrictEqual(serverOf('/opt/mechc', 'log'), { command: '/opt/mechc', args: ['lsp', '--log', 'log'] });
+});
+
+test('a server that does not start is complained of once, and one that breaks later is still heard of', async () => {
+  /** @type {[string, unknown][]} */
+  const said = [];
+  class Client {
+    /** @param {string} message @param {any} [_data] @param {boolean | 'force'} [shown] */
+    error(message, _data, shown) {
+      said.push([message, shown]);
+    }
+
+    async start() {
+      this.error('not found', undefined, 'force');
+      throw new Error('not found');
+    }
+  }
+  const client = new (quietAtStart(Client))();
+  await assert.rejects(client.start(), /not found/);
+  client.error('broken', undefined, 'force');
+  assert.deepStrictEqual(said, [['not found', false], ['broken', 'force']]);
 });
 
 test('no folder can choose what is started', () => {
