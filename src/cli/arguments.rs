@@ -76,11 +76,18 @@ pub(super) enum Command {
         Without --at, OUT.svg moves, over and over, without a script: as a picture of a README or a slide. One run takes 6 s; a motion \
         that does not end as it begins goes to and fro. With --at, it shows the mechanism at that time; with several, all of them, the \
         last one strong and the others pale.\n\n\
+        A file called plots.svg, or NAME.plots.svg, holds plots of all measures over time, in the units of the file; --plots does so under \
+        any name. A number in the name, as in frames/%04d.svg, asks for a picture of each row, counted from 0, for a film; their folder is \
+        made. OUT.dxf holds traces, the lines of cams, the outlines of gears as polylines within 1 µm, and the places of pins, in \
+        millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
+        that holds all of it and needs nothing else.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
         cannot go on, the picture shows it up to there, and the exit code is 3.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
+        mechc view linkage.mech -o plots.svg\n  mechc view linkage.mech -o frames/%04d.svg --every 40ms\n  \
+        mechc view linkage.mech -o crank.svg --body crank --scale 1:2\n  mechc view camshaft.mech -o cam.dxf --body cam\n  \
         mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms"
     )]
     View(ViewArguments),
@@ -405,9 +412,13 @@ pub(super) struct ViewArguments {
     #[command(flatten)]
     pub input: Input,
 
-    /// Where the picture goes; its ending says what is drawn (.svg)
+    /// Where the picture goes; its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<String>,
+
+    /// Plots of all measures over time, whatever OUT.svg is called
+    #[arg(long, conflicts_with_all = ["at", "trace", "vectors", "labels", "scale", "body"])]
+    pub plots: bool,
 
     /// The mechanism at this time, in seconds or with a unit. Repeatable
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -431,6 +442,14 @@ pub(super) struct ViewArguments {
     /// Width and height in pixels: `--size 1280x720`; 800 wide at most, and as high as it takes, if not given
     #[arg(long, value_name = "WxH", value_parser = size)]
     pub size: Option<[f64; 2]>,
+
+    /// True to scale, in millimetres of paper: `--scale 1:2` is half as large as the mechanism
+    #[arg(long, value_name = "A:B", value_parser = scale, conflicts_with = "size")]
+    pub scale: Option<f64>,
+
+    /// One body alone, in its own frame, with all that is fixed to it
+    #[arg(long, value_name = "NAME", conflicts_with_all = ["at", "trace", "vectors"])]
+    pub body: Option<String>,
 
     /// Which colours
     #[arg(long, value_enum, default_value_t, value_name = "THEME")]
@@ -458,6 +477,17 @@ pub(super) enum ThemeChoice {
 
 /// Pictures are no smaller and no larger than this (px).
 const SIDES: [f64; 2] = [16.0, 16_384.0];
+
+/// Scales are no smaller and no larger than this.
+const SCALES: [f64; 2] = [1e-6, 1e6];
+
+fn scale(text: &str) -> Result<f64, String> {
+    let parts = text.split_once(':').map(|(on_paper, real)| [on_paper, real].map(|part| part.trim().parse::<f64>()));
+    match parts {
+        Some([Ok(on_paper), Ok(real)]) if (SCALES[0]..=SCALES[1]).contains(&(on_paper / real)) => Ok(on_paper / real),
+        _ => Err("what a length is on paper and what it is are wanted, as in `1:2` or `10:1`".to_owned()),
+    }
+}
 
 fn size(text: &str) -> Result<[f64; 2], String> {
     let sides =

@@ -266,7 +266,7 @@ pub(super) fn write_all<'f>(
 const HEAD: usize = 6;
 
 /// Makes a folder, unless it is there.
-fn make_folder(path: &Path) -> io::Result<()> {
+pub(super) fn make_folder(path: &Path) -> io::Result<()> {
     match path.metadata() {
         Ok(found) if found.is_dir() => return Ok(()),
         Ok(_) => return Err(io::Error::other("it is a file")),

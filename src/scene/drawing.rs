@@ -27,6 +27,9 @@ pub(super) const DOT: f64 = 0.17;
 pub(super) const LOOKED_AT: usize = 400;
 /// Places on a profile.
 const PLACES_ON_PROFILE: u32 = 360;
+/// What the cubic between two samples may be off the profile (m), and how often a way is halved to keep to that.
+const CUBIC_OFF: f64 = 0.1e-6;
+const DEEPEST: u32 = 8;
 /// A profile is closed if its ends are no farther apart than this part of its size.
 const CLOSED: f64 = 1e-6;
 
@@ -52,6 +55,8 @@ pub(super) struct Drawing<'m> {
     /// Where pins stand on the ground (m).
     pub feet: Vec<Vector>,
     pub profiles: Vec<Profile>,
+    /// Of what has teeth.
+    pub fine: Vec<super::Outline>,
     /// The number of each model point among the points of the scene.
     pub numbers: Vec<Option<usize>>,
     /// The declarations of the first joint, equation, circle and curve.
@@ -130,6 +135,7 @@ impl Drawing<'_> {
             }
             _ => turn,
         };
+        let samples = refined(samples, |u| self.features.sample(profile, u));
         self.profiles.push(Profile { declaration, frame, is_closed, samples });
         self.profiles.len() - 1
     }
@@ -188,6 +194,25 @@ impl Drawing<'_> {
         let numbered = model.traces.iter().enumerate();
         numbered.map(|(k, trace)| Trace { declaration: self.first.traces + k, pen: pen(trace) }).collect()
     }
+}
+
+/// With samples between those whose cubic is off the profile.
+fn refined(samples: Vec<Sample>, of: impl Fn(f64) -> Sample) -> Vec<Sample> {
+    let mut found: Vec<Sample> = Vec::with_capacity(samples.len());
+    // what is still to come, the next one last, with how often its way was halved
+    let mut coming: Vec<(Sample, u32)> = samples.into_iter().rev().map(|sample| (sample, 0)).collect();
+    while let Some((next, depth)) = coming.pop() {
+        if let Some(last) = found.last().filter(|_| depth < DEEPEST) {
+            let is_off =
+                |part: f64| distance(last.between(&next, part), of(last.u + part * (next.u - last.u)).at) > CUBIC_OFF;
+            if is_off(0.5) || is_off(0.25) {
+                coming.extend([(next, depth + 1), (of(0.5 * (last.u + next.u)), depth + 1)]);
+                continue;
+            }
+        }
+        found.push(next);
+    }
+    found
 }
 
 /// A shape that shows no point.

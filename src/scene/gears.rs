@@ -9,7 +9,7 @@ use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, offset, to_whole};
-use super::{Look, Shape};
+use super::{Look, Outline, Shape};
 use crate::math;
 use crate::model::{AxisId, CircleId, JointKind};
 use std::f64::consts::{PI, TAU};
@@ -269,7 +269,9 @@ impl Trains {
             Contour { start: corners[0], segments, is_closed: true }
         };
         let layer = if line.frame == 0 { Layer::Ground } else { Layer::Slots };
-        drawing.add_fixed(layer, declaration, line.frame, vec![shape(Look::Rack, Path::Lines(vec![outline]))]);
+        let path = Path::Lines(vec![outline]);
+        drawing.fine.push(Outline { declaration, frame: line.frame, path: path.clone() });
+        drawing.add_fixed(layer, declaration, line.frame, vec![shape(Look::Rack, path)]);
         drawing.outlines[line.frame].is_shown = true;
     }
 
@@ -306,13 +308,17 @@ impl Trains {
 /// A wheel or ring; without teeth a disc with a mark, so that it is seen to turn.
 fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&Teeth>) {
     let (unit, at, radius) = (drawing.unit, disc.center.at, disc.radius);
+    let mut fine = Vec::new();
     let shapes: Vec<Shape> = match teeth {
         Some(teeth) => {
             let wheel = Wheel { at, radius, teeth: teeth.count, phase: teeth.phase };
             if toothed.is_ring {
                 let rim = radius + DEDENDUM * wheel.module() + (1.2 * wheel.module()).max(0.6 * unit).min(0.2 * radius);
+                fine.push(Path::Lines(vec![wheel.fine_inner_outline()]));
+                fine.push(Path::Circle { at, radius: rim });
                 vec![Symbols::ring(wheel.inner_outline(), at, rim, Look::Gear)]
             } else {
+                fine.push(Path::Lines(vec![wheel.fine_outline()]));
                 vec![shape(Look::Gear, Path::Lines(vec![wheel.outline()]))]
             }
         }
@@ -327,6 +333,11 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
             vec![shape(Look::Gear, Path::Circle { at, radius }), shape(Look::Pitch, Path::line(mark))]
         }
     };
+    if teeth.is_none() {
+        fine.push(Path::Circle { at, radius });
+    }
+    let own = |path| Outline { declaration: toothed.frame, frame: toothed.frame, path };
+    drawing.fine.extend(fine.into_iter().map(own));
     let layer = match toothed.frame {
         0 => Layer::Ground,
         _ if radius < SMALL * unit => Layer::Slots,

@@ -57,6 +57,8 @@ pub struct Scene {
     pub traces: Vec<Trace>,
     /// Lines that contacts run along.
     pub profiles: Vec<Profile>,
+    /// Of what has teeth, finer than they are drawn.
+    pub outlines: Vec<Outline>,
     /// The size of symbols (m): a pin is a little smaller, a block a little larger.
     pub unit: f64,
     /// The least and the greatest coordinates of all that is drawn along the motion (m).
@@ -68,6 +70,29 @@ impl Scene {
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
         whole::scene(model, motion)
+    }
+
+    /// One body by itself in its own frame, with all that is fixed to it, and the moment at which it is drawn.
+    #[must_use]
+    pub fn alone(&self, frame: usize) -> (Scene, Motion) {
+        let mut numbers = vec![None; self.points.len()];
+        let mut points = Vec::new();
+        for (number, point) in self.points.iter().enumerate().filter(|(_, point)| point.frame == frame) {
+            numbers[number] = Some(points.len());
+            points.push(point.clone());
+        }
+        let mut nodes: Vec<Node> =
+            self.nodes.iter().filter(|node| node.place == Place::Fixed(frame)).cloned().collect();
+        for shape in nodes.iter_mut().flat_map(|node| &mut node.shapes) {
+            shape.point = shape.point.and_then(|number| numbers[number]);
+        }
+        let places = nodes.iter().flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
+        let margin = [0.5 * self.unit; 2];
+        let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
+        let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
+        let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
+        let scene = Scene { points, nodes, extent, profiles, outlines, traces: Vec::new(), ..self.clone() };
+        (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
     /// The point of a path such as `crank.pin`.
@@ -352,6 +377,17 @@ impl Trace {
     }
 }
 
+/// The outline of a wheel, ring or rack, within a quarter of a micrometre where that is less than a millionth of its size.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Outline {
+    /// Whose it is.
+    pub declaration: usize,
+    /// The number of its frame.
+    pub frame: usize,
+    /// In the frame (m).
+    pub path: Path,
+}
+
 /// A line that contacts run along.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Profile {
@@ -374,4 +410,16 @@ pub struct Sample {
     pub at: Vector,
     /// How that changes with the argument (m).
     pub tangent: Vector,
+}
+
+impl Sample {
+    /// A place between this one and another, on the cubic through both with their tangents.
+    #[must_use]
+    pub fn between(&self, other: &Sample, part: f64) -> Vector {
+        let (h, rest) = (other.u - self.u, 1.0 - part);
+        let ends =
+            plus(times(rest * rest * (1.0 + 2.0 * part), self.at), times(part * part * (1.0 + 2.0 * rest), other.at));
+        let ways = plus(times(rest, self.tangent), times(-part, other.tangent));
+        plus(ends, times(h * part * rest, ways))
+    }
 }

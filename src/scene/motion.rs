@@ -60,6 +60,21 @@ impl Motion {
         Motion { times: vec![0.0], frames: poses.len(), poses, rates, accelerations, ..Motion::default() }
     }
 
+    /// One row of it.
+    #[must_use]
+    pub fn moment(&self, row: usize) -> Motion {
+        Motion {
+            times: vec![self.times[row]],
+            frames: self.frames,
+            poses: self.poses(row).to_vec(),
+            rates: self.rates(row).to_vec(),
+            accelerations: self.accelerations(row).to_vec(),
+            rows: self.rows.get(row).cloned().into_iter().collect(),
+            edges: Vec::new(),
+            columns: self.columns.clone(),
+        }
+    }
+
     /// How many rows there are.
     #[must_use]
     pub fn len(&self) -> usize {

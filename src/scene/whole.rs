@@ -22,21 +22,21 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
     }
     add_idle_points(&features, &mut outlines);
     let unit = sizes::unit(&features, motion, &outlines);
-    let (feet, profiles, nodes) = (Vec::new(), Vec::new(), Vec::new());
-    let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, numbers, first, nodes };
+    let (feet, profiles, fine, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, fine, numbers, first, nodes };
     gears::draw(&mut drawing);
     joints::draw(&mut drawing);
     drivers::draw(&mut drawing);
     bodies::draw(&mut drawing);
     let traces = drawing.traces();
     drawing.mark_pens(&traces);
-    let Drawing { mut nodes, profiles, .. } = drawing;
+    let Drawing { mut nodes, profiles, fine: outlines, .. } = drawing;
     nodes.sort_by_key(|(layer, _): &(Layer, Node)| *layer);
     let nodes: Vec<Node> = nodes.into_iter().map(|(_, node)| node).collect();
     let extent = extent(&nodes, motion, unit);
     let frames = (0..motion.frames().max(1)).collect();
     let (name, docs) = (model.declared.name.clone(), model.docs.clone());
-    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, unit, extent }
+    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent }
 }
 
 /// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.

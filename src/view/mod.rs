@@ -1,5 +1,6 @@
 //! Writers: a scene and its motion as files for those who look. Each form has a file of its own; none reads or writes a file.
 
+pub mod dxf;
 pub mod page;
 mod path;
 pub mod svg;

@@ -1,4 +1,4 @@
-//! SVG without a script: one moment, several as a strobe, or the whole motion by keyframes.
+//! SVG without a script: one moment, several as a strobe, or the whole motion by keyframes; and columns over time.
 //!
 //! Bodies and joints are groups, which carry `data-body` and `data-joint`; what shows a point carries `data-point`. One style sheet says how
 //! everything looks, in light and in dark. Coordinates are pixels.
@@ -8,11 +8,14 @@ mod keyframes;
 mod labels;
 mod nodes;
 mod picture;
+mod plots;
 mod style;
 mod vectors;
 
 use crate::scene::{Anchor, Motion, Scene, Vector};
 use picture::Picture;
+
+pub use plots::{Plot, plots};
 
 /// Which colours are used.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -31,6 +34,8 @@ pub enum Theme {
 pub struct Options {
     /// Width and height in pixels; by the mechanism's extent if not given.
     pub size: Option<[f64; 2]>,
+    /// True to scale, if given: what a length of 1 is on paper. Then all is in millimetres of paper, and the size follows.
+    pub scale: Option<f64>,
     /// Which colours.
     pub theme: Theme,
     /// Points whose paths are drawn beside those that the text asks for, with their names.

@@ -15,6 +15,10 @@ const HEIGHTS: [f64; 2] = [220.0, 760.0];
 /// Symbols are no larger than this (px), unless the size of the picture is said.
 const LARGEST_UNIT: f64 = 30.0;
 
+/// Pixels in a metre of paper, and millimetres of paper in a pixel.
+const PER_METER: f64 = 96.0 / 0.0254;
+const MILLIMETERS: f64 = 25.4 / 96.0;
+
 pub(super) struct Picture<'s> {
     pub scene: &'s Scene,
     pub options: &'s Options,
@@ -38,7 +42,13 @@ impl<'s> Picture<'s> {
         let margin = if options.labels || options.vectors { LABELLED_MARGIN } else { MARGIN };
         let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
         let largest = LARGEST_UNIT / scene.unit;
-        let size = options.size.unwrap_or_else(|| {
+        let size = options.size.filter(|_| options.scale.is_none()).unwrap_or_else(|| {
+            if let Some(scale) = options.scale {
+                // whole millimetres of paper
+                return extent.map(|side| {
+                    -crate::math::floor(-(side * scale * PER_METER + 2.0 * margin) * MILLIMETERS) / MILLIMETERS
+                });
+            }
             let scale = (inner(WIDTHS[1]) / extent[0]).min(inner(HEIGHTS[1]) / extent[1]).min(largest);
             let needed = |side: usize, [least, most]: [f64; 2]| {
                 crate::math::floor((extent[side] * scale + 2.0 * margin).clamp(least, most) + 0.5)
@@ -46,7 +56,11 @@ impl<'s> Picture<'s> {
             [needed(0, WIDTHS), needed(1, HEIGHTS)]
         });
         let fitting = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
-        let scale = if options.size.is_some() { fitting } else { fitting.min(largest) };
+        let scale = match options.scale {
+            Some(scale) => scale * PER_METER,
+            None if options.size.is_some() => fitting,
+            None => fitting.min(largest),
+        };
         let middle = [0, 1].map(|part| 0.5 * (low[part] + high[part]));
         let (used, rules, body) = (Used::default(), String::new(), String::new());
         Picture {
@@ -104,13 +118,15 @@ impl<'s> Picture<'s> {
 
     /// The whole file.
     pub fn finish(mut self) -> String {
-        let [width, height] = self.size.map(|side| number(side, 2));
-        // pixels in a metre, and where the ground's origin is: x to the right, y up
-        let origin = self.placed([0.0; 2]);
+        // pixels, or millimetres of paper in each
+        let (each, word) = if self.options.scale.is_some() { (MILLIMETERS, "mm") } else { (1.0, "") };
+        let [width, height] = self.size.map(|side| number(each * side, 2));
+        // how many of them are in a metre, and where the ground's origin is: x to the right, y up
+        let origin = self.placed([0.0; 2]).map(|part| each * part);
         let mut file = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{word}\" height=\"{height}{word}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title\" data-scale=\"{}\" data-origin=\"{} {}\">\n<title id=\"title\">{}</title>\n",
-            self.scale,
+            if self.options.scale.is_some() { each * self.scale } else { self.scale },
             number(origin[0], 3),
             number(origin[1], 3),
             escaped(&self.scene.name)
@@ -126,6 +142,9 @@ impl<'s> Picture<'s> {
         let _ = writeln!(file, "<style>\n{}{}</style>", style::sheet(&self.used, theme, self.unit()), self.rules);
         let _ = writeln!(file, "<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>");
         let captions: String = self.options.captions.iter().map(|caption| self.caption(caption)).collect();
+        if self.options.scale.is_some() {
+            return format!("{file}<g transform=\"scale({MILLIMETERS})\">\n{}{captions}</g>\n</svg>\n", self.body);
+        }
         file + &self.body + &captions + "</svg>\n"
     }
 }

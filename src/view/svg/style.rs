@@ -67,13 +67,37 @@ const DARK: Palette = Palette {
 /// The rules for all that is used; `unit` is the size of symbols in pixels.
 pub(super) fn sheet(used: &Used, theme: Theme, unit: f64) -> String {
     let strong = (0.1 * unit).clamp(0.5, 2.0);
-    let mut sheet = shapes(used, strong);
+    themed(shapes(used, strong), theme, |palette| colors(used, palette))
+}
+
+/// The rules for plots, with so many colours of curves and letters so large (px).
+pub(super) fn plot_sheet(curves: usize, theme: Theme, letters: f64) -> String {
+    let colors = |palette: &Palette| {
+        let &Palette { paper, ink, quiet, .. } = palette;
+        let mut rules =
+            format!(".paper{{fill:{paper}}}\ntext{{fill:{ink}}}\n.grid{{stroke:{quiet}}}\n.axes{{stroke:{ink}}}\n");
+        for curve in 0..curves {
+            rules += &format!(".t{curve}{{stroke:{}}}\n", palette.traces[curve]);
+        }
+        rules
+    };
+    let shared = format!(
+        "text{{font:{}px system-ui,sans-serif}}\n.name{{font-weight:600}}\n.beside{{text-anchor:end}}\n.below{{text-anchor:middle}}\n\
+         path{{fill:none;stroke-linecap:round;stroke-linejoin:round}}\n.grid{{stroke-width:.5;stroke-opacity:.5}}\n\
+         .axes{{stroke-width:1}}\n.curve{{stroke-width:1.8}}\n",
+        number(letters, 1)
+    );
+    themed(shared, theme, colors)
+}
+
+/// A sheet with the colours of a theme.
+fn themed(mut sheet: String, theme: Theme, colors: impl Fn(&Palette) -> String) -> String {
     match theme {
-        Theme::Light => sheet += &colors(used, &LIGHT),
-        Theme::Dark => sheet += &colors(used, &DARK),
+        Theme::Light => sheet += &colors(&LIGHT),
+        Theme::Dark => sheet += &colors(&DARK),
         Theme::Auto => {
-            sheet += &colors(used, &LIGHT);
-            sheet += &format!("@media (prefers-color-scheme:dark){{\n{}}}\n", colors(used, &DARK));
+            sheet += &colors(&LIGHT);
+            sheet += &format!("@media (prefers-color-scheme:dark){{\n{}}}\n", colors(&DARK));
         }
     }
     sheet

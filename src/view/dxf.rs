@@ -1,0 +1,337 @@
+//! DXF for cutting: traces, lines that contacts run along, outlines of what has teeth, and where pins are, in millimetres.
+//!
+//! The form is that of R12, the oldest that is still read by everything, of which polylines and points are all that is needed. Written
+//! here, for the same input has to give the same bytes: libraries write the time and identities of their own making.
+
+use super::text::number;
+use crate::scene::{
+    Anchor, Motion, Path, Pen, Pose, Scene, Segment, Vector, bounds, direction, distance, is_finite, minus, plus,
+    polar, times,
+};
+use std::f64::consts::TAU;
+use std::fmt::Write;
+
+/// What a polyline may be off from the line that it stands for (m).
+const OFF: f64 = 0.25e-6;
+/// How often a piece is halved at most, to keep to that.
+const DEEPEST: u32 = 14;
+/// Decimals of millimetres.
+const DECIMALS: usize = 6;
+/// Names of layers are no longer.
+const LONGEST: usize = 31;
+
+/// What is drawn on one layer, that of a declaration.
+#[derive(Clone, PartialEq, Debug)]
+struct Entity {
+    layer: String,
+    /// In millimetres.
+    places: Vec<Vector>,
+    kind: Kind,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    Point,
+    Open,
+    Closed,
+}
+
+/// What there is to cut, with all frames at a moment, and traces along the motion, those of some points beside those that the text
+/// asks for; `scale` is what a length of 1 becomes. Nothing where there is nothing to draw.
+#[must_use]
+pub fn written(
+    scene: &Scene,
+    motion: &Motion,
+    poses: &[Pose],
+    traces: &[(String, Anchor)],
+    scale: f64,
+) -> Option<String> {
+    let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, layers: Vec::new(), entities: Vec::new() };
+    sheet.add_profiles();
+    sheet.add_outlines();
+    sheet.add_traces(motion);
+    for (name, anchor) in traces {
+        let declaration = scene.point_named(name).map_or(anchor.frame, |point| point.declaration);
+        if scene.traces.iter().all(|trace| trace.pen != Pen::Point(*anchor)) {
+            sheet.add_stretches(declaration, &path(anchor, motion));
+        }
+    }
+    sheet.add_pins();
+    (!sheet.entities.is_empty()).then(|| sheet.text())
+}
+
+struct Sheet<'s> {
+    scene: &'s Scene,
+    poses: &'s [Pose],
+    /// Millimetres in a metre.
+    scale: f64,
+    /// The declaration of each layer, and its name.
+    layers: Vec<(usize, String)>,
+    entities: Vec<Entity>,
+}
+
+impl Sheet<'_> {
+    /// Places of the ground (m), on the layer of a declaration.
+    fn add(&mut self, declaration: usize, places: &[Vector], kind: Kind) {
+        if places.is_empty() || !places.iter().all(|place| is_finite(*place)) {
+            return;
+        }
+        let layer = self.layer(declaration);
+        let places = places.iter().map(|place| times(self.scale, *place)).collect();
+        self.entities.push(Entity { layer, places, kind });
+    }
+
+    /// The layer of a declaration: its name, as far as names of layers can be so.
+    fn layer(&mut self, declaration: usize) -> String {
+        if let Some((_, known)) = self.layers.iter().find(|(known, _)| *known == declaration) {
+            return known.clone();
+        }
+        let name = self.scene.declarations.get(declaration).map_or("0", |declaration| &declaration.name);
+        let letter = |c: char| if c.is_ascii_alphanumeric() || matches!(c, '_' | '-' | '$') { c } else { '_' };
+        let plain: String = name.chars().map(letter).take(LONGEST).collect();
+        let is_free = |name: &str| !self.layers.iter().any(|(_, known)| known.eq_ignore_ascii_case(name));
+        let numbered = |k: usize| {
+            let number = format!("-{k}");
+            format!("{}{number}", plain.chars().take(LONGEST - number.len()).collect::<String>())
+        };
+        let found = if is_free(&plain) {
+            plain.clone()
+        } else {
+            (2..).map(numbered).find(|name| is_free(name)).unwrap_or_default()
+        };
+        self.layers.push((declaration, found.clone()));
+        found
+    }
+
+    fn add_profiles(&mut self) {
+        let scene = self.scene;
+        for profile in &scene.profiles {
+            let pose = self.poses[profile.frame];
+            let mut places: Vec<Vector> = profile.samples.first().map(|sample| sample.at).into_iter().collect();
+            for pair in profile.samples.windows(2) {
+                flatten(&mut |part| pair[0].between(&pair[1], part), &mut places);
+            }
+            if profile.is_closed {
+                places.pop();
+            }
+            let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
+            self.add(profile.declaration, &places, if profile.is_closed { Kind::Closed } else { Kind::Open });
+        }
+    }
+
+    fn add_outlines(&mut self) {
+        let scene = self.scene;
+        for outline in &scene.outlines {
+            let pose = self.poses[outline.frame];
+            for (places, is_closed) in polylines(&outline.path) {
+                let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
+                self.add(outline.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
+            }
+        }
+    }
+
+    fn add_traces(&mut self, motion: &Motion) {
+        let scene = self.scene;
+        for trace in &scene.traces {
+            let places = match &trace.pen {
+                Pen::Point(anchor) => path(anchor, motion),
+                Pen::Columns { .. } => trace.path(motion),
+            };
+            self.add_stretches(trace.declaration, &places);
+        }
+    }
+
+    /// A trace, with gaps where it has no place.
+    fn add_stretches(&mut self, declaration: usize, places: &[Vector]) {
+        for stretch in places.split(|place| !is_finite(*place)).filter(|stretch| stretch.len() > 1) {
+            self.add(declaration, stretch, Kind::Open);
+        }
+    }
+
+    fn add_pins(&mut self) {
+        let scene = self.scene;
+        for point in scene.points.iter().filter(|point| point.is_pin) {
+            let place = self.poses[point.frame].placed(point.at);
+            self.add(point.declaration, &[place], Kind::Point);
+        }
+    }
+
+    /// The whole file.
+    fn text(&self) -> String {
+        let all = self.entities.iter().flat_map(|entity| entity.places.iter().copied());
+        let [low, high] = bounds(all).unwrap_or_default();
+        let mut text = String::from("0\nSECTION\n2\nHEADER\n9\n$ACADVER\n1\nAC1009\n9\n$INSUNITS\n70\n4\n");
+        for (name, place) in [("$EXTMIN", low), ("$EXTMAX", high)] {
+            let _ = write!(text, "9\n{name}\n{}", placed(place));
+        }
+        text += "0\nENDSEC\n0\nSECTION\n2\nTABLES\n0\nTABLE\n2\nLTYPE\n70\n1\n0\nLTYPE\n2\nCONTINUOUS\n70\n0\n3\nSolid line\n72\n65\n73\n0\n40\n0.0\n\
+                 0\nENDTAB\n";
+        let _ = write!(text, "0\nTABLE\n2\nLAYER\n70\n{}\n", self.layers.len() + 1);
+        for layer in std::iter::once("0").chain(self.layers.iter().map(|(_, name)| name.as_str())) {
+            let _ = write!(text, "0\nLAYER\n2\n{layer}\n70\n0\n62\n7\n6\nCONTINUOUS\n");
+        }
+        text += "0\nENDTAB\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+        self.entities.iter().for_each(|entity| entity.add_to(&mut text));
+        text + "0\nENDSEC\n0\nEOF\n"
+    }
+}
+
+impl Entity {
+    fn add_to(&self, text: &mut String) {
+        let Entity { layer, places, kind } = self;
+        if *kind == Kind::Point {
+            for place in places {
+                let _ = write!(text, "0\nPOINT\n8\n{layer}\n{}", placed(*place));
+            }
+            return;
+        }
+        let flag = u8::from(*kind == Kind::Closed);
+        let _ = write!(text, "0\nPOLYLINE\n8\n{layer}\n66\n1\n70\n{flag}\n{}", placed([0.0; 2]));
+        for place in places {
+            let _ = write!(text, "0\nVERTEX\n8\n{layer}\n{}", placed(*place));
+        }
+        let _ = write!(text, "0\nSEQEND\n8\n{layer}\n");
+    }
+}
+
+/// A place as a file has it.
+fn placed([x, y]: Vector) -> String {
+    let written = |value: f64| {
+        let text = number(value, DECIMALS);
+        if text.contains('.') { text } else { text + ".0" }
+    };
+    format!("10\n{}\n20\n{}\n30\n0.0\n", written(x), written(y))
+}
+
+/// The path of a point along the motion.
+fn path(anchor: &Anchor, motion: &Motion) -> Vec<Vector> {
+    let (mut poses, mut places) = (Vec::new(), vec![anchor.placed(motion.poses(0))]);
+    for ends in motion.times.windows(2) {
+        let mut at = |part: f64| {
+            motion.write_poses(ends[0] + part * (ends[1] - ends[0]), &mut poses);
+            anchor.placed(&poses)
+        };
+        flatten(&mut at, &mut places);
+    }
+    places
+}
+
+/// The places that a line from part 0 to part 1 takes as a polyline, without the first.
+fn flatten(of: &mut dyn FnMut(f64) -> Vector, places: &mut Vec<Vector>) {
+    let (start, end) = (of(0.0), of(1.0));
+    halve(of, [(0.0, start), (1.0, end)], 0, places);
+}
+
+fn halve(of: &mut dyn FnMut(f64) -> Vector, ends: [(f64, Vector); 2], depth: u32, places: &mut Vec<Vector>) {
+    let [(from, start), (to, end)] = ends;
+    let at = [0.25, 0.5, 0.75].map(|part| (from + part * (to - from), of(from + part * (to - from))));
+    let is_straight = at.iter().all(|(_, place)| from_chord(*place, [start, end]) <= 0.8 * OFF);
+    if is_straight || depth >= DEEPEST || !is_finite(start) || !is_finite(end) {
+        places.push(end);
+        return;
+    }
+    halve(of, [ends[0], at[1]], depth + 1, places);
+    halve(of, [at[1], ends[1]], depth + 1, places);
+}
+
+/// How far a place is from a chord.
+fn from_chord(place: Vector, [start, end]: [Vector; 2]) -> f64 {
+    let way = minus(end, start);
+    let square = way[0] * way[0] + way[1] * way[1];
+    let along = minus(place, start);
+    let part = if square > 0.0 { ((along[0] * way[0] + along[1] * way[1]) / square).clamp(0.0, 1.0) } else { 0.0 };
+    distance(along, times(part, way))
+}
+
+/// A path as polylines, and which of them are closed.
+fn polylines(path: &Path) -> Vec<(Vec<Vector>, bool)> {
+    match path {
+        Path::Circle { at, radius } => {
+            let count = steps(*radius, TAU);
+            let place = |k: u32| plus(*at, polar(*radius, TAU * f64::from(k) / f64::from(count)));
+            vec![((0..count).map(place).collect(), true)]
+        }
+        Path::Lines(contours) => contours
+            .iter()
+            .map(|contour| {
+                let mut places = vec![contour.start];
+                let mut from = contour.start;
+                for segment in &contour.segments {
+                    if let Segment::Arc { to, radius, is_left } = *segment {
+                        add_arc(&mut places, [from, to], radius, is_left);
+                    } else {
+                        places.push(segment.end());
+                    }
+                    from = segment.end();
+                }
+                // a closed one says that it is
+                if contour.is_closed && places.len() > 1 && distance(contour.start, from) < OFF {
+                    places.pop();
+                }
+                (places, contour.is_closed)
+            })
+            .collect(),
+    }
+}
+
+/// The places of an arc behind its first, no more than half a circle.
+fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_left: bool) {
+    let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
+    let way = minus(to, from);
+    let middle = times(0.5, plus(from, to));
+    let aside = (radius * radius - half * half).max(0.0).sqrt();
+    let across = if half > 0.0 { times(sign * aside / (2.0 * half), [-way[1], way[0]]) } else { [0.0; 2] };
+    let center = plus(middle, across);
+    let (first, last) = (direction(minus(from, center)), direction(minus(to, center)));
+    let turn = (sign * (last - first)).rem_euclid(TAU);
+    let count = steps(radius, turn);
+    for k in 1..count {
+        places.push(plus(center, polar(radius, first + sign * turn * f64::from(k) / f64::from(count))));
+    }
+    places.push(to);
+}
+
+/// How many chords a turn takes.
+fn steps(radius: f64, turn: f64) -> u32 {
+    let each = (8.0 * OFF / radius.max(OFF)).sqrt().min(0.5);
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
+    let count = crate::math::floor((turn / each).clamp(1.0, 1e5)) as u32 + 1;
+    count.max(3)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{OFF, flatten, from_chord, polylines};
+    use crate::scene::{Path, distance, polar};
+
+    #[test]
+    fn circles_and_arcs_keep_to_their_lines() {
+        let circle = Path::Circle { at: [1.0, 2.0], radius: 0.05 };
+        let arc = Path::arc([1.0, 2.0], 0.05, 0.3, 3.9);
+        for (path, wanted) in [(circle, true), (arc, false)] {
+            let found = polylines(&path);
+            let [(places, is_closed)] = &found[..] else { panic!("{found:?}") };
+            assert_eq!(*is_closed, wanted);
+            for pair in places.windows(2) {
+                let middle = [0, 1].map(|part| 0.5 * (pair[0][part] + pair[1][part]));
+                assert!((distance(pair[0], [1.0, 2.0]) - 0.05).abs() < 1e-12);
+                assert!((distance(middle, [1.0, 2.0]) - 0.05).abs() < 1.01 * OFF, "{places:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn curves_take_as_many_pieces_as_they_need() {
+        let mut places = vec![[0.1, 0.0]];
+        flatten(&mut |part| polar(0.1, 1.5 * part), &mut places);
+        assert!((20..=1000).contains(&places.len()), "{}", places.len());
+        for k in 0..=1000 {
+            let place = polar(0.1, 1.5 * f64::from(k) / 1000.0);
+            let nearest = places.windows(2).map(|pair| from_chord(place, [pair[0], pair[1]])).fold(1.0, f64::min);
+            assert!(nearest <= OFF, "{nearest} off");
+        }
+        let mut straight = vec![[0.0, 0.0]];
+        flatten(&mut |part| [part, 2.0 * part], &mut straight);
+        assert_eq!(straight.len(), 2);
+    }
+}
