@@ -10,7 +10,8 @@ use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
 };
-use mechc::rooms::view::svg::{Options, Theme, animated, still};
+use mechc::rooms::view::dxf;
+use mechc::rooms::view::svg::{Options, Plot, Theme, animated, plots, still};
 use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
@@ -406,6 +407,224 @@ fn edges_are_known() {
     assert!(farthest_pin("m", &seen, &file) < 0.5);
 }
 
+/// All measures of what is seen, as the command line plots them.
+fn measures(seen: &Seen) -> Vec<Plot<'_>> {
+    let declared = seen.scene.declarations.iter().filter(|declaration| declaration.kind == "measure");
+    let plot = |name: &str| {
+        let at = seen.columns.iter().position(|column| column == name).expect("a column");
+        let values = seen.motion.column(name).expect("values").map(|value| seen.units[at].printed(value)).collect();
+        Plot { name: &seen.columns[at], unit: &seen.units[at].text, values }
+    };
+    declared.map(|measure| plot(&measure.name)).collect()
+}
+
+#[test]
+fn plots_show_the_columns() {
+    let mut seen_any = false;
+    for (name, seen) in examples() {
+        let measured = measures(&seen);
+        if measured.is_empty() {
+            continue;
+        }
+        seen_any = true;
+        let file = plots(&seen.scene, &seen.motion.times, &measured, &Options::default());
+        let groups: Vec<&str> = file.split("<g data-name=").skip(1).collect();
+        assert_eq!(groups.len(), measured.len(), "{name}");
+        for (plot, group) in measured.iter().zip(groups) {
+            let (_, d) = group.split_once("<path class=\"curve").expect("a curve");
+            let d = attribute(d, "d").expect("its line");
+            let places: Vec<f64> = d.split(['M', 'L', 'h']).flat_map(|pair| numbers(pair).get(1).copied()).collect();
+            assert!(!places.is_empty() && !d.contains("NaN"), "{name}: {}", plot.name);
+            // the last value is as far up between the least and the greatest as it is in the table
+            let finite: Vec<f64> = plot.values.iter().copied().filter(|value| value.is_finite()).collect();
+            let [low, high] = [f64::min, f64::max].map(|of| finite.iter().copied().reduce(of).expect("a value"));
+            if high - low > 1e-9 * high.abs().max(low.abs()) {
+                let [top, bottom] = [f64::min, f64::max].map(|of| places.iter().copied().reduce(of).expect("a place"));
+                let wanted = bottom - (finite[finite.len() - 1] - low) / (high - low) * (bottom - top);
+                let found = places[places.len() - 1];
+                assert!((found - wanted).abs() < 0.3, "{name}: {} ends at {found}, not {wanted}", plot.name);
+            }
+        }
+    }
+    assert!(seen_any);
+}
+
+#[test]
+fn plots_leave_gaps_where_there_is_nothing() {
+    let seen = example("slider_crank");
+    let values = vec![0.0, 1.0, f64::NAN, 1.0, f64::NAN, 3.0, 2.0];
+    let plot = Plot { name: "a<b", unit: "mm", values };
+    let times: Vec<f64> = (0..7).map(f64::from).collect();
+    let file = plots(&seen.scene, &times, &[plot], &Options::default());
+    let (_, d) = file.split_once("<path class=\"curve").expect("a curve");
+    let d = attribute(d, "d").expect("its line");
+    assert_eq!((d.matches('M').count(), d.matches('L').count(), d.matches('h').count()), (3, 2, 1), "{d}");
+    assert!(file.contains("a&lt;b [mm]") && !file.contains("a<b"), "{file}");
+}
+
+#[test]
+fn pictures_true_to_scale_are_in_millimetres_of_paper() {
+    let seen = example("hoeken");
+    let options = Options { scale: Some(0.5), ..Options::default() };
+    let file = still(&seen.scene, &seen.motion, &one_row(&seen, 0), &options);
+    let root = &file[..file.find('>').expect("a root")];
+    let [width, height] = ["width", "height"].map(|side| attribute(root, side).expect("a side"));
+    let (width, height) = (width.strip_suffix("mm").expect("mm"), height.strip_suffix("mm").expect("mm"));
+    assert_eq!(attribute(root, "viewBox"), Some(&*format!("0 0 {width} {height}")));
+    let [low, high] = seen.scene.extent;
+    assert!(width.parse::<f64>().expect("a number") >= 500.0 * (high[0] - low[0]));
+    // through the group around all, places are where the scale has them
+    let (_, group) = file.split_once("<g transform=\"scale(").expect("a group");
+    let each: f64 = group.split(')').next().expect("a scale").parse().expect("a number");
+    let read = Read::of(&file);
+    assert!((read.scale - 500.0).abs() < 1e-9, "{} mm in a metre", read.scale);
+    assert!(!read.points.is_empty());
+    for (path, local, group) in &read.points {
+        let point = seen.scene.point_named(path).expect("a point");
+        let wanted = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+        let found = times(each, read.placed(*local, group, 0.0));
+        assert!(distance(found, wanted) < 0.02, "{path}: {found:?}, not {wanted:?}");
+    }
+}
+
+#[test]
+fn a_body_alone_is_in_its_own_frame() {
+    let seen = example("slider_crank");
+    let (scene, rest) = seen.scene.alone(1);
+    let file = animated(&scene, &rest, &Options { labels: true, ..Options::default() });
+    assert!(file.contains(&format!("data-body=\"{}\"", scene.declarations[1].name)));
+    assert_eq!(file.matches(" data-body=").count(), 1, "{file}");
+    assert!(!file.contains("data-driver") && scene.points.iter().all(|point| point.frame == 1));
+    let read = Read::of(&file);
+    for (path, local, group) in &read.points {
+        let point = scene.point_named(path).expect("its own");
+        assert!(distance(read.placed(*local, group, 0.0), read.pixels(point.at)) < 0.02, "{path}");
+    }
+}
+
+/// The polylines of a DXF with their layers, in metres, and which are closed; and its points.
+fn read_dxf(text: &str) -> (Vec<(String, Vec<Vector>, bool)>, Vec<(String, Vector)>) {
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines.len() % 2 == 0 && text.ends_with("0\nEOF\n"), "codes and values stand in pairs");
+    let (mut polylines, mut points, mut of) = (Vec::new(), Vec::new(), "");
+    let mut place = [0.0; 2];
+    let mut layer = "";
+    for pair in lines.chunks(2) {
+        let number = || 1e-3 * pair[1].parse::<f64>().expect("a number");
+        match pair[0] {
+            "0" => of = pair[1],
+            "8" => layer = pair[1],
+            "70" if of == "POLYLINE" => polylines.push((layer.to_owned(), Vec::new(), pair[1] == "1")),
+            "10" => place[0] = number(),
+            "20" => place[1] = number(),
+            "30" if of == "VERTEX" => polylines.last_mut().expect("a polyline").1.push(place),
+            "30" if of == "POINT" => points.push((layer.to_owned(), place)),
+            _ => {}
+        }
+    }
+    (polylines, points)
+}
+
+/// The farthest that a closed polyline's corners and the middles of its sides are from a circle (m).
+fn off_circle(places: &[Vector], center: Vector, radius: f64) -> f64 {
+    let sides = places.iter().zip(places.iter().cycle().skip(1));
+    sides
+        .flat_map(|(a, b)| [*a, times(0.5, plus(*a, *b))])
+        .map(|at| (distance(at, center) - radius).abs())
+        .fold(0.0, f64::max)
+}
+
+#[test]
+fn what_is_cut_keeps_to_its_lines() {
+    let seen = example("eccentric_tappet");
+    let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(20), &[], 1.0).expect("something");
+    assert!(text.contains("9\n$INSUNITS\n70\n4\n"));
+    let (polylines, points) = read_dxf(&text);
+    let of = |layer: &str| polylines.iter().find(|(own, _, _)| own == layer).expect("a layer");
+    let center = seen.scene.point_named("disc.C").expect("the centre");
+    let center = seen.motion.poses(20)[center.frame].placed(center.at);
+    let (_, rim, is_closed) = of("disc_rim");
+    assert!(*is_closed && off_circle(rim, center, 0.025) < 1e-6, "{}", off_circle(rim, center, 0.025));
+    assert!(points.iter().any(|(layer, at)| layer == "disc_O" && distance(*at, [0.0; 2]) < 1e-9), "{points:?}");
+    // half as large, and alone
+    let (scene, rest) = seen.scene.alone(1);
+    let text = dxf::written(&scene, &rest, rest.poses(0), &[], 0.5).expect("something");
+    let (polylines, _) = read_dxf(&text);
+    assert_eq!(polylines.len(), 1, "the disc alone");
+    assert!(off_circle(&polylines[0].1, [0.0045, 0.0], 0.0125) < 1e-6);
+}
+
+#[test]
+fn traces_are_cut_between_rows_too() {
+    let seen = seen_text(
+        "mechanism m {
+            ground { point O = (0, 0) }
+            body b { point O = (0, 0) point P = (80 mm, 0) }
+            joint j: revolute(ground.O, b.O)
+            driver d: rotation(j) = 1 rad/s * t
+            trace path = b.P
+            analysis from 0 s to 6 s every 0.2 s
+        }",
+    );
+    let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("something");
+    let (polylines, points) = read_dxf(&text);
+    let (layer, places, is_closed) = &polylines[0];
+    assert!(layer == "path" && !is_closed && polylines.len() == 1 && !points.is_empty());
+    let open = &places[..places.len() - 1];
+    let off = open.iter().zip(&places[1..]).flat_map(|(a, b)| [*a, times(0.5, plus(*a, *b))]);
+    let farthest = off.map(|at| (distance(at, [0.0; 2]) - 0.08).abs()).fold(0.0, f64::max);
+    assert!(farthest < 1e-6 && places.len() < 20_000, "{farthest} with {} places", places.len());
+}
+
+#[test]
+fn gears_are_cut_with_their_teeth() {
+    let seen = example("planetary_gear");
+    let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 1.0).expect("something");
+    let (polylines, _) = read_dxf(&text);
+    let toothed = polylines.iter().filter(|(_, places, is_closed)| *is_closed && places.len() > 1000);
+    assert!(
+        toothed.count() >= 3,
+        "{:?}",
+        polylines.iter().map(|(layer, places, _)| (layer, places.len())).collect::<Vec<_>>()
+    );
+}
+
+/// Runs `mechc view` in a folder of its own, which holds `a.mech`.
+fn view(folder: &Path, arguments: &[&str]) -> (i32, String) {
+    fs::copy("examples/slider_crank.mech", folder.join("a.mech")).expect("a copy");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let output = command.arg("view").arg("a.mech").args(arguments).current_dir(folder).output().expect("it runs");
+    (output.status.code().expect("a code"), String::from_utf8_lossy(&output.stderr).into_owned())
+}
+
+#[test]
+fn a_film_has_a_picture_of_each_row() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let times = ["--from", "0", "--to", "0.04", "--every", "10ms"];
+    let with = |output| [&["-o", output][..], &times].concat();
+    let (code, said) = view(folder.path(), &with("film/%03d.svg"));
+    assert_eq!(code, 0, "{said}");
+    let mut names: Vec<String> = fs::read_dir(folder.path().join("film"))
+        .expect("the folder")
+        .map(|entry| entry.expect("a file").file_name().to_string_lossy().into_owned())
+        .collect();
+    names.sort();
+    assert_eq!(names, ["000.svg", "001.svg", "002.svg", "003.svg", "004.svg"]);
+    let read = |name: &str| fs::read_to_string(folder.path().join("film").join(name)).expect("a picture");
+    assert_ne!(read("000.svg"), read("004.svg"));
+    assert!(read("003.svg").contains("data-t=\"0.03\""));
+    // where a picture would be, there is a link to what was read
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("../a.mech", folder.path().join("film/x2.svg")).expect("a link");
+        let (code, said) = view(folder.path(), &with("film/x%d.svg"));
+        assert!(code == 2 && said.contains("would be written over"), "{code}: {said}");
+        assert!(!folder.path().join("film/x0.svg").exists(), "none of them is written");
+    }
+    let (code, said) = view(folder.path(), &with("no/such/%d.svg"));
+    assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
+}
+
 /// Pictures that a reviewer reads, and the one of the docs.
 fn goldens() -> Vec<(&'static str, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
@@ -418,6 +637,10 @@ fn goldens() -> Vec<(&'static str, String)> {
     vec![
         ("docs/symbols.svg", still(&symbols, &rest, &rest, &of_symbols)),
         ("tests/pictures/hoeken.svg", still(&hoeken.scene, &hoeken.motion, &one_row(&hoeken, 0), &labelled)),
+        (
+            "tests/pictures/slider_crank.plots.svg",
+            plots(&slider_crank.scene, &slider_crank.motion.times, &measures(&slider_crank), &Options::default()),
+        ),
         ("tests/pictures/slider_crank.svg", animated(&slider_crank.scene, &slider_crank.motion, &Options::default())),
     ]
 }

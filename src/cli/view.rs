@@ -127,7 +127,7 @@ impl Drawn<'_> {
         for row in 0..moments.len() {
             spared.refuse(&frames.name(row))?;
         }
-        if let Some(folder) = Path::new(&frames.before).parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        if let Some(folder) = Path::new(&frames.name(0)).parent().filter(|folder| !folder.as_os_str().is_empty()) {
             files::make_folder(folder).map_err(|error| files::cannot_write(&folder.to_string_lossy(), &error))?;
         }
         for row in 0..moments.len() {
@@ -286,7 +286,7 @@ fn not_of_plots(arguments: &ViewArguments) -> Option<&'static str> {
 /// Whether a file is called `plots.svg`, or `NAME.plots.svg`.
 fn is_called_plots(output: &str) -> bool {
     let stem = Path::new(output).file_stem().map(|stem| stem.to_string_lossy().to_lowercase());
-    stem.is_some_and(|stem| stem == "plots" || stem.ends_with(".plots"))
+    stem.is_some_and(|stem| stem.rsplit('.').next() == Some("plots"))
 }
 
 fn form_of_ending(output: &str) -> Result<Form, Failure> {

@@ -97,7 +97,7 @@ impl Sheet<'_> {
         let found = if is_free(&plain) {
             plain.clone()
         } else {
-            (2..).map(numbered).find(|name| is_free(name)).unwrap_or_default()
+            (2..=self.layers.len() + 2).map(numbered).find(|name| is_free(name)).unwrap_or_default()
         };
         self.layers.push((declaration, found.clone()));
         found
