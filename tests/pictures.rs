@@ -433,7 +433,7 @@ fn plots_show_the_columns() {
         for (plot, group) in measured.iter().zip(groups) {
             let (_, d) = group.split_once("<path class=\"curve").expect("a curve");
             let d = attribute(d, "d").expect("its line");
-            let places: Vec<f64> = d.split(['M', 'L', 'h']).flat_map(|pair| numbers(pair).get(1).copied()).collect();
+            let places: Vec<f64> = d.split(['M', 'L', 'h']).filter_map(|pair| numbers(pair).get(1).copied()).collect();
             assert!(!places.is_empty() && !d.contains("NaN"), "{name}: {}", plot.name);
             // the last value is as far up between the least and the greatest as it is in the table
             let finite: Vec<f64> = plot.values.iter().copied().filter(|value| value.is_finite()).collect();
@@ -502,10 +502,13 @@ fn a_body_alone_is_in_its_own_frame() {
     }
 }
 
+/// A layer, places on it (m), and whether they are closed.
+type Polyline = (String, Vec<Vector>, bool);
+
 /// The polylines of a DXF with their layers, in metres, and which are closed; and its points.
-fn read_dxf(text: &str) -> (Vec<(String, Vec<Vector>, bool)>, Vec<(String, Vector)>) {
+fn read_dxf(text: &str) -> (Vec<Polyline>, Vec<(String, Vector)>) {
     let lines: Vec<&str> = text.lines().collect();
-    assert!(lines.len() % 2 == 0 && text.ends_with("0\nEOF\n"), "codes and values stand in pairs");
+    assert!(lines.len().is_multiple_of(2) && text.ends_with("0\nEOF\n"), "codes and values stand in pairs");
     let (mut polylines, mut points, mut of) = (Vec::new(), Vec::new(), "");
     let mut place = [0.0; 2];
     let mut layer = "";

@@ -184,6 +184,7 @@ mod tests {
             nodes: Vec::new(),
             traces: Vec::new(),
             profiles: Vec::new(),
+            outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
         }
