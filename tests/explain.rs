@@ -7,7 +7,6 @@ mod support;
 
 use mechc::{Code, Severity};
 use std::fs;
-use std::path::Path;
 use support::listed::Tests;
 use support::{Span, files, run, stem};
 
