@@ -56,6 +56,7 @@ mod source;
 mod stages;
 mod structure;
 mod syntax;
+mod tolerances;
 mod view;
 mod vocabulary;
 mod world;

@@ -63,6 +63,16 @@ fn every_test_is_there() {
     assert!(looked_at > 30, "only {looked_at} tests were looked at");
 }
 
+/// What `tolerances` has for a file: the module that names it.
+fn limits_of(path: &str) -> Option<String> {
+    let chapters = fs::read_dir(root().join("src/tolerances")).expect("the room");
+    let texts = chapters.map(|entry| fs::read_to_string(entry.expect("a chapter").path()).expect("text"));
+    texts.into_iter().find_map(|text| {
+        let module = &text[text.find(&format!("(`{path}`)."))?..];
+        Some(module[..module.find("\n}\n")?].to_owned())
+    })
+}
+
 /// The constants of a row of "Numbers" stand in one of its files.
 #[test]
 fn every_constant_of_a_table_is_in_its_file() {
@@ -73,7 +83,8 @@ fn every_constant_of_a_table_is_in_its_file() {
         let [_, _, files, constants, _] = cells.as_slice() else { continue };
         let texts: Vec<String> = quoted(files)
             .filter(|path| Path::new(path).extension().is_some_and(|ending| ending == "rs"))
-            .filter_map(|path| fs::read_to_string(place(path)?).ok())
+            .flat_map(|path| [place(path).and_then(|path| fs::read_to_string(path).ok()), limits_of(path)])
+            .flatten()
             .collect();
         let is_constant = |word: &&str| is_word(word) && word.chars().all(|c| c.is_ascii_uppercase() || c == '_');
         for constant in quoted(constants).filter(is_constant) {
@@ -83,4 +94,39 @@ fn every_constant_of_a_table_is_in_its_file() {
         }
     }
     assert!(looked_at > 100, "only {looked_at} constants were looked at");
+}
+
+/// Numbers of mathematics, which limit nothing.
+const NO_LIMITS: [&str; 9] =
+    ["GOLDEN", "SLOPE", "CURVATURE", "LOBATTO", "LOBATTO_ENDS", "UNIT", "UNITS", "NODES", "NOTHING"];
+
+#[test]
+fn limits_of_the_mathematics_stand_in_their_room() {
+    let mut looked_at = 0;
+    for room in ["analysis", "ir", "lower", "program", "solver", "structure"] {
+        for file in sources(&root().join("src").join(room)) {
+            looked_at += 1;
+            let text = fs::read_to_string(&file).expect("text");
+            for line in text.lines() {
+                let Some((name, kind)) = line.split_once("const ").and_then(|(_, rest)| rest.split_once(": ")) else {
+                    continue;
+                };
+                if !["f64", "[f64;", "[[f64;"].iter().any(|number| kind.starts_with(number)) {
+                    continue;
+                }
+                let is_constant = is_word(name) && name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+                assert!(
+                    !is_constant || NO_LIMITS.contains(&name),
+                    "{}: `{name}` belongs to `tolerances`",
+                    file.display()
+                );
+            }
+        }
+    }
+    assert!(looked_at > 80, "only {looked_at} files were looked at");
+}
+
+fn sources(folder: &Path) -> Vec<PathBuf> {
+    let entries = fs::read_dir(folder).expect("a folder").map(|entry| entry.expect("an entry").path());
+    entries.flat_map(|path| if path.is_dir() { sources(&path) } else { vec![path] }).collect()
 }

@@ -11,36 +11,11 @@ use super::search::{Noise, levenberg_marquardt};
 use super::singular;
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, WatchKind};
+use crate::tolerances::assembly::newton::{
+    BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY, PERTURBATIONS,
+    SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
+};
 use std::f64::consts::PI;
-
-/// Passes over the explicit coordinates at most; each settles what depends on the one before.
-const EXPLICIT_STEPS: usize = 50;
-/// Newton steps at most.
-const NEWTON_STEPS: usize = 200;
-/// Largest Newton step, scaled: small enough to stay with the branch of the estimates.
-const LARGEST_STEP: f64 = 0.3;
-/// Smallest damping of a Newton step before another method is tried.
-const SMALLEST_DAMPING: f64 = 1e-3;
-/// A correction below this leaves nothing to the next one.
-const SETTLED: f64 = 1e-7;
-/// Systems up to this size are assembled as a whole by the least-squares method, larger ones block by block.
-const LARGEST_DENSE: usize = 300;
-/// How far estimates are perturbed, scaled, one attempt after another.
-const PERTURBATIONS: [f64; 6] = [0.01, 0.05, 0.1, 0.2, 0.4, 0.8];
-/// A start nearer to a singular position than this is one: q is known only to the root of the tolerance there.
-const SINGULAR_START: f64 = 1e-5;
-/// Times nearby at which a singular start is looked at, as parts of the span.
-const NEARBY: [f64; 4] = [3e-3, -3e-3, 1e-2, -1e-2];
-/// How far a free motion is followed to look beside a singular start, scaled.
-const BESIDE: f64 = 0.02;
-/// A position that differs by less than this, scaled, is the same.
-const MOVED: f64 = 1e-4;
-/// Equations that are open by less than this hold nearly.
-const OPEN_NEARBY: f64 = 1e-9;
-/// A tangent shorter than this, in sizes of its body, is none.
-const VANISHING_TANGENT: f64 = 1e-7;
-/// An equation with less than this part of the slope beside it fixes nothing.
-const WITHOUT_SLOPE: f64 = 1e-5;
 
 /// How far assembly moved the bodies from their estimates.
 #[derive(Clone, Copy, PartialEq, Debug, Default)]

@@ -8,21 +8,10 @@ use super::kinematics::{Kinematics, State};
 use super::search::{Noise, levenberg_marquardt};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::structure::Determined;
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
-
-/// A body of a loop that turned by more than this (rad) was drawn the other way round.
-const TURNED_OVER: f64 = FRAC_PI_2;
-/// Another position that is at most this many times as far from the estimates is as near as the one taken.
-const AS_NEAR: f64 = 2.0;
-/// Positions that differ by less than this, scaled, are the same.
-const SAME: f64 = 1e-3;
-/// No others are looked for in loops of more coordinates, nor in larger systems than this: each search evaluates the whole.
-const LARGEST_LOOP: usize = 60;
-const LARGEST_SYSTEM: usize = 300;
-/// Loops in which others are looked for.
-const MOST_LOOPS: usize = 8;
-/// Positions from which others are looked for at random.
-const RANDOM_STARTS: usize = 8;
+use crate::tolerances::assembly::branches::{
+    AS_NEAR, LARGEST_LOOP, LARGEST_SYSTEM, MOST_LOOPS, RANDOM_STARTS, SAME, TURNED_OVER,
+};
+use std::f64::consts::{PI, TAU};
 
 /// Why the position taken may not be the one meant.
 #[derive(Clone, Copy, PartialEq, Debug)]

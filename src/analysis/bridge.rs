@@ -11,44 +11,14 @@ use super::finer::Finer;
 use super::kinematics::{Fault, State};
 use super::march::Motion;
 use super::singular;
-use super::trust::SLOW;
-use crate::diag::Diagnostic;
+use crate::tolerances::solving::trust::SLOW;
 
-/// A state nearer than this to a singular position is not clear of it.
-///
-/// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
-const CLEAR: f64 = 8e-3;
-/// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
-const SOLVABLE: f64 = 1e-3;
-/// Solving beside a singular position leaves more than eight digits of accelerations down to here.
-const EXACT: f64 = 4e-3;
-/// A curve's velocities and accelerations leave no more open of their equations, scaled, beside 1 or a part of the motion's
-/// fastest.
-const OPEN: [f64; 2] = [1e-8, 1e-6];
-/// Steps back from a start beside a singular position at most, and how far each goes, scaled.
-const STEPS_BACK: usize = 64;
-const STEP_BACK: f64 = 2e-3;
-/// How far beyond the singular position the first state is looked for, as parts of the way up to it.
-const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
-/// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
-const LARGEST_CORRECTION: f64 = 0.05;
-/// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
-/// branches leaves more, be it that both touch each other.
-const LARGEST_BETWEEN: f64 = 1e-4;
-/// The time of a singular position is certain to this part of the bridge.
-const CERTAIN: f64 = 1e-6;
-const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
-/// Places at which a bridge is looked at for a singular position that is come to twice.
-const PLACES_BETWEEN: usize = 24;
-/// A determinant below this part of what it is at the ends has another sign, and does not just touch zero.
-const BEYOND_ZERO: f64 = -1e-6;
-/// Below this a curve that is more exact decides.
-const NEARLY_ZERO: f64 = 1e-2;
-/// Times at which the minimum of an even contact is looked for.
-const LOOKS: usize = 80;
-/// Newton steps to the minimum's place, and the distance of the places that its slope is taken from, as a part of the bridge.
-const NEWTON_STEPS: usize = 8;
-const SPREAD: f64 = 0.08;
+use crate::diag::Diagnostic;
+use crate::tolerances::singular::bridge::{
+    BEYOND, BEYOND_ZERO, CERTAIN, CLEAR, EXACT, LARGEST_BETWEEN, LARGEST_CORRECTION, LOOKS, NEARLY_ZERO, NEWTON_STEPS,
+    OPEN, PLACES, PLACES_BETWEEN, SOLVABLE, SPREAD, STEP_BACK, STEPS_BACK,
+};
+
 /// The minimum's slope by central differences of sixth order, and its curvature, by the distance of the places in `SPREAD`.
 const SLOPE: [f64; 3] = [45.0 / 60.0, -9.0 / 60.0, 1.0 / 60.0];
 const CURVATURE: [f64; 4] = [-490.0 / 180.0, 270.0 / 180.0, -27.0 / 180.0, 2.0 / 180.0];

@@ -1,6 +1,6 @@
 //! LU of a small dense matrix, where the fixed order of a block would lose digits.
 
-use crate::solver::LEAST_PIVOT;
+use crate::tolerances::solving::order::LEAST_PIVOT;
 
 /// LU with partial pivoting in place, row by row; gives the smallest pivot.
 pub(super) fn factor_dense(a: &mut [f64], pivots: &mut [u32], n: usize) -> f64 {

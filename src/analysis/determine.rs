@@ -10,9 +10,7 @@ use super::redundancy::{Dependent, dependents, times_nearby};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::{Check, ConstraintSystem, DeclarationKind};
 use crate::structure::{self, Determined, Part, Refused};
-
-/// Larger parts are not looked at with values: their equations would be a dense matrix.
-const LARGEST: usize = 600;
+use crate::tolerances::determinacy::determine::LARGEST;
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
 ///

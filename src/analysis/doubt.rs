@@ -3,19 +3,15 @@
 
 use super::GOLDEN;
 use super::kinematics::State;
-use super::march::{FEWEST_STEPS_NEAR, Motion};
-use super::rows::STEPS_AHEAD;
+use super::march::Motion;
+use crate::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
+use crate::tolerances::solving::rows::STEPS_AHEAD;
+use crate::tolerances::steps::march::FEWEST_STEPS_NEAR;
+
 use super::trust::{Trust, are_small};
 use crate::diag::Diagnostic;
 use crate::solver::RowLayout;
 
-/// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
-const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
-/// A row is solved for again from so many places, which are so far from each other, scaled.
-const PLACES: usize = 16;
-const CELL: f64 = 1.0 / 134_217_728.0;
-/// A correction of a place on the way over a singular position is at most this part of the distance from that, scaled.
-const NEAREST_BRANCH: f64 = 0.05;
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 

@@ -12,44 +12,11 @@ use super::march::Motion;
 use super::singular;
 use crate::diag::Diagnostic;
 use crate::ir::CoordinateKind;
-
-/// So many units in the last place of an output time it may be off from the edge that it is meant to be.
-const SLACK: f64 = 4.0;
-/// The span is looked through for edges of time in parts no smaller than this one of it.
-const FINEST: f64 = 1e-8;
-/// Parts that are looked at in one step at most: where a formula stands on its edge all the time nothing is ever decided.
-const MOST_PARTS: usize = 2000;
-/// A step is looked through in parts no smaller than this one of it, and in so many at most.
-const FINEST_BETWEEN: f64 = 2e-4;
-const MOST_PARTS_BETWEEN: usize = 500;
-/// How far, as a part of the span, the motion is looked ahead to tell on which side of an edge it goes on. Motions of a
-/// second may come at the start of an analysis of years, and nothing may move farther than this meanwhile, scaled.
-const AHEAD: f64 = 1e-9;
-const LONGEST_AHEAD: f64 = 1e-9;
-const FARTHEST_AHEAD: f64 = 1e-7;
-/// A position that changes by more than this at an edge, scaled, jumps.
-const POSITION_JUMP: f64 = 1e-9;
-/// A velocity that changes by more than this part of the fastest, scaled, jumps.
-const VELOCITY_JUMP: f64 = 1e-7;
-/// An acceleration likewise.
-const ACCELERATION_JUMP: f64 = 1e-6;
-/// A speed below this part of one per span, scaled, is rest.
-const REST: f64 = 1e-3;
-/// What is smaller than this part of the largest velocity or acceleration so far is rounding.
-const LAST_DIGITS: f64 = 1e-9;
-/// The rounding of an edge's time may show so many times in what is computed there.
-const UNCERTAIN: f64 = 16.0;
-/// An equation takes part in a jump if it is left open by this part of the widest.
-const TAKES_PART: f64 = 1e-2;
-/// A restless switch is left alone for this part of the span at most.
-const LONGEST_REST: f64 = 1e-2;
-/// A motion is none if it is no more than this, scaled, or than so many units in the last place.
-const AT_REST: f64 = 1e-12;
-const ROUNDING: f64 = 64.0;
-/// How far the coordinates are moved to learn what a switch is decided by, scaled.
-const NUDGE: f64 = 1e-6;
-/// Corrections of a position at an edge at most.
-const ITERATIONS: usize = 4;
+use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
+use crate::tolerances::steps::edges::{
+    AHEAD, AT_REST, FARTHEST_AHEAD, FINEST, FINEST_BETWEEN, ITERATIONS, LAST_DIGITS, LONGEST_AHEAD, LONGEST_REST,
+    MOST_PARTS, MOST_PARTS_BETWEEN, NUDGE, ROUNDING, SLACK, TAKES_PART, UNCERTAIN,
+};
 
 /// A time on the later side of whatever is meant to happen at `t` (s).
 pub(super) fn shortly_after(t: f64) -> f64 {

@@ -7,11 +7,7 @@ use super::least_squares::{Linear, Values, minimize};
 use crate::ir::{ConstraintSystem, DeclarationKind};
 use crate::math;
 use crate::program::{Program, Registers, Stage};
-
-/// An equation that is off by more than this, scaled, by its slope is one whose slope vanishes.
-const HOPELESS: f64 = 30.0;
-/// How far coordinates are nudged, scaled.
-const NUDGE: f64 = 0.02;
+use crate::tolerances::assembly::evaluator::{HOPELESS, NUDGE};
 
 /// A system with what evaluates it, and a position.
 pub(super) struct Evaluator<'s> {

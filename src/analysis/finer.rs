@@ -7,15 +7,10 @@
 use super::bridge::Bridge;
 use super::kinematics::State;
 use super::march::Motion;
+use crate::tolerances::singular::finer::{EXACT, OUTWARD, STEPS};
 
 /// Conditions: value, slope and curvature at four times.
 const CONDITIONS: usize = 12;
-/// The outer states are so far from the ends of the bridge, as a part of its length.
-const OUTWARD: f64 = 0.7;
-/// Steps to an outer state.
-const STEPS: usize = 8;
-/// The curve's accelerations are this exact where they can be solved for, beside their size or 1, scaled; and its velocities.
-const EXACT: f64 = 2e-9;
 
 /// Each coordinate by Newton's polynomial over times with three conditions each.
 #[derive(Clone, Debug)]

@@ -7,29 +7,11 @@ use super::singular;
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
 use crate::math;
 use crate::structure::Part;
+use crate::tolerances::determinacy::freedom::{
+    ANGLE_SHARE, ASSEMBLED, COINCIDE, DANGLING, LOOSE, MOST_POINTS, MOVES, SUGGESTED, TAKEN, TOLD,
+};
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
-
-/// A residual above this is not assembled: motions would be told of no position.
-const ASSEMBLED: f64 = 1e-8;
-/// A coordinate moves if its share of the free motions is above this.
-const MOVES: f64 = 1e-6;
-/// A coordinate with no less than this share is held by nothing at all.
-const LOOSE: f64 = 1.0 - 1e-9;
-/// Angles are what free motions are told by, where they have this part of the largest share.
-const ANGLE_SHARE: f64 = 0.01;
-/// A driver takes a freedom if it changes at this rate with it.
-const TAKEN: f64 = 1e-3;
-/// Points nearer than this as drawn, in sizes of the mechanism, may be meant to coincide.
-const COINCIDE: f64 = 0.02;
-/// Likewise, where no joint takes hold of either of them.
-const DANGLING: f64 = 0.15;
-/// Motions that are told at most.
-const TOLD: usize = 3;
-/// Joints that are suggested at most.
-const SUGGESTED: usize = 3;
-/// More points than this are not compared with each other.
-const MOST_POINTS: usize = 1000;
 
 /// The motions that equations leave free.
 #[derive(Clone, Debug)]

@@ -6,10 +6,12 @@ use super::scoped::ScopedLu;
 use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
 use crate::expr::ExprId;
-use crate::ir::{Check, ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
+use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Rim, Signal, Stage, Switch};
 use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
 use crate::structure::Determined;
+use crate::tolerances::checks::LARGEST_OPENING;
+use crate::tolerances::scales::kinematics::{BESIDE, ROUNDING, TRUSTED};
 use std::sync::Arc;
 
 /// A time with the coordinates and their derivatives.
@@ -132,16 +134,6 @@ impl Doubt {
         Doubt { position: zero.clone(), velocity: zero.clone(), acceleration: zero.clone(), right: zero }
     }
 }
-
-/// What rounding makes of a term.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// Nearer to a singular position than this, derivatives by inputs and parameters are not computed: they grow there, and each order makes
-/// more of the rounding.
-const TRUSTED: f64 = 1e-3;
-
-/// How far beside a position the slope of a row that is bent is looked at, scaled.
-const BESIDE: f64 = 0.1;
 
 impl Kinematics {
     pub fn new(determined: Arc<Determined>, program: Arc<Program>, tolerance: f64, cancel: Cancel) -> Kinematics {
@@ -471,7 +463,7 @@ impl Kinematics {
     pub fn broken_check(&self) -> Option<usize> {
         let checks = self.system().checks.iter().zip(&self.program.outputs.checks);
         let mut open = checks.map(|(check, &register)| self.registers.get(register).abs() / check.scale);
-        open.position(|open| open.is_nan() || open > Check::LARGEST_OPENING)
+        open.position(|open| open.is_nan() || open > LARGEST_OPENING)
     }
 
     /// A quantity that is watched, against its scale, where the position was set.

@@ -8,14 +8,8 @@ use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
 use crate::program::Program;
 use crate::structure::Determined;
+use crate::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
 use std::sync::Arc;
-
-/// How far before and behind a kink, as a part of the way, the mechanism is looked at.
-const BESIDE_A_KINK: f64 = 1e-9;
-/// By so much, scaled, a position may differ before and behind a kink.
-const KINK: f64 = 1e-6;
-/// Kinks on one way at most.
-const MOST_KINKS: usize = 1000;
 
 /// How a mechanism is led.
 #[derive(Clone, Debug)]

@@ -3,17 +3,7 @@
 
 use crate::ir::ConstraintSystem;
 use crate::math;
-
-/// Steps at most.
-const STEPS: usize = 300;
-/// Largest step, scaled: small enough to stay with the branch of the estimates.
-const LARGEST_STEP: f64 = 0.3;
-/// Damping to begin with.
-const DAMPING: f64 = 1e-3;
-/// Beyond this damping no step helps any more.
-const MOST_DAMPING: f64 = 1e12;
-/// A step that gains less than this part of what is left is the last one.
-const LEAST_GAIN: f64 = 1e-10;
+use crate::tolerances::assembly::least_squares::{DAMPING, LARGEST_STEP, LEAST_GAIN, MOST_DAMPING, STEPS};
 
 /// Some equations by some coordinates at a position, both scaled.
 #[derive(Clone, Debug)]

@@ -6,26 +6,8 @@
 
 use super::kinematics::State;
 use crate::ir::{ConstraintSystem, CoordinateKind};
-
-/// Distances that are looked at.
-const MOST: usize = 16;
-/// Of so many something must be known to be judged.
-const FEWEST: usize = 3;
-/// The nearest distance, in units in the last place of the time.
-const NEAREST: f64 = 64.0;
-/// A position that changes by more than this, scaled, jumps; a velocity by more than this part of the fastest, an
-/// acceleration by more than this part of the hardest.
-const POSITION_JUMP: f64 = 1e-9;
-const VELOCITY_JUMP: f64 = 1e-7;
-const ACCELERATION_JUMP: f64 = 1e-6;
-/// The time of an edge may be off by this part of the span where rounding hides it.
-const MISPLACED: f64 = 1e-8;
-/// A speed below this part of one per span, scaled, is rest.
-const REST: f64 = 1e-3;
-/// What grows by this factor or more with each quarter of the distance, the last times in a row, grows without bound.
-const GROWTH: f64 = 1.03;
-/// Rounding shows so many times in what is computed from it.
-const UNCERTAIN: f64 = 64.0;
+use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
+use crate::tolerances::steps::limits::{FEWEST, GROWTH, MISPLACED, MOST, NEAREST, UNCERTAIN};
 
 /// What two sides are like.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -12,23 +12,12 @@ use super::sparse::Plan;
 use super::yardstick::{Centroid, Yardstick};
 use crate::expr::{Dependence, ExprId, Symbol};
 use crate::ir::{ConstraintSystem, CoordinateKind};
-use crate::solver::{BlockEntry, LARGEST_MULTIPLIER, LEAST_PIVOT};
+use crate::solver::BlockEntry;
 use crate::structure::Block;
+use crate::tolerances::scales::linear::{A_FEW, ALIKE, LARGEST_DENSE, PIVOT_MARGIN, PLANS};
+use crate::tolerances::solving::order::LEAST_PIVOT;
+use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use std::ops::Range;
-
-/// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
-/// overestimate it by little.
-const PIVOT_MARGIN: f64 = 100.0;
-
-/// What the scales that are solved with say of nearness holds as far as it is to such a factor what the yardstick says.
-const ALIKE: f64 = 10.0;
-
-/// Coordinates of a block that is no chain yet.
-const A_FEW: f64 = 24.0;
-/// Larger blocks are never factored densely.
-const LARGEST_DENSE: usize = 100;
-/// Orders of elimination to choose from, so that there is one for most of a motion.
-const PLANS: u32 = 4;
 
 /// The factors, beside which the workspace may be borrowed.
 macro_rules! factors {

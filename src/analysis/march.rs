@@ -19,31 +19,12 @@ use super::trust::Trust;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Enclosure;
 use crate::solver::Solver;
-use std::sync::Arc;
+use crate::tolerances::steps::march::{
+    FEWEST_STEPS, FEWEST_STEPS_NEAR, ILL, ITERATIONS, LARGEST_BETWEEN, LARGEST_CORRECTION, LARGEST_MOTION, NEAREST,
+    SETTLED, SMALLEST_STEP,
+};
 
-/// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
-/// from other coordinates: the upper end of a tall lift goes far.
-pub(super) const LARGEST_CORRECTION: f64 = 0.05;
-/// Largest correction between the ends of a step, on the curve through both, scaled.
-pub(super) const LARGEST_BETWEEN: f64 = 1e-3;
-/// Largest predicted motion of a step, scaled: a coordinate's way in sizes of its body, or its turn in radians.
-const LARGEST_MOTION: f64 = 0.5;
-/// Corrections of a step at most.
-const ITERATIONS: usize = 4;
-/// A correction below this leaves nothing to the next one, convergence being quadratic.
-const SETTLED: f64 = 1e-7;
-/// Nearer to a singular position than this more digits are needed.
-const ILL: f64 = 0.01;
-/// Steps over the whole span at least, so that what happens in it is met.
-const FEWEST_STEPS: f64 = 32.0;
-/// Where a singular position may be as near as the motion of such a step is large, there are more of them.
-pub(super) const FEWEST_STEPS_NEAR: f64 = 64.0;
-/// Smallest step, as a part of the whole span.
-const SMALLEST_STEP: f64 = 1e-12;
-/// A position nearer to a singular one than this is not stepped to.
-const NEAREST: f64 = 1e-6;
-/// Steps from one output time to the next at most: what takes more is not meant.
-pub(super) const MOST_STEPS: u64 = 1_000_000;
+use std::sync::Arc;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
 #[allow(clippy::struct_excessive_bools)] // what has begun, what is wanted, what the row is worth: nothing of them follows from another

@@ -59,12 +59,10 @@ use crate::ir::{ConstraintSystem, Measure, Outcome, ReductionKind};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
+pub use crate::tolerances::TOLERANCE;
 use branches::Doubt;
 use kinematics::{Kinematics, State};
 use std::sync::Arc;
-
-/// Bounds each row of Φ unless told otherwise, scaled.
-pub const TOLERANCE: f64 = 1e-12;
 
 /// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;

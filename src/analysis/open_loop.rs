@@ -11,17 +11,7 @@ use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 use crate::math;
 use crate::structure::{Determined, Part};
-
-/// Larger systems are looked at block by block.
-const LARGEST: usize = 600;
-/// An equation is part of the loop if its share of the residual is above this part of the largest.
-const TAKES_PART: f64 = 0.01;
-/// How much lighter one joint is made than the others, so that the loop opens there.
-const LIGHT: f64 = 1e4;
-/// A link is too short or too long if this part of the force acts along it.
-const ALONG: f64 = 0.3;
-/// What is open by less than this, scaled, is closed.
-const CLOSED: f64 = 1e-6;
+use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, LARGEST, LIGHT, TAKES_PART};
 
 /// A loop that does not close.
 pub(super) struct OpenLoop {

@@ -12,10 +12,8 @@ use crate::ir::PartStart;
 use crate::math;
 use crate::program::Program;
 use crate::structure::{Block, Determined};
+use crate::tolerances::assembly::parts::LARGEST;
 use std::sync::Arc;
-
-/// Blocks up to this size are solved for the sake of parts.
-const LARGEST: usize = 300;
 
 /// A part whose coordinates are asked for, as it is alone.
 pub struct Request {

@@ -8,23 +8,9 @@
 
 use super::bridge::Bridge;
 use super::march::Motion;
-
-/// Corrections of a position beside the curve at most; each must come down to this part of the one before.
-const CORRECTIONS: usize = 60;
-const CONTRACTS: f64 = 0.7;
-/// A correction below this, scaled, leaves nothing in λ.
-const SETTLED: f64 = 1e-13;
-/// Times within the bridge at which the free motion's way is taken.
-const SAMPLES: usize = 9;
-/// An extremum is looked for by parabolas, each over this part of the way of the one before: in time, where it is near to the
-/// singular position's, and on the free motion's way.
-const PARABOLAS_IN_TIME: usize = 2;
-const PARABOLAS: usize = 3;
-const NARROWER: f64 = 0.05;
-/// Rows take part in a dependency from this part of the largest on.
-const TAKES_PART: f64 = 0.1;
-/// So many times what may be left of the equations is not told from nothing.
-const MARGIN: f64 = 4.0;
+use crate::tolerances::singular::reach::{
+    CONTRACTS, CORRECTIONS, MARGIN, NARROWER, PARABOLAS, PARABOLAS_IN_TIME, SAMPLES, SETTLED, TAKES_PART,
+};
 
 /// A function's extremum near a place.
 struct Extremum {

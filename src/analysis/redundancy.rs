@@ -7,15 +7,7 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use crate::structure::Part;
-
-/// Equations that are this nearly dependent are so: an assembled position is known to the root of rounding.
-const DEPENDENT: f64 = 1e-6;
-/// An equation takes part in a dependency if its share is above this.
-const TAKES_PART: f64 = 1e-6;
-/// What is open by more than this, scaled, does not hold.
-const OPEN: f64 = 1e-8;
-/// Times at which the equations are looked at beside the first one, as parts of the span.
-const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
+use crate::tolerances::determinacy::redundancy::{DEPENDENT, NEARBY, OPEN, TAKES_PART};
 
 /// An equation that depends on others.
 #[derive(Clone, Debug)]

@@ -13,29 +13,10 @@ use super::limits::{Limits, Nearer, Verdict};
 use super::march::{Motion, along};
 use crate::diag::Diagnostic;
 use crate::program::{Enclosure, Rim};
-
-/// The span is looked through in parts no smaller than this one of it, and in so many in one step at most.
-const FINEST: f64 = 1e-8;
-const MOST_PARTS: usize = 2000;
-/// A step is looked through in parts no smaller than this one of it, and in so many at most.
-const FINEST_BETWEEN: f64 = 1e-4;
-const MOST_PARTS_BETWEEN: usize = 500;
-/// Both sides are looked at from so far on, as a part of the span.
-const FARTHEST: f64 = 1e-3;
-/// Behind a rim its gauge is looked at from this part of the span on.
-const BEHIND: f64 = 1e-9;
-/// A gauge is zero at a time if it is no more than so many units in the last place of its terms, or if the rounding of the
-/// time, so many units in its last place, changes it by more than itself.
-const ROUNDING: f64 = 64.0;
-const MOMENT: f64 = 1024.0;
-/// The same for a gauge that the motion decides, as a part of the span: positions are known to their tolerance.
-const MOMENT_OF_MOTION: f64 = 1e-9;
-/// Before a rim at which the motion ends, the last step ends so many units in the last place of its time earlier.
-const LAST_MOMENT: f64 = 16.0;
-/// How often a part whose end cannot be told from a zero is made twice as wide.
-const MOST_WIDER: u32 = 12;
-/// Halvings until two times are neighbours.
-const MOST_HALVINGS: usize = 100;
+use crate::tolerances::steps::rims::{
+    BEHIND, FARTHEST, FINEST, FINEST_BETWEEN, LAST_MOMENT, MOMENT, MOMENT_OF_MOTION, MOST_HALVINGS, MOST_PARTS,
+    MOST_PARTS_BETWEEN, MOST_WIDER, ROUNDING,
+};
 
 /// Where a gauge is looked at.
 #[derive(Clone, Copy)]

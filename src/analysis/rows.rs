@@ -8,29 +8,18 @@ use super::determinant::Determinant;
 use super::edges::{Edge, behind_start, shortly_after};
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
-use super::march::{Accepted, FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS, Motion, along};
+use super::march::{Accepted, Motion, along};
 use super::singular;
 use super::times::Times;
 use super::trust::Trust;
 use crate::diag::Diagnostic;
 use crate::solver::{Batch, Bend, Lanes, Pivoting, RowLayout, Solver};
+use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SHORT, STEPS_AHEAD};
+#[cfg(feature = "threads")]
+use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
+use crate::tolerances::steps::march::{FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS};
+#[cfg(feature = "threads")]
 use std::sync::Arc;
-
-/// Times that are solved at once.
-const LANES: usize = 16;
-/// A solver with so many operations is worth a thread for every so many times, up to as many threads.
-#[cfg(feature = "threads")]
-const WORTH_A_THREAD: usize = 20_000;
-#[cfg(feature = "threads")]
-const MOST_THREADS: usize = 8;
-/// A step below this part of the span is short.
-const SHORT: f64 = 1e-4;
-/// So many rows within a step show what its curve is worth.
-const ENOUGH: u64 = 4;
-/// A row that is solved for once more may change by so much, beside its size or 1.
-const REFINED: f64 = 1e-8;
-/// Steps that are tried behind a row that cannot be printed, to tell why.
-pub(super) const STEPS_AHEAD: usize = 1_000;
 
 /// The output times, and the rows that are ready.
 pub(super) struct Output {

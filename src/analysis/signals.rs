@@ -4,14 +4,7 @@
 use super::kinematics::{Fault, Kinematics, State};
 use super::march::Motion;
 use crate::program::{Enclosure, Signal};
-
-/// A signal may leave the values at the ends of a part of a step by as much as moves the mechanism by this, scaled.
-const UNSEEN: f64 = 0.03;
-/// A step is looked through in parts no smaller than this one of it, and in so many at most.
-const FINEST: f64 = 1e-6;
-const MOST_PARTS: usize = 100;
-/// How much a signal is changed to learn what it does to the equations, in parts of itself.
-const NUDGE: f64 = 1e-6;
+use crate::tolerances::steps::signals::{FINEST, MOST_PARTS, NUDGE, UNSEEN};
 
 /// What time alone decides about the equations, and what is known of it.
 pub(super) struct Signals {

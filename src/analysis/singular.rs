@@ -6,19 +6,7 @@ use super::kinematics::{Fault, Kinematics, State};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
 use crate::program::Rim;
-
-/// Below this the position is called singular, or as near to one as the steps could come.
-const NEAR: f64 = 1e-2;
-/// A relative curvature below this is taken for none, beside a position that is singular.
-const FLAT: f64 = 1e-3;
-/// A fold is no further off than this part of the span.
-const NEAR_FOLD: f64 = 1e-5;
-/// A formula has come to the end of what its function takes, or to a pole, if no more than this part of its terms is left.
-const AT_HAND: f64 = 1e-6;
-/// A part of the largest motion that is worth telling.
-const SEEN: f64 = 1e-3;
-/// A driver takes part in a dependency if its share is above this part of the largest.
-const TAKES_PART: f64 = 1e-3;
+use crate::tolerances::singular::reasons::{AT_HAND, FLAT, NEAR, NEAR_FOLD, SEEN, TAKES_PART};
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
 pub(super) fn explain(kinematics: &mut Kinematics, state: &State, fault: Fault, h: f64, target: f64) -> Diagnostic {

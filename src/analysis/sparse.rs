@@ -2,7 +2,8 @@
 //! value is. The pivots are chosen for few entries and for size (H. M. Markowitz, 1957); whether they still are large
 //! enough is watched at every factorisation.
 
-use crate::solver::{BlockEntry, LEAST_PIVOT, Order};
+use crate::solver::{BlockEntry, Order};
+use crate::tolerances::solving::order::LEAST_PIVOT;
 use rustc_hash::FxHashMap;
 
 /// An order of elimination with its operations. Positions count pivots in their order.
@@ -196,7 +197,8 @@ fn is_odd(permutation: &[u32]) -> bool {
 #[cfg(test)]
 mod tests {
     use super::Plan;
-    use crate::solver::{BlockEntry, LARGEST_MULTIPLIER};
+    use crate::solver::BlockEntry;
+    use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
     use nalgebra::{DMatrix, DVector};
 
     /// Reproducible numbers in [−1, 1].

@@ -8,17 +8,8 @@ use super::GOLDEN;
 use super::determinant::Determinant;
 use super::kinematics::Fault;
 use super::march::Motion;
-
-/// A determinant that falls within a step to this part of its lesser value at the ends may touch zero there. Shorter steps
-/// tell: beside a zero they meet it, over a mere minimum the ends come down to it.
-const DEEP: f64 = 0.01;
-/// Between its values at the ends of an interval a parabola that touches zero falls to a fifth of the greater one, if the
-/// golden section takes it for the place of the minimum.
-const SHALLOW: f64 = 0.5;
-/// A position nearer to a singular one than this is as good as singular.
-const NEAREST: f64 = 1e-6;
-/// Sections of a step at most.
-const SECTIONS: usize = 60;
+use crate::tolerances::steps::march::NEAREST;
+use crate::tolerances::steps::touch::{DEEP, SECTIONS, SHALLOW};
 
 /// What is known of the way up to a state.
 #[derive(Clone, Copy, Debug)]

@@ -4,16 +4,7 @@
 //! times.
 
 use super::kinematics::{Kinematics, State};
-
-/// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
-const ACCURACY: f64 = 1e-9;
-/// A velocity is in doubt if it may be off by more than this, beside its size or 1; an acceleration likewise.
-const VELOCITY: f64 = 1e-8;
-const ACCELERATION: f64 = 4e-7;
-/// What is slow counts for no less than this part of the motion's fastest: rounding grows with that.
-pub(super) const SLOW: f64 = 1.0 / 64.0;
-/// Farther from a singular position than this rounding does not come so far.
-const FAR: f64 = 1.5e-3;
+use crate::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};
 
 /// What the numbers of a row are worth.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]

@@ -13,20 +13,8 @@
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 use crate::math;
 use crate::structure::Block;
+use crate::tolerances::scales::yardstick::{FAR_FRAME, LEAST_LEVER, ROUNDING, ROW_NORM, SWEEPS};
 use std::ops::Range;
-
-/// Sweeps over rows and columns: what is left after them is a factor that does not matter.
-const SWEEPS: usize = 12;
-/// The norm that rows come to: that of a joint's equation in the coordinates of one of its bodies, the other being given.
-const ROW_NORM: f64 = 0.5;
-/// A centroid counts where it is so many times as far from the origin of the frame as features are from it.
-const FAR_FRAME: f64 = 4.0;
-/// The least lever of an axis, along which another body may come as near to this one's features as it likes, in sizes of the
-/// smaller of both.
-const LEAST_LEVER: f64 = 0.1;
-
-/// A moment about a centroid that is less than this part of its terms is what rounding leaves.
-const ROUNDING: f64 = 1e-10;
 
 /// No entry, or no body.
 const NONE: u32 = u32::MAX;

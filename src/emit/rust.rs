@@ -11,10 +11,11 @@ use super::solution::Solution;
 use super::tables::{COLUMNS, Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
-use crate::ir::{Check, CheckSlopes, Measure, Owner, Units};
+use crate::ir::{Measure, Owner, Units};
 use crate::program::{Column, Register, Rim, STAGES};
 use crate::solver::{Op, RowLayout};
 use crate::source::Span;
+use crate::tolerances::checks;
 use std::cell::RefCell;
 
 /// The sine-cosine pair and the elimination with partial pivoting, word for word as the interpreter runs them.
@@ -716,7 +717,7 @@ impl Writer<'_> {
             .replace("$count", count)
             .replace("$entries", &lines(&entries, "    "))
             .replace("$length", &entries.len().to_string())
-            .replace("$misses", &literal(CheckSlopes::MISSES))
+            .replace("$misses", &literal(checks::MISSES))
             .replace("$of", if self.equations.is_led { "Way" } else { "Params" })
             .replace("$argument", argument)
             .replace("$call", call)
@@ -778,7 +779,7 @@ impl Writer<'_> {
         let scales: Vec<String> = checks.iter().map(|check| literal(check.scale)).collect();
         let docs = "What each equation that was left out is judged against, and how far it may be open beside that.";
         super::text::constant(docs, "LEFT_OUT_SCALES", "f64", "LEFT_OUT", &scales)
-            + &format!("const LARGEST_OPENING: f64 = {};\n\n", literal(Check::LARGEST_OPENING))
+            + &format!("const LARGEST_OPENING: f64 = {};\n\n", literal(checks::LARGEST_OPENING))
     }
 
     /// The parameters with what follows from them.

@@ -7,13 +7,11 @@ use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::{constant, documented, lines, literal};
 use super::{Motion, Unit};
 use crate::program::{Column, Register};
-use crate::solver::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION, LARGEST_MULTIPLIER, Op, RowLayout, Segment, Solver};
+use crate::solver::{Op, RowLayout, Segment, Solver};
+use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
+use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
+use crate::tolerances::steps::march::{FEWEST_STEPS, SMALLEST_STEP};
 use rustc_hash::FxHashMap;
-
-/// Steps over the whole span at least, as those of the interpreter.
-const FEWEST_STEPS: f64 = 32.0;
-/// The smallest step, as a part of the whole span.
-const SMALLEST_STEP: f64 = 1e-12;
 
 /// What the solver's function is written from.
 pub(super) struct Solution<'s> {

@@ -9,7 +9,8 @@ use super::tables::COLUMNS;
 use super::text::{lines, literal};
 use crate::expr::{Binary, Comparison, Unary};
 use crate::program::{self, Register};
-use crate::solver::{LARGEST_MULTIPLIER, Op, Segment};
+use crate::solver::{Op, Segment};
+use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
 

@@ -317,11 +317,6 @@ pub struct Check {
     pub scale: f64,
 }
 
-impl Check {
-    /// It may be open by so many times its scale: lengths are written with so many digits.
-    pub const LARGEST_OPENING: f64 = 1e-9;
-}
-
 /// A quantity that keeps its sign along a branch of the motion, and only there.
 #[derive(Clone, Debug)]
 pub struct Watch {

@@ -20,11 +20,6 @@ pub struct CheckSlopes {
     pub by_param: Vec<Vec<ExprId>>,
 }
 
-impl CheckSlopes {
-    /// An equation that was left out may miss by this beside how much everything changes, scaled: rounding.
-    pub const MISSES: f64 = 1e-8;
-}
-
 impl ConstraintSystem {
     /// The right sides of the equations for the derivatives of `q` by each signal.
     pub fn derive_by_signals(&mut self) {

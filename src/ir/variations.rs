@@ -9,9 +9,10 @@
 //! Systems*, 1986, by direct differentiation.
 
 use super::scopes::{Leaf, Scope, as_leaf, without_leaves};
-use super::{Check, CheckSlopes, ConstraintSystem};
+use super::{Check, ConstraintSystem};
 use crate::expr::{Comparison, ExprId, Graph, Symbol, Unary};
 use crate::source::Span;
+use crate::tolerances::checks::MISSES;
 use rustc_hash::FxHashMap;
 
 /// What derivatives are taken by, and the variations that this needs.
@@ -382,7 +383,7 @@ impl ConstraintSystem {
 
     fn is_next_to_nothing(&mut self, off: ExprId, scale: f64, size: ExprId) -> ExprId {
         let graph = &mut self.graph;
-        let part = graph.constant(CheckSlopes::MISSES * scale);
+        let part = graph.constant(MISSES * scale);
         let (off, limit) = (graph.unary(Unary::Abs, off), graph.mul(part, size));
         graph.compare(Comparison::LessEqual, off, limit)
     }

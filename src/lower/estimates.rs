@@ -5,20 +5,8 @@
 use super::Lowering;
 use crate::expr::{ExprId, Graph, Node, Symbol};
 use crate::model::{Mechanism, Profile};
+use crate::tolerances::assembly::estimates::{CANDIDATES, MOST_STEPS, PLACES, PLACES_OF_TWO, REFINED, SAME};
 use std::f64::consts::PI;
-
-/// Places on one turn that are looked at for one argument.
-const PLACES: usize = 720;
-/// Places on one turn for each of two arguments.
-const PLACES_OF_TWO: usize = 120;
-/// So many of the best places are refined.
-const CANDIDATES: usize = 8;
-/// An estimate need not be nearer than this.
-const REFINED: f64 = 1e-7;
-/// Steps downhill at most.
-const MOST_STEPS: usize = 1000;
-/// Mismatches that differ by less than this part of the widest are the same.
-const SAME: f64 = 1e-12;
 
 /// The numbers of a graph with all coordinates at their estimates, kept as the graph grows.
 #[derive(Default)]

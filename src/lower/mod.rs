@@ -25,6 +25,7 @@ use crate::ir::{
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
+use crate::tolerances::scales::size::FAR_FRAME;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What holds so many time derivatives of the coordinates has one that holds a third derivative.
@@ -263,7 +264,7 @@ impl Lowering<'_> {
         let model = self.model;
         let from_frames = size::of_frames(model);
         for (k, (id, body)) in model.body_ids().zip(&model.bodies).enumerate() {
-            let is_far = from_frames[k] > size::FAR_FRAME * self.sizes[k];
+            let is_far = from_frames[k] > FAR_FRAME * self.sizes[k];
             let size = if is_far { from_frames[k] } else { self.sizes[k] };
             let pose = self.drawn_pose(id);
             for ((part, kind), estimate) in PARTS.into_iter().zip(pose) {

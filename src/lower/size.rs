@@ -6,19 +6,9 @@
 use super::uses::Uses;
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Body, Curve, Frame, JointKind, Mechanism, Named};
+use crate::tolerances::scales::size::{IN_PROPORTION, MANY_POINTS, PLACES_ON_CURVE};
+
 use rustc_hash::FxHashMap;
-
-/// Frames with more points than this are measured by their bounding box, to stay linear.
-const MANY_POINTS: usize = 500;
-
-/// A size that features say which no equation uses counts if it is that of the others to such a factor.
-const IN_PROPORTION: f64 = 10.0;
-
-/// A frame is far from a body that is so many of the body's sizes away.
-pub(super) const FAR_FRAME: f64 = 10.0;
-
-/// So many places stand for a whole curve.
-const PLACES_ON_CURVE: u32 = 16;
 
 /// The size of each body (m): the largest distance between two of its features.
 ///

@@ -8,11 +8,8 @@ use super::frames::Vector;
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
 use crate::ir::ConstraintSystem;
 use crate::model::{Frame, JointId, JointKind, PartId, PointId, Profile, Quantity};
+use crate::tolerances::determinacy::velocities::NOTHING;
 use std::f64::consts::PI;
-
-/// What is shorter than this part of the mechanism's size, or slower than this part of it in the time of the analysis, is nothing; and
-/// an instant centre that is farther away than so many sizes, the other way round, is nowhere.
-const NOTHING: f64 = 1e-9;
 
 /// Where two bodies touch.
 struct Contact {

@@ -5,6 +5,7 @@
 
 use super::{Column, Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
+use crate::tolerances::results::enclose::MOST_PIECES;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// From a lowest to a highest value.
@@ -13,9 +14,6 @@ pub(super) struct Interval {
     pub(super) low: f64,
     pub(super) high: f64,
 }
-
-/// Over more pieces of a table than this nothing is said of its columns.
-const MOST_PIECES: f64 = 64.0;
 
 pub(super) const WHOLE: Interval = Interval { low: f64::NEG_INFINITY, high: f64::INFINITY };
 const UNDECIDED: Interval = Interval { low: 0.0, high: 1.0 };

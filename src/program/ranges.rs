@@ -6,14 +6,7 @@
 use super::enclose::{Interval, behind, enclosed, of_one};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
-
-/// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
-/// none).
-const WIDEST: f64 = 1.0;
-/// A bounded function that is resolved changes by no more than this.
-const WIDEST_VALUE: f64 = 0.5;
-/// What is divided by, or has a root taken of it, changes by no more than this factor.
-const WIDEST_RATIO: f64 = 2.0;
+use crate::tolerances::results::ranges::{WIDEST, WIDEST_RATIO, WIDEST_VALUE};
 
 /// What a formula is enclosed in.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -1,6 +1,7 @@
 //! Signals: what the equations of a position take from time alone, as the right side of a driver.
 
 use super::{Op, Program, Register, Stage};
+use crate::tolerances::steps::signals_in_a_row::MOST_IN_A_ROW;
 
 /// A value that time alone decides, and the equations it enters.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -12,9 +13,6 @@ pub struct Signal {
     /// Equations that were left out, and are checked.
     pub checks: Vec<usize>,
 }
-
-/// An equation that takes more signals is told of these only.
-const MOST_IN_A_ROW: usize = 8;
 
 impl Program {
     /// The signals that are more than a straight line over time.

@@ -10,13 +10,9 @@ use crate::ir::ConstraintSystem;
 use crate::math;
 use crate::program::{self, Program, Register, Stage};
 use crate::structure::{Block, Determined};
+use crate::tolerances::solving::build::{CELL, WIDEST_CELL};
+
 use rustc_hash::{FxHashMap, FxHashSet};
-
-/// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
-pub(super) const CELL: f64 = 1.0 / 134_217_728.0;
-
-/// Within a cell that is no wider the sine is a parabola, to rounding.
-const WIDEST_CELL: f64 = 8.0 * CELL;
 
 /// The width of a cell of a coordinate's grid, by what the coordinate is judged against.
 pub(super) fn cell(scale: f64) -> f64 {

@@ -6,14 +6,9 @@ use super::{LARGEST_MULTIPLIER, Segment, Solver, Tear};
 use crate::expr::{binary_value, compare, unary_value};
 use crate::math;
 use crate::program::{self, Program, Register, Registers};
-use std::ops::Range;
+use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
 
-/// Iterations of a block at most.
-pub const ITERATIONS: usize = 6;
-/// Largest first correction, scaled: the curve of a step is nearer than this.
-pub const LARGEST_CORRECTION: f64 = 0.05;
-/// A correction of just half a cell, to rounding, stays in it.
-pub const HALF_A_CELL: f64 = 0.5 + 1e-6;
+use std::ops::Range;
 
 /// The grid point next to a value, cells being so wide.
 pub(super) fn on_grid(x: f64, cell: f64) -> f64 {

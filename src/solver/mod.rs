@@ -24,10 +24,10 @@ mod pivoting;
 mod tape;
 mod tear;
 
+use crate::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use curve::Bend;
 pub use lanes::{Batch, Lanes};
-pub use lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
-pub use order::{BlockEntry, LEAST_PIVOT, Order};
+pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
 pub use tape::Op;
 
@@ -35,12 +35,6 @@ use crate::ir::ConstraintSystem;
 use crate::program::{Program, Register};
 use crate::structure::Determined;
 use std::ops::Range;
-
-/// A scaled multiplier of an elimination beyond this loses digits.
-pub const LARGEST_MULTIPLIER: f64 = 16.0;
-
-/// A system whose elimination takes more operations than this is not laid out.
-const MOST_OPERATIONS: usize = 30_000_000;
 
 /// Operations that solve a constraint system at given times: position, velocity, acceleration, measures.
 #[derive(Clone, Debug)]

@@ -1,11 +1,6 @@
 //! In which order the unknowns of a block are eliminated: pivots for few entries and for size (H. M. Markowitz, 1957).
 
-/// A pivot is at least this part of the largest entry in its column, where it is chosen.
-const THRESHOLD: f64 = 0.25;
-/// What stands for a pivot that vanishes.
-pub const LEAST_PIVOT: f64 = 1e-18;
-/// Rows among which a pivot is looked for.
-const CANDIDATES: usize = 4;
+use crate::tolerances::solving::order::{CANDIDATES, LEAST_PIVOT, THRESHOLD};
 
 /// An entry of a block.
 #[derive(Clone, Copy, Debug)]

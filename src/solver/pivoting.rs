@@ -2,12 +2,12 @@
 //! pivoting.
 
 use super::build::cell;
-use super::lanes::{HALF_A_CELL, ITERATIONS, on_grid};
+use super::lanes::on_grid;
 use crate::math::blocks::{Blocks, solve, work_of};
 use crate::structure::Determined;
-
-/// Larger blocks are not solved this way.
-const LARGEST_BLOCK: usize = 100;
+use crate::tolerances::solving::build::CELL;
+use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS};
+use crate::tolerances::solving::pivoting::LARGEST_BLOCK;
 
 /// The blocks of a system, ready to be solved with partial pivoting. Iterates lie on a grid as those of the
 /// [`Solver`](super::Solver) do, but of all coordinates.
@@ -57,7 +57,7 @@ impl BlockTables {
             rows: blocks.iter().flat_map(|block| &block.rows).map(|&row| row as usize).collect(),
             starts: starts.collect(),
             entries: system.phi_q.entries().iter().map(|&(column, _)| column as usize).collect(),
-            units: cells.clone().map(|cell| cell / super::build::CELL).collect(),
+            units: cells.clone().map(|cell| cell / CELL).collect(),
             cells: cells.collect(),
             columns,
             places,

@@ -1,9 +1,7 @@
 //! Which coordinates of a block are guessed, so that all others follow one by one.
 
+use crate::tolerances::solving::tear::CANDIDATES;
 use std::collections::BTreeSet;
-
-/// Rows in which a tear is looked for.
-const CANDIDATES: usize = 64;
 
 /// How a block falls apart once its tears are known; rows and columns are counted within the block.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]

@@ -7,9 +7,7 @@ use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
 use crate::math;
-
-/// Gears may be off by this part of the larger radius.
-const LARGEST_MISFIT: f64 = 1e-6;
+use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
 
 /// Where a gap has another order of magnitude than the mechanism.
 const FAR_OFF: &str =

@@ -6,17 +6,11 @@ use crate::analysis::kinematics::State;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
+use crate::tolerances::results::formulas::{MOVED, SAFETY, WAYS};
 use std::rc::Rc;
 
-/// How much farther from a straight line a coordinate's last derivative may go between two states than it did in the middle of the
-/// stretch that they are a half of: four times as far as a parabola would.
-const SAFETY: f64 = 1.0;
 /// A variation is known with two time derivatives.
 const VARIED_ORDERS: u32 = 3;
-
-/// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
-const MOVED: f64 = 1.0 / 1_048_576.0;
-const WAYS: u32 = 3;
 
 /// A formula along the motion.
 pub(super) struct Formula {

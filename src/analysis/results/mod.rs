@@ -28,6 +28,7 @@ use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
 use crate::structure::Determined;
+use crate::tolerances::results::stretches::CHUNK;
 use certain::Near;
 use formulas::Formula;
 use places::Places;
@@ -36,8 +37,6 @@ use rustc_hash::FxHashMap;
 use std::sync::Arc;
 pub(in crate::analysis) use survey::Trouble;
 
-/// So many stretches are looked at together.
-const CHUNK: usize = 4096;
 /// What results are computed from: an assembled mechanism and the times of its analysis.
 pub struct Asked {
     kinematics: Kinematics,

@@ -7,12 +7,8 @@ use crate::analysis::rows::state_of_row;
 use crate::analysis::stretches::Stretch;
 use crate::program::{Ranges, Register, Stage};
 use crate::solver::{Batch, Lanes, Solver};
+use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};
 use std::sync::Arc;
-
-/// Corrections of a position at most, where the solver does not serve.
-const ITERATIONS: usize = 10;
-/// A position nearer than this to a singular one is taken from the way over it.
-const SOLVABLE: f64 = 4e-3;
 
 /// What solves for states between the ends of stretches.
 pub(super) struct Places {

@@ -4,21 +4,14 @@
 use super::formulas::{Cell, Point};
 use super::survey::{Root, Scale, Survey};
 use crate::program::Range;
+use crate::tolerances::results::quadrature::{ACCURACY, NEGLIGIBLE, NOTHING, ROUNDING};
 use std::rc::Rc;
 
-/// An integral may be off by this part of range times time.
-const ACCURACY: f64 = 1e-11;
-/// A cell in which no value matters more than this part of range times span is as good as it need be.
-const NEGLIGIBLE: f64 = 1e-13;
-/// As little as that is nothing.
-const NOTHING: f64 = 1e-290;
 /// Places within a cell from −1 to 1, with their weights and that of its ends: Lobatto's rule of five points, exact for polynomials of
 /// degree 7. Source: M. Abramowitz, I. Stegun, *Handbook of Mathematical Functions*, 1964, 25.4.32.
 const LOBATTO: [[f64; 2]; 3] =
     [[-0.654_653_670_707_977_1, 49.0 / 90.0], [0.0, 32.0 / 45.0], [0.654_653_670_707_977_1, 49.0 / 90.0]];
 const LOBATTO_ENDS: f64 = 0.1;
-/// What rounding makes of a value.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 impl Survey<'_> {
     /// The integral of the formula over a stretch.

@@ -3,17 +3,14 @@
 use super::formulas::{Cell, Formula};
 use super::places::Places;
 use super::search::Extreme;
-use super::survey::{OPAQUE, Root, SHORTEST, Scale, Survey, Trouble};
+use super::survey::{Root, Scale, Survey, Trouble};
 use crate::analysis::edges::shortly_after;
 use crate::analysis::kinematics::State;
 use crate::analysis::stretches::Stretch;
 use crate::ir::ReductionKind;
 use crate::program::Range;
-
-/// A formula may go beyond what has been seen of it by this part of that before it is compared with its size; and so many cells are
-/// looked at for that.
-const SEEN: f64 = 0.25;
-const MOST_LOOKS: usize = 1000;
+use crate::tolerances::results::reduced::{MOST_LOOKS, SEEN};
+use crate::tolerances::results::survey::{OPAQUE, SHORTEST};
 
 /// A formula that is looked at along the motion, and what is found of it.
 pub(super) struct Reduced {

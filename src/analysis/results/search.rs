@@ -5,20 +5,11 @@
 //! slope passes zero in it just once, at a place that is then solved for.
 
 use super::formulas::{Cell, Point, between};
-use super::survey::{ROUNDING, Scale, Survey};
+use super::survey::{Scale, Survey};
 use crate::program::Range;
+use crate::tolerances::results::search::{BESIDE, CERTAIN, GAP, GAP_OF_VALUES, ITERATIONS};
+use crate::tolerances::results::survey::ROUNDING;
 use std::rc::Rc;
-
-/// A cell that can gain no more than this part of the range is not cut.
-const GAP: f64 = 1e-11;
-/// The same, where the formula has no derivative.
-const GAP_OF_VALUES: f64 = 1e-9;
-/// A time is certain to this part of the span.
-const CERTAIN: f64 = 1e-13;
-/// Corrections of a time at most.
-const ITERATIONS: usize = 100;
-/// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
-const BESIDE: f64 = 1e-7;
 
 /// The largest value of a formula, or the largest of its opposite.
 #[derive(Clone, Debug)]

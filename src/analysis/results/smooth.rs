@@ -7,12 +7,8 @@ use crate::analysis::kinematics::State;
 use crate::expr::{ExprId, Graph, Node, Symbol, Unary};
 use crate::ir::{ConstraintSystem, CoordinateKind};
 use crate::program::{Program, Register, Registers, Stage};
+use crate::tolerances::results::smooth::{MOST_FACTORS, WIDEST_TURN};
 use rustc_hash::FxHashMap;
-
-/// Of no more factors than this.
-const MOST_FACTORS: u32 = 6;
-/// A cell in which a body turns farther than this (rad) says nothing of the sine of the turn.
-const WIDEST_TURN: f64 = 0.25;
 
 /// Of what kind a formula is.
 #[derive(Clone, Copy, PartialEq, Debug)]

@@ -5,21 +5,9 @@ use super::places::Places;
 use crate::analysis::kinematics::State;
 use crate::analysis::stretches::Stretch;
 use crate::program::Range;
+use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, OPAQUE, ROUNDING, SHORTEST, SOLVED};
+
 use std::rc::Rc;
-
-/// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
-/// so many.
-const MOST_CELLS: usize = 1_000_000;
-const SOLVED: usize = 20;
-/// No cell is shorter than this part of the span.
-pub(super) const SHORTEST: f64 = 4.0 * f64::EPSILON;
-/// A stretch in which nothing can be solved for may be so long, as a part of the span.
-pub(super) const OPAQUE: f64 = 1e-6;
-
-/// Values that differ by no more than this part of the range are the same.
-const ALIKE: f64 = 1e-9;
-/// What rounding makes of a value.
-pub(super) const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// Where nothing is known.
 const ANYTHING: Range = Range { low: f64::NEG_INFINITY, high: f64::INFINITY, may_switch: true, is_resolved: false };

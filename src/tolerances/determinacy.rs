@@ -1,0 +1,70 @@
+//! Why a mechanism is not determined, or cannot be assembled.
+
+/// The part that is refused (`analysis/determine.rs`).
+pub mod determine {
+    /// Larger parts are not looked at with values: their equations would be a dense matrix.
+    pub const LARGEST: usize = 600;
+}
+
+/// Equations that depend on others (`analysis/redundancy.rs`).
+pub mod redundancy {
+    /// Equations that are this nearly dependent are so: an assembled position is known to the root of rounding.
+    pub const DEPENDENT: f64 = 1e-6;
+    /// An equation takes part in a dependency if its share is above this.
+    pub const TAKES_PART: f64 = 1e-6;
+    /// What is open by more than this, scaled, does not hold.
+    pub const OPEN: f64 = 1e-8;
+    /// Times at which the equations are looked at beside the first one, as parts of the span.
+    pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
+}
+
+/// Free motions, and what is proposed to take them (`analysis/freedom.rs`).
+pub mod freedom {
+    /// A residual above this is not assembled: motions would be told of no position.
+    pub const ASSEMBLED: f64 = 1e-8;
+    /// A coordinate moves if its share of the free motions is above this.
+    pub const MOVES: f64 = 1e-6;
+    /// A coordinate with no less than this share is held by nothing at all.
+    pub const LOOSE: f64 = 1.0 - 1e-9;
+    /// Angles are what free motions are told by, where they have this part of the largest share.
+    pub const ANGLE_SHARE: f64 = 0.01;
+    /// A driver takes a freedom if it changes at this rate with it.
+    pub const TAKEN: f64 = 1e-3;
+    /// Points nearer than this as drawn, in sizes of the mechanism, may be meant to coincide.
+    pub const COINCIDE: f64 = 0.02;
+    /// Likewise, where no joint takes hold of either of them.
+    pub const DANGLING: f64 = 0.15;
+    /// Motions that are told at most.
+    pub const TOLD: usize = 3;
+    /// Joints that are suggested at most.
+    pub const SUGGESTED: usize = 3;
+    /// More points than this are not compared with each other.
+    pub const MOST_POINTS: usize = 1000;
+}
+
+/// Loops that cannot be closed (`analysis/open_loop.rs`).
+pub mod open_loop {
+    /// Larger systems are looked at block by block.
+    pub const LARGEST: usize = 600;
+    /// An equation is part of the loop if its share of the residual is above this part of the largest.
+    pub const TAKES_PART: f64 = 0.01;
+    /// How much lighter one joint is made than the others, so that the loop opens there.
+    pub const LIGHT: f64 = 1e4;
+    /// A link is too short or too long if this part of the force acts along it.
+    pub const ALONG: f64 = 0.3;
+    /// What is open by less than this, scaled, is closed.
+    pub const CLOSED: f64 = 1e-6;
+}
+
+/// What does not move (`lower/velocities.rs`).
+pub mod velocities {
+    /// What is shorter than this part of the mechanism's size, or slower than this part of it in the time of the analysis, is nothing; and
+    /// an instant centre that is farther away than so many sizes, the other way round, is nowhere.
+    pub const NOTHING: f64 = 1e-9;
+}
+
+/// Gears that do not reach each other (`analysis/errors/assembly.rs`).
+pub mod fits {
+    /// Gears may be off by this part of the larger radius.
+    pub const LARGEST_MISFIT: f64 = 1e-6;
+}

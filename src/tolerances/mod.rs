@@ -1,0 +1,38 @@
+//! Every limit of the mathematics: what it means, in what unit, how large it is. Emitted code has the same ones.
+//!
+//! Why there is such a limit stands in `ARCHITECTURE.md`, "Numbers", in the row that names it, with the test that exercises what it
+//! describes. "Scaled" means: lengths in sizes of their body, angles in radians, rows of `Φ` divided by their norm. A "span" is the
+//! time from the first to the last output time.
+//!
+//! A file for each chapter there; in it a module for each file that has limits of its own.
+
+pub mod assembly;
+pub mod determinacy;
+pub mod results;
+pub mod scales;
+pub mod singular;
+pub mod solving;
+pub mod steps;
+
+/// Bounds each row of Φ unless told otherwise, scaled.
+pub const TOLERANCE: f64 = 1e-12;
+
+/// What jumps, where both sides of a time differ.
+pub mod jumps {
+    /// A position that changes by more than this, scaled, jumps.
+    pub const POSITION_JUMP: f64 = 1e-9;
+    /// A velocity that changes by more than this part of the fastest, scaled, jumps.
+    pub const VELOCITY_JUMP: f64 = 1e-7;
+    /// An acceleration likewise.
+    pub const ACCELERATION_JUMP: f64 = 1e-6;
+    /// A speed below this part of one per span, scaled, is rest.
+    pub const REST: f64 = 1e-3;
+}
+
+/// Equations that were left out, as they follow from the others.
+pub mod checks {
+    /// One may be open by so many times its scale: lengths are written with so many digits.
+    pub const LARGEST_OPENING: f64 = 1e-9;
+    /// One may miss by this beside how much everything changes with an input or a parameter, scaled: rounding.
+    pub const MISSES: f64 = 1e-8;
+}

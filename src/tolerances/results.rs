@@ -1,0 +1,100 @@
+//! Results of the whole motion.
+
+/// Ranges of formulas (`program/ranges.rs`).
+pub mod ranges {
+    /// The argument of a function that is resolved changes by no more than this: its series goes on with the first few terms (rad, or
+    /// none).
+    pub const WIDEST: f64 = 1.0;
+    /// A bounded function that is resolved changes by no more than this.
+    pub const WIDEST_VALUE: f64 = 0.5;
+    /// What is divided by, or has a root taken of it, changes by no more than this factor.
+    pub const WIDEST_RATIO: f64 = 2.0;
+}
+
+/// Formulas in intervals (`program/enclose.rs`).
+pub mod enclose {
+    /// Over more pieces of a table than this nothing is said of its columns.
+    pub const MOST_PIECES: f64 = 64.0;
+}
+
+/// States within a stretch (`analysis/results/places.rs`).
+pub mod places {
+    /// Corrections of a position at most, where the solver does not serve.
+    pub const ITERATIONS: usize = 10;
+    /// A position nearer than this to a singular one is taken from the way over it.
+    pub const SOLVABLE: f64 = 4e-3;
+}
+
+/// Cells (`analysis/results/survey.rs`).
+pub mod survey {
+    /// Looking at one formula, so many cells are cut at most: what needs more is not meant. One whose middle has to be solved for counts as
+    /// so many.
+    pub const MOST_CELLS: usize = 1_000_000;
+    pub const SOLVED: usize = 20;
+    /// No cell is shorter than this part of the span.
+    pub const SHORTEST: f64 = 4.0 * f64::EPSILON;
+    /// A stretch in which nothing can be solved for may be so long, as a part of the span.
+    pub const OPAQUE: f64 = 1e-6;
+    /// Values that differ by no more than this part of the range are the same.
+    pub const ALIKE: f64 = 1e-9;
+    /// What rounding makes of a value.
+    pub const ROUNDING: f64 = 32.0 * f64::EPSILON;
+}
+
+/// Extremes (`analysis/results/search.rs`).
+pub mod search {
+    /// A cell that can gain no more than this part of the range is not cut.
+    pub const GAP: f64 = 1e-11;
+    /// The same, where the formula has no derivative.
+    pub const GAP_OF_VALUES: f64 = 1e-9;
+    /// A time is certain to this part of the span.
+    pub const CERTAIN: f64 = 1e-13;
+    /// Corrections of a time at most.
+    pub const ITERATIONS: usize = 100;
+    /// An edge so little behind an extremum, as a part of the span, is the extremum, where the value is the same.
+    pub const BESIDE: f64 = 1e-7;
+}
+
+/// What is looked at as a coordinate is (`analysis/results/smooth.rs`).
+pub mod smooth {
+    /// Of no more factors than this.
+    pub const MOST_FACTORS: u32 = 6;
+    /// A cell in which a body turns farther than this (rad) says nothing of the sine of the turn.
+    pub const WIDEST_TURN: f64 = 0.25;
+}
+
+/// Exploring (`analysis/results/reduced.rs`).
+pub mod reduced {
+    /// A formula may go beyond what has been seen of it by this part of that before it is compared with its size; and so many cells are
+    /// looked at for that.
+    pub const SEEN: f64 = 0.25;
+    pub const MOST_LOOKS: usize = 1000;
+}
+
+/// Stretches (`analysis/results/mod.rs`).
+pub mod stretches {
+    /// So many stretches are looked at together.
+    pub const CHUNK: usize = 4096;
+}
+
+/// Integrals (`analysis/results/quadrature.rs`).
+pub mod quadrature {
+    /// An integral may be off by this part of range times time.
+    pub const ACCURACY: f64 = 1e-11;
+    /// A cell in which no value matters more than this part of range times span is as good as it need be.
+    pub const NEGLIGIBLE: f64 = 1e-13;
+    /// As little as that is nothing.
+    pub const NOTHING: f64 = 1e-290;
+    /// What rounding makes of a value.
+    pub const ROUNDING: f64 = 4.0 * f64::EPSILON;
+}
+
+/// Bends, and how large a value's rounding is (`analysis/results/formulas.rs`).
+pub mod formulas {
+    /// How much farther from a straight line a coordinate's last derivative may go between two states than it did in the middle of the
+    /// stretch that they are a half of: four times as far as a parabola would.
+    pub const SAFETY: f64 = 1.0;
+    /// What moves is moved by this part of itself to see how much a formula makes of its rounding; and in so many ways.
+    pub const MOVED: f64 = 1.0 / 1_048_576.0;
+    pub const WAYS: u32 = 3;
+}

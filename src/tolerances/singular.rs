@@ -1,0 +1,86 @@
+//! Singular positions on the way.
+
+/// Why steps vanish (`analysis/singular.rs`).
+pub mod reasons {
+    /// Below this the position is called singular, or as near to one as the steps could come.
+    pub const NEAR: f64 = 1e-2;
+    /// A relative curvature below this is taken for none, beside a position that is singular.
+    pub const FLAT: f64 = 1e-3;
+    /// A fold is no further off than this part of the span.
+    pub const NEAR_FOLD: f64 = 1e-5;
+    /// A formula has come to the end of what its function takes, or to a pole, if no more than this part of its terms is left.
+    pub const AT_HAND: f64 = 1e-6;
+    /// A part of the largest motion that is worth telling.
+    pub const SEEN: f64 = 1e-3;
+    /// A driver takes part in a dependency if its share is above this part of the largest.
+    pub const TAKES_PART: f64 = 1e-3;
+}
+
+/// The way over a singular position (`analysis/bridge.rs`).
+pub mod bridge {
+    /// A state nearer than this to a singular position is not clear of it.
+    ///
+    /// Rounding in Φ is multiplied by 1/σ in q, and by 1/σ again in each derivative: 8e-3 leaves nine digits.
+    pub const CLEAR: f64 = 8e-3;
+    /// A state nearer than this to a singular position cannot be solved for: rounding by 1/σ² is more than the accuracy promised.
+    pub const SOLVABLE: f64 = 1e-3;
+    /// Solving beside a singular position leaves more than eight digits of accelerations down to here.
+    pub const EXACT: f64 = 4e-3;
+    /// A curve's velocities and accelerations leave no more open of their equations, scaled, beside 1 or a part of the motion's
+    /// fastest.
+    pub const OPEN: [f64; 2] = [1e-8, 1e-6];
+    /// Steps back from a start beside a singular position at most, and how far each goes, scaled.
+    pub const STEPS_BACK: usize = 64;
+    pub const STEP_BACK: f64 = 2e-3;
+    /// How far beyond the singular position the first state is looked for, as parts of the way up to it.
+    pub const BEYOND: [f64; 4] = [0.7, 1.0, 2.0, 4.0];
+    /// The correction of the prediction beyond, as a part of the way, is at most this: other branches are further off.
+    pub const LARGEST_CORRECTION: f64 = 0.05;
+    /// The curve over the bridge leaves corrections of at most this part of the way at some places between. One that joins two
+    /// branches leaves more, be it that both touch each other.
+    pub const LARGEST_BETWEEN: f64 = 1e-4;
+    /// The time of a singular position is certain to this part of the bridge.
+    pub const CERTAIN: f64 = 1e-6;
+    pub const PLACES: [f64; 3] = [0.25, 0.5, 0.75];
+    /// Places at which a bridge is looked at for a singular position that is come to twice.
+    pub const PLACES_BETWEEN: usize = 24;
+    /// A determinant below this part of what it is at the ends has another sign, and does not just touch zero.
+    pub const BEYOND_ZERO: f64 = -1e-6;
+    /// Below this a curve that is more exact decides.
+    pub const NEARLY_ZERO: f64 = 1e-2;
+    /// Times at which the minimum of an even contact is looked for.
+    pub const LOOKS: usize = 80;
+    /// Newton steps to the minimum's place, and the distance of the places that its slope is taken from, as a part of the bridge.
+    pub const NEWTON_STEPS: usize = 8;
+    pub const SPREAD: f64 = 0.08;
+}
+
+/// The finer curve of a bridge (`analysis/finer.rs`).
+pub mod finer {
+    /// The outer states are so far from the ends of the bridge, as a part of its length.
+    pub const OUTWARD: f64 = 0.7;
+    /// Steps to an outer state.
+    pub const STEPS: usize = 8;
+    /// The curve's accelerations are this exact where they can be solved for, beside their size or 1, scaled; and its velocities.
+    pub const EXACT: f64 = 2e-9;
+}
+
+/// Whether there are positions all the way (`analysis/reach.rs`).
+pub mod reach {
+    /// Corrections of a position beside the curve at most; each must come down to this part of the one before.
+    pub const CORRECTIONS: usize = 60;
+    pub const CONTRACTS: f64 = 0.7;
+    /// A correction below this, scaled, leaves nothing in λ.
+    pub const SETTLED: f64 = 1e-13;
+    /// Times within the bridge at which the free motion's way is taken.
+    pub const SAMPLES: usize = 9;
+    /// An extremum is looked for by parabolas, each over this part of the way of the one before: in time, where it is near to the
+    /// singular position's, and on the free motion's way.
+    pub const PARABOLAS_IN_TIME: usize = 2;
+    pub const PARABOLAS: usize = 3;
+    pub const NARROWER: f64 = 0.05;
+    /// Rows take part in a dependency from this part of the largest on.
+    pub const TAKES_PART: f64 = 0.1;
+    /// So many times what may be left of the equations is not told from nothing.
+    pub const MARGIN: f64 = 4.0;
+}

@@ -1,0 +1,92 @@
+//! Solving for a row.
+
+/// Orders of elimination (`solver/order.rs`).
+pub mod order {
+    /// A pivot is at least this part of the largest entry in its column, where it is chosen.
+    pub const THRESHOLD: f64 = 0.25;
+    /// What stands for a pivot that vanishes.
+    pub const LEAST_PIVOT: f64 = 1e-18;
+    /// Rows among which a pivot is looked for.
+    pub const CANDIDATES: usize = 4;
+}
+
+/// Coordinates that Newton solves for (`solver/tear.rs`).
+pub mod tear {
+    /// Rows in which a tear is looked for.
+    pub const CANDIDATES: usize = 64;
+}
+
+/// The grid of tears (`solver/build.rs`).
+pub mod build {
+    /// The cell of a grid is this part of what a coordinate is judged against. The half of its square is below rounding.
+    pub const CELL: f64 = 1.0 / 134_217_728.0;
+    /// Within a cell that is no wider the sine is a parabola, to rounding.
+    pub const WIDEST_CELL: f64 = 8.0 * CELL;
+}
+
+/// Multipliers, and how large a solver may be (`solver/mod.rs`).
+pub mod solver {
+    /// A scaled multiplier of an elimination beyond this loses digits.
+    pub const LARGEST_MULTIPLIER: f64 = 16.0;
+    /// A system whose elimination takes more operations than this is not laid out.
+    pub const MOST_OPERATIONS: usize = 30_000_000;
+}
+
+/// Newton in lanes (`solver/lanes.rs`).
+pub mod lanes {
+    /// Iterations of a block at most.
+    pub const ITERATIONS: usize = 6;
+    /// Largest first correction, scaled: the curve of a step is nearer than this.
+    pub const LARGEST_CORRECTION: f64 = 0.05;
+    /// A correction of just half a cell, to rounding, stays in it.
+    pub const HALF_A_CELL: f64 = 0.5 + 1e-6;
+}
+
+/// Blocks that are pivoted (`solver/pivoting.rs`).
+pub mod pivoting {
+    /// Larger blocks are not solved this way.
+    pub const LARGEST_BLOCK: usize = 100;
+}
+
+/// Output times, solved for together (`analysis/rows.rs`).
+pub mod rows {
+    /// Times that are solved at once.
+    pub const LANES: usize = 16;
+    /// A solver with so many operations is worth a thread for every so many times, up to as many threads.
+    #[cfg(feature = "threads")]
+    pub const WORTH_A_THREAD: usize = 20_000;
+    #[cfg(feature = "threads")]
+    pub const MOST_THREADS: usize = 8;
+    /// A step below this part of the span is short.
+    pub const SHORT: f64 = 1e-4;
+    /// So many rows within a step show what its curve is worth.
+    pub const ENOUGH: u64 = 4;
+    /// A row that is solved for once more may change by so much, beside its size or 1.
+    pub const REFINED: f64 = 1e-8;
+    /// Steps that are tried behind a row that cannot be printed, to tell why.
+    pub const STEPS_AHEAD: usize = 1_000;
+}
+
+/// Rows that are in doubt (`analysis/trust.rs`).
+pub mod trust {
+    /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
+    pub const ACCURACY: f64 = 1e-9;
+    /// A velocity is in doubt if it may be off by more than this, beside its size or 1; an acceleration likewise.
+    pub const VELOCITY: f64 = 1e-8;
+    pub const ACCELERATION: f64 = 4e-7;
+    /// What is slow counts for no less than this part of the motion's fastest: rounding grows with that.
+    pub const SLOW: f64 = 1.0 / 64.0;
+    /// Farther from a singular position than this rounding does not come so far.
+    pub const FAR: f64 = 1.5e-3;
+}
+
+/// Rows solved for again, for they are in doubt (`analysis/doubt.rs`).
+pub mod doubt {
+    /// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
+    pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];
+    /// A row is solved for again from so many places, which are so far from each other, scaled.
+    pub const PLACES: usize = 16;
+    pub const CELL: f64 = super::build::CELL;
+    /// A correction of a place on the way over a singular position is at most this part of the distance from that, scaled.
+    pub const NEAREST_BRANCH: f64 = 0.05;
+}
