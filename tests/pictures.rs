@@ -10,8 +10,8 @@ use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
 };
-use mechc::rooms::view::dxf;
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, plots, still};
+use mechc::rooms::view::{dxf, first_sentence};
 use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
@@ -628,8 +628,66 @@ fn a_film_has_a_picture_of_each_row() {
     assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
 }
 
-/// Pictures that a reviewer reads, and the one of the docs.
-fn goldens() -> Vec<(&'static str, String)> {
+/// What the pictures of some examples show beside what these ask for: the point that an example is there for.
+const TRACED: [(&str, &str); 5] = [
+    ("hoeken", "coupler.pen"),
+    ("pantograph", "lower.pen"),
+    ("peaucellier", "side_PD.P"),
+    ("planetary_gear", "planet.pen"),
+    ("trammel", "bar.pen"),
+];
+
+/// Where the gallery's pictures are.
+const GALLERY: &str = "docs/gallery";
+
+/// What the pictures of the gallery weigh together at the most (bytes).
+const HEAVIEST_GALLERY: usize = 2_000_000;
+
+const GALLERY_INTRODUCTION: &str = "\
+# Gallery
+
+The mechanisms of `examples/` as `mechc view` draws them, with the command below each. The pictures are plain SVG without a script: they
+move wherever a browser shows them, this page included, in light and in dark. With `-o NAME.html` in place of `-o NAME.svg` one gets a page
+to play with.
+";
+
+/// The page of all examples, and their pictures.
+fn gallery() -> Vec<(String, String)> {
+    let (mut page, mut pictures) = (GALLERY_INTRODUCTION.to_owned(), Vec::new());
+    for (name, seen) in examples() {
+        let traced = TRACED.iter().find(|(example, _)| *example == name).map(|(_, path)| *path);
+        let anchored = traced.map(|path| {
+            let point = seen.scene.point_named(path).expect("a point of the example");
+            (path.to_owned(), Anchor { frame: point.frame, at: point.at })
+        });
+        let options = Options { traces: anchored.into_iter().collect(), ..Options::default() };
+        pictures.push((format!("{GALLERY}/{name}.svg"), animated(&seen.scene, &seen.motion, &options)));
+        let title = name[..1].to_uppercase() + &name[1..].replace('_', " ");
+        let docs = seen.scene.docs.join("\n");
+        let (first, _) = first_sentence(&docs);
+        let trace = traced.map_or(String::new(), |path| format!(" --trace {path}"));
+        let text = format!("[`{name}.mech`](../examples/{name}.mech)");
+        let command = format!("`mechc view examples/{name}.mech{trace} -o {name}.svg`");
+        page += &format!("\n## {title}\n\n{first}\n\n![{title}, moving](gallery/{name}.svg)\n\n{text}: {command}\n");
+    }
+    pictures.push(("docs/gallery.md".to_owned(), page));
+    pictures
+}
+
+#[test]
+fn the_gallery_has_all_examples_and_nothing_else() {
+    let gallery = gallery();
+    let pictures = || gallery.iter().filter(|(path, _)| path.starts_with(GALLERY) && path.ends_with(".svg"));
+    let weight: usize = pictures().map(|(_, drawn)| drawn.len()).sum();
+    assert!(weight <= HEAVIEST_GALLERY, "{weight} bytes");
+    for path in files(GALLERY, "svg") {
+        let name = format!("{GALLERY}/{}.svg", stem(&path));
+        assert!(pictures().any(|(known, _)| *known == name), "{name} is of no example");
+    }
+}
+
+/// Pictures that a reviewer reads, and those of the docs.
+fn goldens() -> Vec<(String, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
     let (symbols, rest, captions) = catalogue(span);
     let of_symbols = Options { captions, ..Options::default() };
@@ -637,24 +695,24 @@ fn goldens() -> Vec<(&'static str, String)> {
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
     let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
-    vec![
+    let others = [
         ("docs/symbols.svg", still(&symbols, &rest, &rest, &of_symbols)),
         ("tests/pictures/hoeken.svg", still(&hoeken.scene, &hoeken.motion, &one_row(&hoeken, 0), &labelled)),
         (
             "tests/pictures/slider_crank.plots.svg",
             plots(&slider_crank.scene, &slider_crank.motion.times, &measures(&slider_crank), &Options::default()),
         ),
-        ("tests/pictures/slider_crank.svg", animated(&slider_crank.scene, &slider_crank.motion, &Options::default())),
-    ]
+    ];
+    gallery().into_iter().chain(others.map(|(path, drawn)| (path.to_owned(), drawn))).collect()
 }
 
 #[test]
 fn goldens_are_what_is_drawn() {
     for (path, drawn) in goldens() {
         if std::env::var_os("UPDATE_GOLDENS").is_some() {
-            fs::write(path, &drawn).expect("written");
+            fs::write(&path, &drawn).expect("written");
         }
-        let golden = fs::read_to_string(path).expect("a golden");
+        let golden = fs::read_to_string(&path).expect("a golden");
         assert!(
             golden == drawn,
             "{path} is not what is drawn now; UPDATE_GOLDENS=1 cargo test --test pictures writes it"

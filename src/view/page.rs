@@ -9,7 +9,7 @@ mod json;
 mod places;
 mod still;
 
-use super::escaped;
+use super::{escaped, first_sentence};
 use crate::diag::Diagnostic;
 use crate::scene::{Motion, Scene};
 use crate::source::{FileId, Source};
@@ -137,14 +137,11 @@ fn filled(template: &str, parts: &[(&str, String)]) -> String {
 /// The text of the `///` lines: its first sentence, and the rest for who asks for it.
 fn docs(lines: &[String]) -> String {
     let text = lines.join("\n");
-    let text = text.trim();
-    if text.is_empty() {
+    let (first, rest) = first_sentence(&text);
+    if first.is_empty() {
         return String::new();
     }
-    let end = text.find(". ").into_iter().chain(text.find(".\n")).min().map_or(text.len(), |dot| dot + 1);
-    let (first, rest) = text.split_at(end);
     let first = format!("<p>{}</p>", escaped(first));
-    let rest = rest.trim();
     if rest.is_empty() {
         return format!("<div class=\"docs\">{first}</div>");
     }
