@@ -69,7 +69,13 @@ impl Scene {
     /// What there is to draw of a mechanism that moves so; the motion has one row at least.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        whole::scene(model, motion)
+        whole::scene(model, motion, None)
+    }
+
+    /// The same with symbols of a size (m), be the motion as large as it may.
+    #[must_use]
+    pub fn with_symbols(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
+        whole::scene(model, motion, Some(unit))
     }
 
     /// One body by itself in its own frame, with all that is fixed to it, and the moment at which it is drawn.

@@ -9,7 +9,8 @@ use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 /// Rows that are looked at for the extent of everything.
 const LOOKED_AT: usize = 100;
 
-pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
+/// With symbols of a size, if one is given (m).
+pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
     let features = Features::of(model);
     let (declarations, first) = declarations(model);
     let (points, numbers) = points(&features);
@@ -21,7 +22,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
         }
     }
     add_idle_points(&features, &mut outlines);
-    let unit = sizes::unit(&features, motion, &outlines);
+    let unit = size.unwrap_or_else(|| sizes::unit(&features, motion, &outlines));
     let (feet, profiles, fine, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, fine, numbers, first, nodes };
     gears::draw(&mut drawing);

@@ -72,6 +72,14 @@ impl Checked {
         (Some(Seen { scene, motion, columns, units, all_rows, stopped, results, texts }), said)
     }
 
+    /// What there is to draw of a motion of it with symbols of a size (m); nothing where it is not sound.
+    #[must_use]
+    pub fn drawn_with_symbols(&self, motion: &Motion, unit: f64) -> Option<Scene> {
+        let mut scene = Scene::with_symbols(self.model()?, motion, unit);
+        self.widen_places(&mut scene);
+        Some(scene)
+    }
+
     /// A scene of what is drawn in the text, without any motion; nothing where it is not sound.
     #[must_use]
     pub fn seen_as_drawn(&self) -> Option<(Scene, Motion)> {
