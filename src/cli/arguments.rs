@@ -23,10 +23,13 @@ Exit codes:
 ///
 /// It shows that a mechanism is determined, and computes its motion: position, velocity and acceleration.
 #[derive(Parser, Debug)]
-#[command(name = "mechc", version, after_help = AFTER_HELP)]
+#[command(name = "mechc", version, after_help = AFTER_HELP, arg_required_else_help = true, args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
+    /// Print the licences of what this program carries
+    #[arg(long, display_order = 100)]
+    licenses: bool,
 }
 
 #[derive(Subcommand, Debug)]
@@ -80,7 +83,10 @@ pub(super) enum Command {
         any name. A number in the name, as in frames/%04d.svg, asks for a picture of each row, counted from 0, for a film; their folder is \
         made. OUT.dxf holds traces, the lines of cams, the outlines of gears as polylines within 1 µm, and the places of pins, in \
         millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
-        that holds all of it and needs nothing else.\n\n\
+        that needs nothing else: the mechanism moves as its reader likes, beside plots of any column, vectors, results and the text.\n\n\
+        --vary gives that page a slider for a param, or two. The mechanism is solved for each of its values beforehand, and all that is in \
+        the page, whose size is told; it has 20 MB at most, for which rows are left out. The slider begins at the file's own value, or at \
+        the nearest. Of a value with which the mechanism cannot be assembled or stops, the page shows why, and the others do not mind.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
         cannot go on, the picture shows it up to there, and the exit code is 3.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
@@ -88,7 +94,8 @@ pub(super) enum Command {
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
         mechc view linkage.mech -o plots.svg\n  mechc view linkage.mech -o frames/%04d.svg --every 40ms\n  \
         mechc view linkage.mech -o crank.svg --body crank --scale 1:2\n  mechc view camshaft.mech -o cam.dxf --body cam\n  \
-        mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms"
+        mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms\n  \
+        mechc view linkage.mech -o rods.html --vary rod_length=120mm..180mm:13"
     )]
     View(ViewArguments),
     /// Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON
@@ -415,6 +422,11 @@ pub(super) struct ViewArguments {
     /// Where the picture goes; its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<String>,
+
+    /// A slider on the page for a parameter: N values from A to B, each solved beforehand: `--vary rod_length=120mm..180mm:13`. Twice
+    /// at most
+    #[arg(long, value_name = "NAME=A..B:N", allow_hyphen_values = true)]
+    pub vary: Vec<String>,
 
     /// Plots of all measures over time, whatever OUT.svg is called
     #[arg(long, conflicts_with_all = ["at", "trace", "vectors", "labels", "scale", "body"])]

@@ -144,7 +144,7 @@ impl Reader<'_> {
         let nearest = own.map_or(0, |own| nearest(&values, own));
         let step = (values[1] - values[0]).abs();
         let own = own.filter(|own| own.is_finite() && (own - values[nearest]).abs() > SAME * step).map(rounded);
-        let unit = if unit.is_empty() { "1".to_owned() } else { unit };
+        let unit = if unit.is_empty() || unit.starts_with('/') { format!("1{unit}") } else { unit };
         Ok(Varied { name: name.clone(), unit, values, settings, nearest, own })
     }
 
@@ -204,8 +204,11 @@ fn number_and_unit(text: &str) -> Option<(f64, &str)> {
     let (value, unit) = ends
         .map(|end| text.split_at(end))
         .find_map(|(number, unit)| Some((number.parse::<f64>().ok().filter(|_| is_numeric(number))?, unit.trim())))?;
-    let is_unit = unit.chars().all(|c| c.is_alphanumeric() || matches!(c, '/' | '^' | '°'));
-    (is_unit && !unit.starts_with(|c: char| c.is_ascii_digit() || c == '^')).then_some((value, unit))
+    let is_word = |word: &str| word.chars().all(char::is_alphabetic) && !word.is_empty();
+    let is_power = |part: &str| is_word(part.split_once('^').map_or(part, |(word, _)| word));
+    let mut parts = unit.split('/');
+    let is_unit = parts.next().is_some_and(|first| first.is_empty() || is_power(first)) && parts.all(is_power);
+    is_unit.then_some((value, unit))
 }
 
 /// The SI unit of a dimension, empty for a pure number.
@@ -311,7 +314,7 @@ mod tests {
             ("speed=0..10 rpm:2", "rpm", [0.0, 10.0], "speed=10 rpm"),
             ("length=40mm..0.06m:2", "m", [0.04, 0.06], "length=0.06 m"),
             ("length=2*20mm..60mm:2", "m", [0.04, 0.06], "length=0.06 m"),
-            ("speed=1/s..180 deg/s / 30:2", "/s", [0.104_719_755_119_659_77, 1.0], "speed=1/s"),
+            ("speed=1/s..180 deg/s / 30:2", "1/s", [0.104_719_755_119_659_77, 1.0], "speed=1/s"),
             ("A.x=-1e1mm..+5mm:2", "mm", [-10.0, 5.0], "A.x=5 mm"),
         ] {
             let found = one(asked);
@@ -360,7 +363,8 @@ mod tests {
             ("3", Some((3.0, ""))),
             ("90 deg/s", Some((90.0, "deg/s"))),
             ("2*3mm", None),
-            ("1/3", Some((1.0, "/3"))),
+            ("1/3", None),
+            ("2 mm^2", Some((2.0, "mm^2"))),
             ("inf", None),
             ("4 mm + 1 mm", None),
         ] {

@@ -18,7 +18,7 @@ use crate::source::{FileId, Source};
 pub const FORMAT: u32 = 1;
 
 /// The longest page (bytes): of more than that rows are left out.
-const LONGEST: usize = 20_000_000;
+pub const LONGEST: usize = 20_000_000;
 /// Rows are left out of a page that is too long no more often than this.
 const MOST_THINNINGS: usize = 6;
 
@@ -63,8 +63,10 @@ pub struct Vary {
     pub unit: String,
     /// In the unit, rising.
     pub values: Vec<f64>,
-    /// Which of them the page begins with.
-    pub own: usize,
+    /// Which of them the page begins with: the one nearest to the file's own.
+    pub nearest: usize,
+    /// The file's own value, in the unit, where it is none of them.
+    pub own: Option<f64>,
 }
 
 /// One motion.
@@ -89,6 +91,12 @@ impl Page<'_> {
         self.at_most(LONGEST)
     }
 
+    /// The variant that it begins with.
+    fn first(&self) -> Option<&Variant<'_>> {
+        let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);
+        self.variants.get(place)
+    }
+
     /// Rows are left out until it is no longer than so many bytes, as far as that goes.
     fn at_most(&self, longest: usize) -> String {
         let mut every = 1;
@@ -105,7 +113,7 @@ impl Page<'_> {
     }
 
     fn with_every(&self, every: usize) -> String {
-        let Some(first) = self.variants.first() else { return String::new() };
+        let Some(first) = self.first() else { return String::new() };
         let parts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("title", escaped(&first.scene.name).into_owned()),

@@ -3,6 +3,7 @@
 mod form;
 mod frames;
 mod page;
+mod variants;
 mod wanted;
 
 use super::arguments::ViewArguments;
@@ -29,6 +30,9 @@ const MOST_ROWS: usize = 2000;
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let output = form::output(arguments)?;
     let form = form::form(output, arguments)?;
+    if !arguments.vary.is_empty() {
+        return variants::view(arguments, output, reporter);
+    }
     let frames = Frames::of(output).filter(|_| form == Form::Picture);
     let (mut timings, given) = (Timings::new(false), &arguments.input);
     let parsed = input::parsed(given, reporter)?;

@@ -1,0 +1,197 @@
+//! A page with sliders: a mechanism solved for each value of what varies.
+
+use super::{MOST_ROWS, page};
+use crate::analysis::Times;
+use crate::cli::arguments::ViewArguments;
+use crate::cli::failure::{Failure, unusable};
+use crate::cli::files::{AskedOnce, Output};
+use crate::cli::input;
+use crate::cli::progress::Progress;
+use crate::cli::report::Reporter;
+use crate::cli::times::Bounds;
+use crate::diag::{Diagnostic, Diagnostics, Format, Severity};
+use crate::scene::{Motion, Pose, Scene};
+use crate::source::Sources;
+use crate::stages::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
+use crate::view::page::{LONGEST, Variant, Vary};
+use std::io::Write;
+use std::mem::ManuallyDrop;
+
+/// So many numbers all tables have together at the most, which is more than goes into a page; the rest need not be kept.
+const MOST_NUMBERS: usize = 10_000_000;
+
+pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Reporter) -> Result<(), Failure> {
+    let (parsed, world) = (input::parsed(&arguments.input, reporter)?, AskedOnce::default());
+    let choice = input::choice(&arguments.input, &[]);
+    let own = input::checked_in(&parsed, &choice, &world, reporter)?;
+    let varied = own.varied(&arguments.vary, &choice, &world).map_err(|(sources, said)| {
+        reporter.sources = sources;
+        said
+    })?;
+    let mut file = Output::open(output, &reporter.spared())?;
+    let solver = Solver { arguments, parsed: &parsed, choice: &choice, world: &world, varied: &varied };
+    let (variants, first) = solver.all(reporter)?;
+    let text = solver.page(&variants, first, &reporter.sources)?;
+    file.writer().write_all(text.as_bytes()).map_err(|error| file.failure(&error))?;
+    file.close()?;
+    solver.tell(&variants, text.len(), reporter);
+    match &variants[first].stopped {
+        Some((sources, why)) => {
+            reporter.sources = sources.clone();
+            Err(why.clone().into())
+        }
+        None => Ok(()),
+    }
+}
+
+/// A variant as it is shown.
+struct Solved {
+    seen: Seen,
+    /// Why its motion is not there, or not all of it, with the texts that this speaks of.
+    stopped: Option<(Sources, Diagnostics)>,
+}
+
+/// What the variants have in common.
+struct Solver<'s> {
+    arguments: &'s ViewArguments,
+    parsed: &'s Parsed,
+    choice: &'s Choice,
+    world: &'s AskedOnce,
+    varied: &'s [Varied],
+}
+
+impl Solver<'_> {
+    fn count(&self) -> usize {
+        self.varied.iter().map(|varied| varied.values.len()).product()
+    }
+
+    /// Which value of each that varies a variant has: in the order of the product, the last fastest.
+    fn places(&self, variant: usize) -> Vec<usize> {
+        let mut rest = variant;
+        let place = |varied: &Varied| {
+            let place = rest % varied.values.len();
+            rest /= varied.values.len();
+            place
+        };
+        let mut places: Vec<usize> = self.varied.iter().rev().map(place).collect();
+        places.reverse();
+        places
+    }
+
+    /// What sets a variant, as messages and the check have it.
+    fn settings(&self, variant: usize) -> Vec<String> {
+        let places = self.places(variant);
+        self.varied.iter().zip(places).map(|(varied, place)| varied.settings[place].clone()).collect()
+    }
+
+    /// All variants, and which of them is the first to be shown.
+    fn all(&self, reporter: &Reporter) -> Result<(Vec<Solved>, usize), Failure> {
+        let first = self.varied.iter().fold(0, |place, varied| place * varied.values.len() + varied.nearest);
+        let (checked, made, said) = self.made(first, MOST_ROWS);
+        let begun = reporter.settle_with(made, said, checked.sources())?;
+        let most = (MOST_NUMBERS / (self.count() * begun.columns.len())).clamp(2, MOST_ROWS);
+        let progress = &mut Progress::of("variants", self.count() as u64, false);
+        let mut all = Vec::with_capacity(self.count());
+        for variant in 0..self.count() {
+            let (checked, made, said) = self.made(variant, most);
+            let seen = made.unwrap_or_else(|| without_motion(&checked, &begun));
+            if seen.columns != begun.columns {
+                progress.finish();
+                return Err(of_other_columns(&self.settings(variant)).into());
+            }
+            all.push((checked, seen, said));
+            progress.tick();
+        }
+        progress.finish();
+        Ok((alike(all), first))
+    }
+
+    /// A variant and its motion, if it has one, with what is to be said of it.
+    fn made(&self, variant: usize, most: usize) -> (ManuallyDrop<Checked>, Option<Seen>, Diagnostics) {
+        let choice = Choice { varied: self.settings(variant), ..self.choice.clone() };
+        // see `run`: nothing is taken apart before the process ends
+        let checked = ManuallyDrop::new(self.parsed.check(&choice, self.world));
+        let mut said = checked.diagnostics().clone();
+        if !checked.is_sound() {
+            return (checked, None, said);
+        }
+        let (compiled, more) = input::proven(&checked, self.arguments.allow_redundant);
+        said.extend(more);
+        let Some(compiled) = compiled else { return (checked, None, said) };
+        let seen = match self.times(&checked, &compiled) {
+            Ok(times) => {
+                let pass_bifurcations = self.arguments.pass_bifurcations;
+                let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
+                let (seen, more) = checked.seen(&compiled, &times, &options, most);
+                said.extend(more);
+                seen
+            }
+            Err(why) => {
+                said.extend(why);
+                None
+            }
+        };
+        (checked, seen, said)
+    }
+
+    /// Its times, which may depend on what varies.
+    fn times(&self, checked: &Checked, compiled: &Compiled) -> Result<Times, Diagnostics> {
+        let (arguments, mut sources) = (self.arguments, checked.sources().clone());
+        let times = Bounds::of(&arguments.interval, compiled.analysis(), &mut sources)
+            .and_then(|bounds| bounds.whole(bounds.listed(&arguments.at, &mut sources)?.as_ref()));
+        times.map_err(|why| match why {
+            Failure::Said(said) => said,
+            Failure::ReaderGone => Diagnostics::default(),
+        })
+    }
+
+    fn page(&self, variants: &[Solved], first: usize, sources: &Sources) -> Result<String, Failure> {
+        let vary = |varied: &Varied| {
+            let Varied { name, unit, values, nearest, own, .. } = varied.clone();
+            Vary { name, unit, values, nearest, own }
+        };
+        let shown = |solved: &'_ Solved| -> Variant<'_> { todo!() };
+        let _ = shown;
+        let shown: Vec<Variant> = variants.iter().map(Solved::shown).collect();
+        let text = page::written_with(&variants[first].seen, self.varied.iter().map(vary).collect(), shown, sources);
+        if text.len() > LONGEST {
+            let said = format!("the page of {} variants would have {} MB", variants.len(), text.len().div_ceil(1_000_000));
+            let help = format!("it has {} at most: ask for fewer values", LONGEST / 1_000_000);
+            return Err(unusable(said).help(help).into());
+        }
+        Ok(text)
+    }
+
+    /// How large the page is, and which variants are not whole.
+    fn tell(&self, variants: &[Solved], size: usize, reporter: &Reporter) {
+        let broken: Vec<usize> = (0..variants.len()).filter(|&variant| variants[variant].stopped.is_some()).collect();
+        let why = broken.first().and_then(|&variant| Some((variant, variants[variant].stopped.as_ref()?)));
+        if reporter.is_for_programs() {
+            if let Some((_, (sources, said))) = why {
+                reporter.print_with(said, sources);
+            }
+            return;
+        }
+        let count = variants.len();
+        let mut told = format!("{count} variants, {} kB\n", size.div_ceil(1000));
+        if let Some((variant, (_, said))) = why {
+            let with = self.settings(variant).join(", ");
+            told += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", broken.len());
+            if let Some(error) = error_of(said) {
+                told += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
+            }
+        }
+        Reporter::say(&told);
+    }
+}
+
+impl Solved {
+    fn shown(&self) -> Variant<'_> {
+        let stopped = self.stopped.iter().flat_map(|(_, said)| said.iter());
+        Variant { messages: stopped.collect(), ..page::variant(&self.seen) }
+    }
+}
+
+fn error_of(said: &Diagnostics) -> Option<&Diagnostic> {
+    said.iter().find(|said| said.severity() == Severity::Error)
+}
