@@ -98,6 +98,9 @@ export interface Message {
     time?: number;
 }
 
+/** What makes one value of another: another one in an array of one, or what changes in an object or array, by key or place. */
+export type Changes = [unknown] | { [key: string]: Changes };
+
 export interface Variant {
     rows: number;
     data: string;
@@ -106,8 +109,8 @@ export interface Variant {
     edges: number[];
     /** Where the frames are (x, y, phi of each) if there is no row: as they are drawn in the text. */
     drawn?: [number, number, number][];
-    /** Where it is not the file's own. */
-    scene?: Scene;
+    /** What its scene has that the page's has not. */
+    scene?: Changes;
 }
 
 export interface Vary {
@@ -115,8 +118,10 @@ export interface Vary {
     unit: string;
     /** In the unit. */
     values: number[];
-    /** Which of them the file's own is nearest to. */
-    own: number;
+    /** Which of them the page begins with: the one nearest to the file's own. */
+    nearest: number;
+    /** The file's own, where it is none of them. */
+    own: number | null;
 }
 
 export interface Page {

@@ -220,8 +220,8 @@ test("a run that stops says when and why, and marks the scrubber", async () => {
 function varied() {
     const lengths = Array.from({ length: 11 }, (_, k) => 0.33 + 0.004 * k);
     const all = lengths.map((length) => fourBar({ rows: 1000, lengths: [0.1, length, 0.3, 0.4] }));
-    const variants = all.map((page) => ({ ...page.variants[0], scene: page.scene }));
-    return { ...all[5], vary: [{ name: "length", unit: "mm", values: lengths.map((length) => 1000 * length), own: 5 }], variants };
+    const variants = all.map((page) => ({ ...page.variants[0], scene: [page.scene] }));
+    return { ...all[5], vary: [{ name: "length", unit: "mm", values: lengths.map((length) => 1000 * length), nearest: 5, own: null }], variants };
 }
 
 test("variants: the slider sets them, within a frame or two", async () => {

@@ -9,8 +9,8 @@ use crate::cli::input;
 use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
 use crate::cli::times::Bounds;
-use crate::diag::{Diagnostic, Diagnostics, Format, Severity};
-use crate::scene::{Motion, Pose, Scene};
+use crate::diag::{Diagnostic, Diagnostics, Severity};
+use crate::scene::{Motion, Pose, bounds};
 use crate::source::Sources;
 use crate::stages::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
 use crate::view::page::{LONGEST, Variant, Vary};
@@ -85,21 +85,27 @@ impl Solver<'_> {
     }
 
     /// All variants, and which of them is the first to be shown.
-    fn all(&self, reporter: &Reporter) -> Result<(Vec<Solved>, usize), Failure> {
+    fn all(&self, reporter: &mut Reporter) -> Result<(Vec<Solved>, usize), Failure> {
         let first = self.varied.iter().fold(0, |place, varied| place * varied.values.len() + varied.nearest);
         let (checked, made, said) = self.made(first, MOST_ROWS);
-        let begun = reporter.settle_with(made, said, checked.sources())?;
+        reporter.sources = checked.sources().clone();
+        let begun = reporter.settle(made, said)?;
         let most = (MOST_NUMBERS / (self.count() * begun.columns.len())).clamp(2, MOST_ROWS);
         let progress = &mut Progress::of("variants", self.count() as u64, false);
         let mut all = Vec::with_capacity(self.count());
         for variant in 0..self.count() {
             let (checked, made, said) = self.made(variant, most);
+            let mut errors = Diagnostics::default();
+            let stop = made.as_ref().and_then(|seen| seen.stopped.as_ref());
+            let whys = if made.is_none() { said.iter().filter(is_error).collect() } else { Vec::from_iter(stop) };
+            whys.into_iter().for_each(|why| errors.push(why.clone()));
+            let stopped = (!errors.is_empty()).then(|| (checked.sources().clone(), errors));
             let seen = made.unwrap_or_else(|| without_motion(&checked, &begun));
             if seen.columns != begun.columns {
                 progress.finish();
                 return Err(of_other_columns(&self.settings(variant)).into());
             }
-            all.push((checked, seen, said));
+            all.push((checked, Solved { seen, stopped }));
             progress.tick();
         }
         progress.finish();
@@ -150,8 +156,6 @@ impl Solver<'_> {
             let Varied { name, unit, values, nearest, own, .. } = varied.clone();
             Vary { name, unit, values, nearest, own }
         };
-        let shown = |solved: &'_ Solved| -> Variant<'_> { todo!() };
-        let _ = shown;
         let shown: Vec<Variant> = variants.iter().map(Solved::shown).collect();
         let text = page::written_with(&variants[first].seen, self.varied.iter().map(vary).collect(), shown, sources);
         if text.len() > LONGEST {
@@ -163,12 +167,13 @@ impl Solver<'_> {
     }
 
     /// How large the page is, and which variants are not whole.
-    fn tell(&self, variants: &[Solved], size: usize, reporter: &Reporter) {
+    fn tell(&self, variants: &[Solved], size: usize, reporter: &mut Reporter) {
         let broken: Vec<usize> = (0..variants.len()).filter(|&variant| variants[variant].stopped.is_some()).collect();
         let why = broken.first().and_then(|&variant| Some((variant, variants[variant].stopped.as_ref()?)));
         if reporter.is_for_programs() {
             if let Some((_, (sources, said))) = why {
-                reporter.print_with(said, sources);
+                reporter.sources = sources.clone();
+                reporter.print(said);
             }
             return;
         }
@@ -177,7 +182,7 @@ impl Solver<'_> {
         if let Some((variant, (_, said))) = why {
             let with = self.settings(variant).join(", ");
             told += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", broken.len());
-            if let Some(error) = error_of(said) {
+            if let Some(error) = said.iter().find(is_error) {
                 told += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
             }
         }
@@ -192,6 +197,47 @@ impl Solved {
     }
 }
 
-fn error_of(said: &Diagnostics) -> Option<&Diagnostic> {
-    said.iter().find(|said| said.severity() == Severity::Error)
+fn is_error(said: &&Diagnostic) -> bool {
+    said.severity() == Severity::Error
+}
+
+/// What is seen of a variant without a motion: what is drawn in the text, if that is sound, or else nothing but the text.
+fn without_motion(checked: &Checked, begun: &Seen) -> Seen {
+    let (scene, motion) = checked.seen_as_drawn().unwrap_or_else(|| {
+        let mut scene = begun.scene.clone();
+        scene.frames.truncate(1);
+        scene.points.clear();
+        scene.nodes.clear();
+        scene.traces.clear();
+        scene.profiles.clear();
+        (scene, Motion::still(vec![Pose::default()]))
+    });
+    let results = begun.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
+    Seen { scene, motion, all_rows: 0, stopped: None, results, ..begun.clone() }
+}
+
+/// All have symbols of one size and the extent of all, so that nothing jumps when a slider moves.
+fn alike(all: Vec<(ManuallyDrop<Checked>, Solved)>) -> Vec<Solved> {
+    let has_moved = |seen: &Seen| !seen.motion.rows().is_empty();
+    let mut units: Vec<f64> =
+        all.iter().filter(|(_, solved)| has_moved(&solved.seen)).map(|(_, solved)| solved.seen.scene.unit).collect();
+    units.sort_by(f64::total_cmp);
+    let unit = units.get(units.len() / 2).copied();
+    let redrawn = |(checked, mut solved): (ManuallyDrop<Checked>, Solved)| {
+        let motion = &solved.seen.motion;
+        let scene = unit.filter(|_| has_moved(&solved.seen)).and_then(|unit| checked.drawn_with_symbols(motion, unit));
+        solved.seen.scene = scene.unwrap_or(solved.seen.scene);
+        solved
+    };
+    let mut all: Vec<Solved> = all.into_iter().map(redrawn).collect();
+    let drawn = all.iter().map(|solved| &solved.seen.scene).filter(|scene| !scene.nodes.is_empty());
+    if let Some(extent) = bounds(drawn.flat_map(|scene| scene.extent)) {
+        all.iter_mut().for_each(|solved| solved.seen.scene.extent = extent);
+    }
+    all
+}
+
+fn of_other_columns(settings: &[String]) -> Diagnostic {
+    unusable(format!("with {} there are other columns, and one page cannot show both", settings.join(", ")))
+        .help("write a page for each, with `--set`")
 }
