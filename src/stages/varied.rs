@@ -156,7 +156,8 @@ impl Reader<'_> {
         let sources = checked.sources();
         let is_of_option = |said: &&Diagnostic| {
             let source = said.labels.first().map(|label| sources.get(label.span.file));
-            said.severity() == Severity::Error && source.is_some_and(|source| source.is_option && source.name.starts_with(VARY))
+            said.severity() == Severity::Error
+                && source.is_some_and(|source| source.is_option && source.name.starts_with(VARY))
         };
         let mut wrong = Diagnostics::default();
         checked.diagnostics().iter().filter(is_of_option).for_each(|said| wrong.push(said.clone()));
@@ -166,7 +167,8 @@ impl Reader<'_> {
     /// The value of an end in SI.
     fn value(&self, formula: &str) -> Result<f64, (Sources, Diagnostics)> {
         let mut sources = self.own.sources().clone();
-        let value = Formula::of(formula, &mut sources).and_then(|formula| Ok(formula.values(0.0).map_err(|why| *why)?));
+        let value =
+            Formula::of(formula, &mut sources).and_then(|formula| Ok(formula.values(0.0).map_err(|why| *why)?));
         value.map(|[value, ..]| value).map_err(|said| (sources, said))
     }
 
@@ -335,7 +337,11 @@ mod tests {
     #[test]
     fn what_cannot_vary_is_refused() {
         for (asked, set, wanted) in [
-            (&["length=40mm..60mm"][..], &[][..], "`--vary length=40mm..60mm` does not say what varies from where to where"),
+            (
+                &["length=40mm..60mm"][..],
+                &[][..],
+                "`--vary length=40mm..60mm` does not say what varies from where to where",
+            ),
             (&["length=40mm:3"], &[], "`--vary length=40mm:3` does not say what varies from where to where"),
             (&["length=1mm..2mm:1"], &[], "`1` is no number of values for `length`"),
             (&["length=1mm..2mm:x"], &[], "`x` is no number of values for `length`"),
@@ -347,7 +353,11 @@ mod tests {
             (&["count=1..4:4"], &[], "`count` decides what is repeated, and cannot vary on a page"),
             (&["length=1mm..2mm:3", "length = 1mm..3mm:3"], &[], "`length` is to vary twice"),
             (&["length=1mm..2mm:3"], &["length=3mm"], "`length` is set, and is to vary"),
-            (&["length=1mm..2mm:40", "speed=1rpm..2rpm:40"], &[], "40 × 40 are 1600 variants, and a page has 1000 at most"),
+            (
+                &["length=1mm..2mm:40", "speed=1rpm..2rpm:40"],
+                &[],
+                "40 × 40 are 1600 variants, and a page has 1000 at most",
+            ),
             (&["a", "b", "c"], &[], "3 params are to vary, and a page has sliders for 2 at most"),
         ] {
             let said = varied(asked, set).expect_err("it is refused");

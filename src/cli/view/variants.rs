@@ -159,7 +159,8 @@ impl Solver<'_> {
         let shown: Vec<Variant> = variants.iter().map(Solved::shown).collect();
         let text = page::written_with(&variants[first].seen, self.varied.iter().map(vary).collect(), shown, sources);
         if text.len() > LONGEST {
-            let said = format!("the page of {} variants would have {} MB", variants.len(), text.len().div_ceil(1_000_000));
+            let said =
+                format!("the page of {} variants would have {} MB", variants.len(), text.len().div_ceil(1_000_000));
             let help = format!("it has {} at most: ask for fewer values", LONGEST / 1_000_000);
             return Err(unusable(said).help(help).into());
         }
