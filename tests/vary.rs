@@ -92,7 +92,7 @@ fn what_is_not_sound_is_a_variant_without_a_picture() {
         ground { point O = (0, 0) }
         body b { point O = (0, 0) point P = (1 m, 0) }
         joint j: revolute(ground.O, b.O)
-        driver d: rotation(j) = step5(t, 0 s, (n - 1) * 1 s) * 90 deg
+        driver d: rotation(j) = step5(t, 0 s, 0 deg, (n - 1) * 1 s, 90 deg)
         analysis from 0 s to n * 1 s every 0.1 s
     }";
     let Outcome { code, said, page, .. } = view_text(text, &["--vary", "n=0..3:4"], "");
