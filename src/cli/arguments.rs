@@ -84,9 +84,9 @@ pub(super) enum Command {
         made. OUT.dxf holds traces, the lines of cams, the outlines of gears as polylines within 1 µm, and the places of pins, in \
         millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
         that needs nothing else: the mechanism moves as its reader likes, beside plots of any column, vectors, results and the text.\n\n\
-        --vary gives that page a slider for a param, or two. The mechanism is solved for each of its values beforehand, and all that is in \
-        the page, whose size is told; it has 20 MB at most, for which rows are left out. The slider begins at the file's own value, or at \
-        the nearest. Of a value with which the mechanism cannot be assembled or stops, the page shows why, and the others do not mind.\n\n\
+        --vary gives that page a slider for a param, or for two. The mechanism is solved for each value beforehand, and the page holds \
+        all of it: how much that is, is told in kB, and of more than 20 MB rows are left out. The slider begins at the file's own value, \
+        or at the nearest. Where the mechanism cannot be assembled with a value, or stops, the page says so for that value.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
         cannot go on, the picture shows it up to there, and the exit code is 3.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
