@@ -58,7 +58,7 @@ impl Checked {
         choice: &Choice,
         world: &dyn World,
     ) -> Result<Vec<Varied>, (Sources, Diagnostics)> {
-        let own = |why: Diagnostic| (self.sources().clone(), Diagnostics::from(why));
+        let own = |why: Box<Diagnostic>| (self.sources().clone(), Diagnostics::from(*why));
         let asked = read(asked).map_err(own)?;
         refuse_twice(&asked, choice).map_err(own)?;
         let reader = Reader { parsed: &self.parsed, own: self, choice, world };
@@ -66,37 +66,41 @@ impl Checked {
     }
 }
 
-fn read(asked: &[String]) -> Result<Vec<Asked>, Diagnostic> {
+fn read(asked: &[String]) -> Result<Vec<Asked>, Box<Diagnostic>> {
     if asked.len() > MOST_PARAMS {
         let said = format!("{} params are to vary, and a page has sliders for {MOST_PARAMS} at most", asked.len());
-        return Err(unusable(said).help("set the others with `--set`"));
+        return Err(unusable(said).help("set the others with `--set`").into());
     }
     let asked = asked.iter().map(|text| Asked::of(text)).collect::<Result<Vec<_>, _>>()?;
     let variants: usize = asked.iter().map(|asked| asked.count).product();
     if variants > MOST_VARIANTS {
         let counts: Vec<String> = asked.iter().map(|asked| asked.count.to_string()).collect();
         let said = format!("{} are {variants} variants, and a page has {MOST_VARIANTS} at most", counts.join(" × "));
-        return Err(unusable(said).help("ask for fewer values"));
+        return Err(unusable(said).help("ask for fewer values").into());
     }
     Ok(asked)
 }
 
 /// Each param is told once.
-fn refuse_twice(asked: &[Asked], choice: &Choice) -> Result<(), Diagnostic> {
+fn refuse_twice(asked: &[Asked], choice: &Choice) -> Result<(), Box<Diagnostic>> {
     for (k, Asked { name, .. }) in asked.iter().enumerate() {
         if asked[..k].iter().any(|other| other.name == *name) {
-            return Err(unusable(format!("`{name}` is to vary twice")).help("say it once, or name another param"));
+            return Err(unusable(format!("`{name}` is to vary twice"))
+                .help("say it once, or name another param")
+                .into());
         }
         let is_set = |set: &String| set.split_once('=').is_some_and(|(set, _)| spaceless(set) == *name);
         if choice.set.iter().any(is_set) {
-            return Err(unusable(format!("`{name}` is set, and is to vary")).help("leave `--set` or `--vary` out"));
+            return Err(unusable(format!("`{name}` is set, and is to vary"))
+                .help("leave `--set` or `--vary` out")
+                .into());
         }
     }
     Ok(())
 }
 
 impl Asked {
-    fn of(text: &str) -> Result<Asked, Diagnostic> {
+    fn of(text: &str) -> Result<Asked, Box<Diagnostic>> {
         let parts = text.split_once('=').and_then(|(name, rest)| {
             let (interval, count) = rest.rsplit_once(':')?;
             let (first, last) = interval.split_once("..")?;
@@ -104,12 +108,14 @@ impl Asked {
         });
         let Some((name, ends, count)) = parts.filter(|(name, ..)| !name.trim().is_empty()) else {
             return Err(unusable(format!("`{VARY} {text}` does not say what varies from where to where"))
-                .help(format!("write `{VARY} NAME=A..B:N`, {EXAMPLE}: so many values, evenly from A to B")));
+                .help(format!("write `{VARY} NAME=A..B:N`, {EXAMPLE}: so many values, evenly from A to B"))
+                .into());
         };
         let known = count.parse().ok().filter(|count| (2..=MOST_VALUES).contains(count));
         let Some(count) = known else {
             return Err(unusable(format!("`{count}` is no number of values for `{}`", name.trim()))
-                .help(format!("a whole number from 2 to {MOST_VALUES} is wanted, {EXAMPLE}")));
+                .help(format!("a whole number from 2 to {MOST_VALUES} is wanted, {EXAMPLE}"))
+                .into());
         };
         Ok(Asked { name: spaceless(name), ends: ends.map(|end| end.trim().to_owned()), count })
     }

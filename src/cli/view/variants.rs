@@ -95,10 +95,10 @@ impl Solver<'_> {
         let mut all = Vec::with_capacity(self.count());
         for variant in 0..self.count() {
             let (checked, made, said) = self.made(variant, most);
-            let mut errors = Diagnostics::default();
-            let stop = made.as_ref().and_then(|seen| seen.stopped.as_ref());
-            let whys = if made.is_none() { said.iter().filter(is_error).collect() } else { Vec::from_iter(stop) };
-            whys.into_iter().for_each(|why| errors.push(why.clone()));
+            let errors = match &made {
+                Some(seen) => seen.stopped.clone().map(Diagnostics::from).unwrap_or_default(),
+                None => errors_of(&said),
+            };
             let stopped = (!errors.is_empty()).then(|| (checked.sources().clone(), errors));
             let seen = made.unwrap_or_else(|| without_motion(&checked, &begun));
             if seen.columns != begun.columns {
@@ -183,7 +183,7 @@ impl Solver<'_> {
         if let Some((variant, (_, said))) = why {
             let with = self.settings(variant).join(", ");
             told += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", broken.len());
-            if let Some(error) = said.iter().find(is_error) {
+            if let Some(error) = said.iter().find(|said| is_error(said)) {
                 told += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
             }
         }
@@ -198,8 +198,16 @@ impl Solved {
     }
 }
 
-fn is_error(said: &&Diagnostic) -> bool {
+fn is_error(said: &Diagnostic) -> bool {
     said.severity() == Severity::Error
+}
+
+fn errors_of(said: &Diagnostics) -> Diagnostics {
+    let mut errors = Diagnostics::default();
+    for error in said.iter().filter(|said| is_error(said)) {
+        errors.push(error.clone());
+    }
+    errors
 }
 
 /// What is seen of a variant without a motion: what is drawn in the text, if that is sound, or else nothing but the text.
@@ -233,7 +241,9 @@ fn alike(all: Vec<(ManuallyDrop<Checked>, Solved)>) -> Vec<Solved> {
     let mut all: Vec<Solved> = all.into_iter().map(redrawn).collect();
     let drawn = all.iter().map(|solved| &solved.seen.scene).filter(|scene| !scene.nodes.is_empty());
     if let Some(extent) = bounds(drawn.flat_map(|scene| scene.extent)) {
-        all.iter_mut().for_each(|solved| solved.seen.scene.extent = extent);
+        for solved in &mut all {
+            solved.seen.scene.extent = extent;
+        }
     }
     all
 }
