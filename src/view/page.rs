@@ -187,6 +187,7 @@ mod tests {
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
+            named: Vec::new(),
         }
     }
 
