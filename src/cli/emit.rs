@@ -2,12 +2,11 @@
 
 use super::arguments::{Content, EmitArguments, EmitFormat};
 use super::endings;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
 use super::timings::Timings;
-use crate::diag::{Code, Diagnostic};
 use crate::emit::MARK;
 use crate::stages::{Compiled, RustOptions};
 use std::path::Path;
@@ -77,7 +76,7 @@ fn folder_name(folder: &str) -> Option<String> {
 /// What has no lanes.
 fn can_have_lanes(arguments: &EmitArguments, format: EmitFormat) -> Result<(), Failure> {
     if format != EmitFormat::Rust || arguments.with == Content::Equations {
-        return Err(Diagnostic::new(Code::E0706, "lanes are for Rust code with the solver")
+        return Err(unusable("lanes are for Rust code with the solver")
             .help("leave `--lanes` out, or `--format` and `--with`")
             .into());
     }
@@ -87,12 +86,12 @@ fn can_have_lanes(arguments: &EmitArguments, format: EmitFormat) -> Result<(), F
 /// What a crate cannot be made of.
 fn can_be_a_crate(arguments: &EmitArguments) -> Result<(), Failure> {
     if matches!(arguments.format, Some(EmitFormat::Latex | EmitFormat::Json)) {
-        return Err(Diagnostic::new(Code::E0706, "a crate is written in Rust only")
+        return Err(unusable("a crate is written in Rust only")
             .help("leave `--format` out, or name a file with `-o` instead of a folder with `--crate`")
             .into());
     }
     if arguments.with == Content::Equations {
-        return Err(Diagnostic::new(Code::E0706, "a crate needs the solver, by which it is tested")
+        return Err(unusable("a crate needs the solver, by which it is tested")
             .help("leave `--with` out, or name a file with `-o` instead of a folder with `--crate`")
             .into());
     }

@@ -1,7 +1,7 @@
 //! `mechc explain`: the page of a diagnostic's code or of a word of the language, or the list of all codes.
 
 use super::arguments::ExplainArguments;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files;
 use crate::diag::{Code, Diagnostic, nearest};
 use crate::vocabulary::{self, OVERVIEWS, Synonym, topics};
@@ -31,7 +31,7 @@ fn list() -> String {
 }
 
 fn unknown(name: &str) -> Diagnostic {
-    let diagnostic = Diagnostic::new(Code::E0706, format!("there is no code and no word `{name}`"));
+    let diagnostic = unusable(format!("there is no code and no word `{name}`"));
     let mut said = Synonym::all_of(name).map(|synonym| (synonym.say(&[]), synonym.means)).peekable();
     if said.peek().is_some() {
         return said.fold(diagnostic, |diagnostic, (say, means)| {

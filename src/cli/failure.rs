@@ -39,6 +39,11 @@ impl From<Box<Diagnostic>> for Failure {
     }
 }
 
+/// Options that do not go together, or with the file.
+pub(super) fn unusable(message: impl Into<String>) -> Diagnostic {
+    Diagnostic::new(Code::E0706, message)
+}
+
 /// The exit code of a command that ended with these.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
     let Some(first) = diagnostics.iter().find(|d| d.severity() == crate::diag::Severity::Error) else {

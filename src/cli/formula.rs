@@ -1,18 +1,18 @@
 //! `mechc formula`: a formula of time and its first two derivatives, as text and as numbers.
 
 use super::arguments::FormulaArguments;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files;
 use super::input;
 use super::report::Reporter;
 use crate::analysis::Times;
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::expr::number;
 use crate::stages::{Formula, NAMES};
 
 pub(super) fn formula(arguments: &FormulaArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if matches!(arguments.formula.trim(), "" | "-") {
-        return Err(Diagnostic::new(Code::E0706, "there is no formula on the command line")
+        return Err(unusable("there is no formula on the command line")
             .help("write it in quotes: `mechc formula '2 * t^2'`")
             .into());
     }

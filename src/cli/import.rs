@@ -1,15 +1,14 @@
 //! `mechc import`: the model files of the course's planar engine, translated.
 
 use super::arguments::ImportArguments;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files::{self, Output};
 use super::report::Reporter;
-use crate::diag::{Code, Diagnostic};
 use crate::stages;
 
 pub(super) fn import(arguments: &ImportArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     if arguments.model == "-" && arguments.acf.as_deref() == Some("-") {
-        return Err(Diagnostic::new(Code::E0706, "standard input cannot be both the model and the settings")
+        return Err(unusable("standard input cannot be both the model and the settings")
             .help("give one of them as a file")
             .into());
     }

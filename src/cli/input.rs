@@ -1,12 +1,11 @@
 //! From a file and its options to a determined mechanism: what all commands begin with.
 
 use super::arguments::Input;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::cancel::Cancel;
-use crate::diag::{Code, Diagnostic};
 use crate::source::Sources;
 use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
 use std::mem::ManuallyDrop;
@@ -61,7 +60,7 @@ pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, F
 /// Reads the file of a command.
 pub(super) fn parsed(input: &Input, reporter: &mut Reporter) -> Result<Parsed, Failure> {
     if input.file == "-" && input.samples.as_deref() == Some(Path::new("-")) {
-        return Err(Diagnostic::new(Code::E0706, "standard input cannot be both the mechanism and the samples")
+        return Err(unusable("standard input cannot be both the mechanism and the samples")
             .help("give one of them as a file")
             .into());
     }

@@ -19,7 +19,6 @@ mod input;
 mod interrupts;
 #[cfg(feature = "lsp")]
 mod lsp;
-mod page;
 mod progress;
 mod report;
 mod results;

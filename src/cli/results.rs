@@ -1,11 +1,11 @@
 //! Results of a run: told on standard error, and written as one JSON object.
 
 use super::endings;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files::{Output, is_standard_output};
 use super::spared::Spared;
 use crate::analysis::{Answers, ColumnUnit};
-use crate::diag::{Code, Diagnostic, readable};
+use crate::diag::{Diagnostic, readable};
 use std::io::Write;
 use std::path::Path;
 
@@ -24,7 +24,7 @@ pub(super) fn open(name: Option<&str>, table: &str, spared: &Spared<'_>) -> Resu
     };
     if is_same {
         let place = if is_standard_output(name) { "standard output".to_owned() } else { format!("`{name}`") };
-        return Err(Diagnostic::new(Code::E0706, format!("the table and the results would both go to {place}"))
+        return Err(unusable(format!("the table and the results would both go to {place}"))
             .help("name another file: `--results OUT.json`")
             .into());
     }
@@ -33,7 +33,7 @@ pub(super) fn open(name: Option<&str>, table: &str, spared: &Spared<'_>) -> Resu
 
 fn not_json(name: &str) -> Diagnostic {
     let ending = Path::new(name).extension().map(|ending| ending.to_string_lossy()).unwrap_or_default();
-    Diagnostic::new(Code::E0706, format!("`{name}` ends in `.{ending}`, and results are written as JSON alone"))
+    unusable(format!("`{name}` ends in `.{ending}`, and results are written as JSON alone"))
         .help("name a file that ends in `.json`, or one without an ending")
 }
 

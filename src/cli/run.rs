@@ -2,7 +2,7 @@
 
 use super::arguments::{Format, RunArguments};
 use super::endings;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::files::Output;
 use super::input;
 use super::progress::Progress;
@@ -11,7 +11,7 @@ use super::results;
 use super::times;
 use super::timings::{Phase, Timings};
 use crate::analysis::{Answers, ColumnUnit};
-use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::diag::Diagnostics;
 use crate::output::{TableFormat, TableWriter};
 use crate::stages::{Run, RunOptions};
 use std::io::IsTerminal;
@@ -153,10 +153,6 @@ fn format(arguments: &RunArguments) -> Result<TableFormat, Failure> {
 /// The forms by their endings.
 const FORMS: [(&str, TableFormat); 3] =
     [("csv", TableFormat::Csv), ("json", TableFormat::Json), ("parquet", TableFormat::Parquet)];
-
-fn unusable(message: String) -> Diagnostic {
-    Diagnostic::new(Code::E0706, message)
-}
 
 #[cfg(test)]
 mod tests {

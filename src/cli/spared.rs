@@ -1,7 +1,6 @@
 //! What no output may be: a file that was read, or that a text names.
 
-use super::failure::Failure;
-use crate::diag::{Code, Diagnostic};
+use super::failure::{Failure, unusable};
 use crate::source::Sources;
 use std::path::{Path, PathBuf};
 
@@ -32,7 +31,7 @@ impl Spared<'_> {
             return Ok(());
         };
         let same = if shown == name { String::new() } else { format!(": it is `{shown}`") };
-        Err(Diagnostic::new(Code::E0706, format!("`{name}` would be written over, {why}{same}"))
+        Err(unusable(format!("`{name}` would be written over, {why}{same}"))
             .help("name another output; nothing was touched")
             .into())
     }

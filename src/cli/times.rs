@@ -1,7 +1,7 @@
 //! The times that a command computes: those of its options over those of the file.
 
 use super::arguments::Interval;
-use super::failure::Failure;
+use super::failure::{Failure, unusable};
 use super::input;
 use crate::analysis::Times;
 use crate::diag::{Code, Diagnostic, readable};
@@ -81,8 +81,4 @@ impl Bounds {
             unusable(format!("a step of {step} s is too small to get from {first} s to {last} s")).into()
         })
     }
-}
-
-fn unusable(message: String) -> Diagnostic {
-    Diagnostic::new(Code::E0706, message)
 }

@@ -15,6 +15,7 @@ pub(super) use proposals::{free, free_name};
 use super::place::Place;
 use super::snapshot::{Analysed, Snapshot};
 use super::workspace::is_mech;
+use super::written::holds_letters;
 use crate::stages::Checked;
 use crate::syntax::ast::Mechanism;
 use crate::vocabulary::{FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, Word};
@@ -52,7 +53,7 @@ pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
     items.sort_by_key(|item| item.rank);
     let is_incomplete = here.sieve.is_needed() || items.len() > MOST;
     if is_incomplete {
-        items.retain(|item| goes_with(&item.label, letters));
+        items.retain(|item| holds_letters(&item.label, letters));
         items.truncate(MOST);
     }
     let replaces = here.cursor.word.start as u32..here.cursor.word.end as u32;
@@ -64,12 +65,6 @@ pub fn completions(snapshot: &Snapshot, place: &Place) -> Option<Completions> {
         }
     }
     Some(Completions { items, is_incomplete })
-}
-
-/// Whether the letters typed are found in a label, in their order.
-fn goes_with(label: &str, letters: &str) -> bool {
-    let mut rest = label.chars().flat_map(char::to_lowercase);
-    letters.chars().flat_map(char::to_lowercase).all(|wanted| rest.any(|letter| letter == wanted))
 }
 
 /// The mechanism that a place is in, be its end not written yet.

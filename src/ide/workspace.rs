@@ -3,6 +3,7 @@
 use super::outline::{Entry, outline};
 use super::place::Stretch;
 use super::snapshot::Snapshot;
+use super::written::holds_letters;
 use crate::cancel::Cancel;
 use crate::check::NameKind;
 use crate::world::{World, is_own};
@@ -61,7 +62,7 @@ pub fn files_in(folders: &[PathBuf], world: &dyn World, cancel: &Cancel) -> Vec<
 /// The declarations of all known files whose names hold the letters of a query, in their order.
 #[must_use]
 pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
-    let query: Vec<char> = query.to_lowercase().chars().filter(|c| !c.is_whitespace()).collect();
+    let query: String = query.chars().filter(|c| !c.is_whitespace()).collect();
     let mut found = Vec::new();
     let is_text = |path: &&Arc<Path>| snapshot.buffers().open(path).is_some() || is_mech(&path.to_string_lossy());
     for path in snapshot.files().filter(is_text) {
@@ -76,24 +77,13 @@ pub fn workspace_names(snapshot: &Snapshot, query: &str) -> Vec<Found> {
     found
 }
 
-fn take(entry: &Entry, within: Option<&str>, path: &Arc<Path>, query: &[char], found: &mut Vec<Found>) {
-    if holds(&entry.name, query) && entry.kind != NameKind::Ground {
+fn take(entry: &Entry, within: Option<&str>, path: &Arc<Path>, query: &str, found: &mut Vec<Found>) {
+    if holds_letters(&entry.name, query) && entry.kind != NameKind::Ground {
         let place = Stretch { path: Arc::clone(path), start: entry.name_range.start, end: entry.name_range.end };
         found.push(Found { name: entry.name.clone(), kind: entry.kind, place, within: within.map(str::to_owned) });
     }
     let own = within.map_or(entry.name.clone(), |within| format!("{within}.{}", entry.name));
     entry.inside.iter().for_each(|inner| take(inner, Some(&own), path, query, found));
-}
-
-/// Whether letters stand in a name, in their order.
-fn holds(name: &str, letters: &[char]) -> bool {
-    let mut rest = letters.iter().peekable();
-    for c in name.to_lowercase().chars() {
-        if rest.peek() == Some(&&c) {
-            rest.next();
-        }
-    }
-    rest.peek().is_none()
 }
 
 #[cfg(test)]

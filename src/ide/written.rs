@@ -8,6 +8,12 @@ pub(super) fn is_of_word(c: char) -> bool {
     c.is_alphanumeric() || c == '_'
 }
 
+/// Whether letters stand in a name in their order, be they small or large.
+pub(super) fn holds_letters(name: &str, letters: &str) -> bool {
+    let mut rest = name.chars().flat_map(char::to_lowercase);
+    letters.chars().flat_map(char::to_lowercase).all(|wanted| rest.any(|letter| letter == wanted))
+}
+
 /// The word that holds a byte, or ends there.
 pub(super) fn word_at(text: &str, offset: usize) -> Option<Range<usize>> {
     let (before, behind) = (text.get(..offset)?, text.get(offset..)?);

@@ -41,7 +41,7 @@ impl Shown {
 
     /// The text was edited, which is that of a file.
     pub fn edit(&mut self, file: &Path, moved: &Moved) {
-        for said in self.proof.iter_mut().chain(&mut self.motion) {
+        for said in self.late() {
             said.range = moved.applied(&said.range);
         }
         self.edit_elsewhere(file, moved);
@@ -53,7 +53,7 @@ impl Shown {
     /// longer proposed.
     pub fn edit_elsewhere(&mut self, file: &Path, moved: &Moved) {
         let mut has_moved = false;
-        for said in self.proof.iter_mut().chain(&mut self.motion) {
+        for said in self.late() {
             for related in said.related.iter_mut().filter(|related| *related.place.path == *file) {
                 move_along(&mut related.place, moved);
                 has_moved = true;
@@ -64,6 +64,11 @@ impl Shown {
             changes.filter(|change| is_there(change)).for_each(|change| move_along(&mut change.place, moved));
         }
         self.has_moved |= has_moved;
+    }
+
+    /// What the stages said that may not have seen the text as it is.
+    fn late(&mut self) -> impl Iterator<Item = &mut Said> {
+        self.proof.iter_mut().chain(&mut self.motion)
     }
 
     /// What was found before need not hold any more, though the text is the same.

@@ -28,6 +28,16 @@ pub(super) struct Wheel {
     pub phase: f64,
 }
 
+/// What reaches from one radius to another for each tooth.
+struct Bumps {
+    /// The lower and the higher radius (m).
+    radii: [f64; 2],
+    /// On the pitch circle, as a part of half a pitch.
+    thickness: f64,
+    /// The direction of the middle of one of them (rad).
+    phase: f64,
+}
+
 impl Wheel {
     /// The pitch diameter over the number of teeth (m).
     pub fn module(&self) -> f64 {
@@ -36,33 +46,38 @@ impl Wheel {
 
     /// Its teeth, which point outward.
     pub fn outline(&self) -> Contour {
-        let module = self.module();
-        let radii = [self.radius - DEDENDUM * module, self.radius + ADDENDUM * module];
-        self.bumps(radii, 1.0 - 2.0 * BACKLASH, self.phase)
+        self.bumps(&self.teeth_of_wheel())
     }
 
     /// The inner side of a ring, whose teeth point inward: its gaps are what a wheel's teeth are.
     pub fn inner_outline(&self) -> Contour {
-        let module = self.module();
-        let radii = [self.radius - ADDENDUM * module, self.radius + DEDENDUM * module];
-        self.bumps(radii, 1.0 + 2.0 * BACKLASH, self.phase + PI / f64::from(self.teeth))
+        self.bumps(&self.gaps_of_ring())
     }
 
     /// Its teeth as they are, with arcs at tips and feet.
     pub fn fine_outline(&self) -> Contour {
-        let module = self.module();
-        let radii = [self.radius - DEDENDUM * module, self.radius + ADDENDUM * module];
-        self.fine_bumps(radii, 1.0 - 2.0 * BACKLASH, self.phase)
+        self.fine_bumps(&self.teeth_of_wheel())
     }
 
     /// The same of a ring's inner side.
     pub fn fine_inner_outline(&self) -> Contour {
-        let module = self.module();
-        let radii = [self.radius - ADDENDUM * module, self.radius + DEDENDUM * module];
-        self.fine_bumps(radii, 1.0 + 2.0 * BACKLASH, self.phase + PI / f64::from(self.teeth))
+        self.fine_bumps(&self.gaps_of_ring())
     }
 
-    fn fine_bumps(&self, [low, high]: [f64; 2], thickness: f64, phase: f64) -> Contour {
+    fn teeth_of_wheel(&self) -> Bumps {
+        let module = self.module();
+        let radii = [self.radius - DEDENDUM * module, self.radius + ADDENDUM * module];
+        Bumps { radii, thickness: 1.0 - 2.0 * BACKLASH, phase: self.phase }
+    }
+
+    fn gaps_of_ring(&self) -> Bumps {
+        let module = self.module();
+        let radii = [self.radius - ADDENDUM * module, self.radius + DEDENDUM * module];
+        Bumps { radii, thickness: 1.0 + 2.0 * BACKLASH, phase: self.phase + PI / f64::from(self.teeth) }
+    }
+
+    fn fine_bumps(&self, bumps: &Bumps) -> Contour {
+        let Bumps { radii: [low, high], thickness, phase } = *bumps;
         let base = self.radius * math::cos(PRESSURE);
         // by the angle that the thread of an involute has unrolled; a chord's height is that radius of curvature times its square / 8
         let unrolled = |radius: f64| (radius * radius / (base * base) - 1.0).max(0.0).sqrt();
@@ -97,8 +112,8 @@ impl Wheel {
         Contour { start: place(low, phase - foot), segments, is_closed: true }
     }
 
-    /// What reaches from one radius to another (m) for each tooth, so thick on the pitch circle as a part of half a pitch.
-    fn bumps(&self, [low, high]: [f64; 2], thickness: f64, phase: f64) -> Contour {
+    fn bumps(&self, bumps: &Bumps) -> Contour {
+        let Bumps { radii: [low, high], thickness, phase } = *bumps;
         let base = self.radius * math::cos(PRESSURE);
         let involute = |radius: f64| {
             let angle = math::acos((base / radius).min(1.0));

@@ -1,11 +1,12 @@
 //! The names that are known at a place, by what they are.
 
+use super::MOST;
 use super::cursor::{Block, Cursor};
 use super::item::{Item, ItemKind, Template};
 use super::wanted::{Wanted, has_quantity};
-use super::{MOST, goes_with};
 use crate::check::{KnownMechanism, NameKind};
 use crate::ide::names::{declared_name, item_named, kind_of, known};
+use crate::ide::written::holds_letters;
 use crate::source::Span;
 use crate::stages::Checked;
 use crate::syntax::ast::{ExprKind, Feature, Item as Declaration, ItemKind as Declared, Mechanism, MechanismName};
@@ -41,7 +42,7 @@ impl<'s> Sieve<'s> {
     }
 
     fn lets_pass(&self, label: &str) -> bool {
-        self.letters.is_none_or(|letters| goes_with(label, letters))
+        self.letters.is_none_or(|letters| holds_letters(label, letters))
     }
 
     fn is_described(&self) -> bool {

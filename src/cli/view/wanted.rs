@@ -1,0 +1,52 @@
+//! What is asked for beside the mechanism, by the names in its text.
+
+use crate::cli::arguments::{ThemeChoice, ViewArguments};
+use crate::cli::failure::{Failure, unusable};
+use crate::diag::nearest;
+use crate::scene::{Anchor, Scene};
+use crate::view::svg::{Options, Theme};
+
+/// What is asked for beside the mechanism.
+pub(super) fn pictured(arguments: &ViewArguments, scene: &Scene) -> Result<Options, Failure> {
+    let theme = match arguments.theme {
+        ThemeChoice::Auto => Theme::Auto,
+        ThemeChoice::Light => Theme::Light,
+        ThemeChoice::Dark => Theme::Dark,
+    };
+    let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
+    let ViewArguments { size, scale, vectors, labels, .. } = *arguments;
+    Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new() })
+}
+
+/// The name that may be meant, as a question.
+fn meant<'a>(name: &str, names: impl Iterator<Item = &'a str>) -> Option<String> {
+    nearest(name, names).map(|meant| format!("was `{meant}` meant?"))
+}
+
+/// A point by its path.
+fn trace(scene: &Scene, path: &str) -> Result<(String, Anchor), Failure> {
+    let path: String = path.chars().filter(|c| !c.is_whitespace()).collect();
+    if let Some(point) = scene.point_named(&path) {
+        return Ok((path, Anchor { frame: point.frame, at: point.at }));
+    }
+    let names = || scene.points.iter().filter(|point| point.frame > 0).map(|point| point.name.as_str());
+    let help = meant(&path, names()).unwrap_or_else(|| match names().next() {
+        Some(example) => format!("name a point of a body, as in `--trace {example}`"),
+        None => "its bodies have no points that have a name".to_owned(),
+    });
+    Err(unusable(format!("there is no point `{path}` to trace")).help(help).into())
+}
+
+/// The frame of a body by its name.
+pub(super) fn frame(scene: &Scene, name: &str) -> Result<usize, Failure> {
+    let bodies = || scene.frames.iter().skip(1).filter_map(|declaration| scene.declarations.get(*declaration));
+    if let Some(number) = bodies().position(|body| body.name == name) {
+        return Ok(number + 1);
+    }
+    let names = || bodies().map(|body| body.name.as_str());
+    let help = meant(name, names()).unwrap_or_else(|| {
+        let some: Vec<String> = names().take(8).map(|name| format!("`{name}`")).collect();
+        format!("its bodies are {}", some.join(", "))
+    });
+    Err(unusable(format!("there is no body `{name}` to draw")).help(help).into())
+}
