@@ -12,7 +12,7 @@ const SIZES: [f64; 2] = [13.0, 18.0];
 /// Of letters, as a part of the picture's shorter side.
 const SIZE: f64 = 1.0 / 42.0;
 /// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
-const COLUMN: f64 = 0.66;
+pub(super) const COLUMN: f64 = 0.66;
 /// Longer names are cut.
 const LONGEST: usize = 32;
 /// More names than this are not looked at.
@@ -50,7 +50,7 @@ impl Label {
 impl Picture<'_> {
     /// The size of letters (px).
     pub fn letters(&self) -> f64 {
-        (SIZE * self.size[0].min(self.size[1])).clamp(SIZES[0], SIZES[1])
+        letters(self.size)
     }
 
     /// Writes the names of a moment.
@@ -115,7 +115,7 @@ impl Picture<'_> {
         let mut cost = 0.0;
         for (moment, at) in at.iter().enumerate() {
             let [low, high] = label.bounds(*at);
-            let [width, height] = self.size;
+            let [width, height] = [self.size[0], self.size[1] - self.said.height];
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
                 return None;
             }
@@ -167,7 +167,7 @@ impl Picture<'_> {
             for shape in &node.shapes {
                 match (&shape.path, shape.look) {
                     (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
-                    (path, Look::Arrow | Look::ArrowHead | Look::Support) => {
+                    (path, Look::Arrow | Look::ArrowHead | Look::Support | Look::Free | Look::FreeHead) => {
                         taken.extend(path.places().into_iter().map(|at| (node.place, at)));
                     }
                     _ => {}
@@ -195,7 +195,12 @@ fn cut(name: &str) -> String {
     name.chars().take(LONGEST - 1).chain(['…']).collect()
 }
 
+/// The size of letters (px) of a picture of a size (px).
+pub(super) fn letters(size: [f64; 2]) -> f64 {
+    (SIZE * size[0].min(size[1])).clamp(SIZES[0], SIZES[1])
+}
+
 /// The columns that a text takes on a screen.
-fn columns(text: &str) -> usize {
+pub(super) fn columns(text: &str) -> usize {
     text.chars().map(|c| c.width().unwrap_or(0)).sum()
 }

@@ -9,6 +9,7 @@ mod labels;
 mod nodes;
 mod picture;
 mod plots;
+mod said;
 mod style;
 mod vectors;
 
@@ -46,6 +47,8 @@ pub struct Options {
     pub labels: bool,
     /// Words below places (m).
     pub captions: Vec<(Vector, String)>,
+    /// What is wrong with it, below it.
+    pub said: Vec<String>,
 }
 
 /// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.

@@ -1,0 +1,102 @@
+//! What is wrong with a mechanism, in lines below it.
+
+use super::labels::{COLUMN, columns, letters};
+use super::nodes::PIXELS;
+use super::picture::Picture;
+use crate::view::text::{escaped, number};
+use std::fmt::Write;
+
+/// From line to line, and what is free above the first and below the last of them, in sizes of letters.
+const LINE: f64 = 1.35;
+const AROUND: f64 = 0.6;
+/// What lines take of a picture whose size is given at most.
+const MOST: f64 = 0.4;
+/// Lines have room for so many columns at least.
+const NARROWEST: f64 = 8.0;
+
+/// Messages in lines.
+#[derive(Default)]
+pub(super) struct Lines {
+    lines: Vec<String>,
+    /// The size of letters (px).
+    letters: f64,
+    /// How high they are together (px), with what is free around them.
+    pub height: f64,
+}
+
+impl Lines {
+    /// Of messages below a picture of a size (px), within margins; if they are to stand in it, as many as it has room for.
+    pub fn of(said: &[String], size: [f64; 2], margin: f64, within: bool) -> Lines {
+        let letters = letters(size);
+        let width = ((size[0] - 2.0 * margin) / (COLUMN * letters)).max(NARROWEST);
+        let mut lines: Vec<String> = said.iter().flat_map(|said| wrapped(said, width)).collect();
+        let height = |count: usize| if count == 0 { 0.0 } else { letters * (LINE * count as f64 + 2.0 * AROUND) };
+        let all = lines.len();
+        while within && height(lines.len()) > MOST * size[1] {
+            lines.pop();
+        }
+        if lines.len() < all
+            && let Some(last) = lines.last_mut()
+        {
+            last.push_str(" …");
+        }
+        let height = height(lines.len());
+        Lines { lines, letters, height }
+    }
+}
+
+impl Picture<'_> {
+    /// Writes what is said below what is drawn.
+    pub fn said(&self) -> String {
+        let Lines { lines, letters, height } = &self.said;
+        let top = self.size[1] - height + AROUND * letters;
+        let mut text = String::new();
+        for (row, line) in lines.iter().enumerate() {
+            let y = number(top + letters * (LINE * row as f64 + 1.0), PIXELS);
+            let _ = writeln!(text, "<text class=\"said\" x=\"{}\" y=\"{y}\">{}</text>", self.margin, escaped(line));
+        }
+        text
+    }
+
+    /// The size of letters of what is said (px), if anything is.
+    pub fn letters_of_said(&self) -> Option<f64> {
+        (!self.said.lines.is_empty()).then_some(self.said.letters)
+    }
+}
+
+/// A text in lines of so many columns at most, but for words that are longer.
+fn wrapped(text: &str, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if columns(line) + 1 + columns(word) <= width as usize => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lines, wrapped};
+
+    #[test]
+    fn lines_are_no_wider_than_there_is_room() {
+        assert_eq!(wrapped("a bb ccc dddd", 6.0), ["a bb", "ccc", "dddd"]);
+        assert_eq!(wrapped("incomprehensibilities are", 6.0), ["incomprehensibilities", "are"]);
+        assert!(wrapped(" ", 6.0).is_empty());
+    }
+
+    #[test]
+    fn a_given_size_keeps_most_of_its_room() {
+        let said = ["word ".repeat(400)];
+        let within = Lines::of(&said, [400.0, 300.0], 14.0, true);
+        assert!(within.height <= 120.0 && within.lines.last().is_some_and(|line| line.ends_with('…')));
+        let below = Lines::of(&said, [400.0, 300.0], 14.0, false);
+        assert!(below.height > 300.0 && below.lines.len() > within.lines.len());
+        assert_eq!(Lines::of(&[], [400.0, 300.0], 14.0, true).height, 0.0);
+    }
+}
