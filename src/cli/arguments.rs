@@ -82,7 +82,10 @@ pub(super) enum Command {
         millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
         that holds all of it and needs nothing else.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
-        cannot go on, the picture shows it up to there, and the exit code is 3.",
+        cannot go on, the picture shows it up to there, with what the message names in red.\n\n\
+        What is broken is drawn too, while messages and exit codes are those of `run`. A mechanism that is not determined is shown as its \
+        text draws it: what is left free as dashed arrows, redundant joints in rings. One that cannot be assembled is shown with \
+        everything closed but the joint that stays open, and a dashed line between the two halves of that.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \

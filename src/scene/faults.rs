@@ -15,6 +15,8 @@ const RING: f64 = 1.0;
 const HALF_RING: f64 = 0.62;
 /// Bodies turn about a place of theirs that is this near to what they turn about, in units.
 const NEAR: f64 = 1.0;
+/// Arrows whose places are nearer than this go around each other, in units.
+const SAME_PLACE: f64 = 2.5;
 /// A turn that moves a place this far away, in units, by no more than this part of its way is none.
 const FAR: f64 = 1e4;
 /// Of a straight arrow: its length, where it begins if something is in its place, and how far it is beside another one, in units.
@@ -248,7 +250,7 @@ impl Arrows {
 
     fn add_turning(&mut self, marks: &mut Marks, at: Anchor, turn: f64) {
         let place = at.placed(marks.poses);
-        let count = self.taken.iter().filter(|known| distance(**known, place) < NEAR * marks.unit).count();
+        let count = self.taken.iter().filter(|known| distance(**known, place) < SAME_PLACE * marks.unit).count();
         self.taken.push(place);
         let [from, to] = if turn > 0.0 { TURN } else { [TURN[1], TURN[0]] };
         let shapes = marks.symbols().turning([0.0; 2], RADIUS[0] + RADIUS[1] * count as f64, from, to, false);

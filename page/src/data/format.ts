@@ -80,7 +80,6 @@ export interface Result extends Column {
 }
 
 export interface Label {
-    declaration?: number;
     text: number;
     from: number;
     to: number;
@@ -104,6 +103,8 @@ export interface Variant {
     results: Result[];
     messages: Message[];
     edges: number[];
+    /** The declarations that errors name. */
+    named?: number[];
     /** Where the frames are (x, y, phi of each) if there is no row: as they are drawn in the text. */
     drawn?: [number, number, number][];
     /** Where it is not the file's own. */

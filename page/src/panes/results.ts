@@ -20,7 +20,7 @@ export class Results implements Pane {
     show(document: Document): void {
         if (this.document === document) return;
         this.document = document;
-        const { results, messages, page } = document;
+        const { results, messages, page, table } = document;
         this.numbers.replaceChildren(
             ...results.map((result) => {
                 const { text, si } = told(result, result.value ?? NaN);
@@ -28,7 +28,7 @@ export class Results implements Pane {
             }),
         );
         this.numbers.hidden = results.length === 0;
-        const said = messages.map((message) => this.written(message));
+        const said = messages.map((message) => this.written(message, table.rows > 1));
         if (page.thinned) said.push(html("li", { class: "note-of-page" }, page.thinned));
         this.messages.replaceChildren(...said);
         this.messages.hidden = said.length === 0;
@@ -37,11 +37,13 @@ export class Results implements Pane {
 
     draw(_: Moment): void {}
 
-    private written({ severity, code, text, labels, notes, help, time }: Message): HTMLElement {
+    private written({ severity, code, text, labels, notes, help, time }: Message, moves: boolean): HTMLElement {
         const item = html("li", { class: `message ${severity}` }, html("strong", {}, `${severity}[${code}]`), ` ${text}`);
-        for (const says of [...(labels ?? []).map((label) => label.says), ...(notes ?? [])]) if (says) item.append(html("div", {}, says));
+        for (const { says } of labels ?? []) if (says) item.append(html("div", {}, says));
+        // a note of several lines is a table
+        for (const note of notes ?? []) item.append(html(note.includes("\n") ? "pre" : "div", {}, note));
         for (const says of help ?? []) item.append(html("div", { class: "help" }, `help: ${says}`));
-        if (time !== undefined) {
+        if (time !== undefined && moves) {
             const there = html("button", { type: "button" }, `go to t = ${six(time)} s`);
             there.addEventListener("click", () => {
                 this.deeds.pause();
