@@ -12,8 +12,8 @@ use mechc::rooms::scene::{
     polar, times,
 };
 use mechc::rooms::view::dxf;
-use mechc::rooms::{check, lower, syntax};
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, plots, still};
+use mechc::rooms::{check, lower, syntax};
 use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
@@ -690,9 +690,12 @@ fn free_motions_are_those_by_hand() {
     let fastest = [crank, coupler, rocker].iter().fold(0.0, |most: f64, [.., turn]| most.max(turn.abs()));
     assert!((fastest - 1.0).abs() < 1e-9, "{fastest}");
 
-    let block = free("mechanism block { ground { point O = (0, 0) } body block at (1 m, 2 m, 30 deg) { point P = (0, 0)  point Q = (50 mm, 0) } }");
+    let block = free(
+        "mechanism block { ground { point O = (0, 0) } body block at (1 m, 2 m, 30 deg) { point P = (0, 0)  point Q = (50 mm, 0) } }",
+    );
     let turn = block.iter().filter(|motion| motion[0].1[2] != 0.0).count();
-    let mut parts: Vec<usize> = block.iter().map(|motion| motion[0].1.iter().position(|x| *x != 0.0).expect("it moves")).collect();
+    let mut parts: Vec<usize> =
+        block.iter().map(|motion| motion[0].1.iter().position(|x| *x != 0.0).expect("it moves")).collect();
     parts.sort_unstable();
     assert!(block.iter().all(|motion| motion.len() == 1 && motion[0].1.iter().filter(|x| **x != 0.0).count() == 1));
     assert_eq!((turn, parts), (1, vec![0, 1, 2]), "one turn, one motion along either axis");
@@ -785,7 +788,12 @@ fn messages_take_no_room_from_what_is_drawn() {
         let read = Read::of(&file);
         for point in &seen.scene.points {
             let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
-            assert!(x > 0.0 && y > 0.0 && y < lines[0] - 13.0, "{} is at {x}, {y}, and words at {}", point.name, lines[0]);
+            assert!(
+                x > 0.0 && y > 0.0 && y < lines[0] - 13.0,
+                "{} is at {x}, {y}, and words at {}",
+                point.name,
+                lines[0]
+            );
         }
     }
 }

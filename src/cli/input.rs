@@ -81,7 +81,12 @@ pub(super) fn path(input: &Input) -> &Path {
 }
 
 /// Checks the mechanism of a command, and prints its warnings.
-pub(super) fn checked(parsed: &Parsed, input: &Input, by: &[String], reporter: &mut Reporter) -> Result<Checked, Failure> {
+pub(super) fn checked(
+    parsed: &Parsed,
+    input: &Input,
+    by: &[String],
+    reporter: &mut Reporter,
+) -> Result<Checked, Failure> {
     let choice = Choice {
         mechanism: input.mechanism.clone(),
         set: input.set.clone(),

@@ -8,8 +8,9 @@ use super::{Anchor, Look, Motion, Node, Place, Scene, Shape, whole};
 use crate::model::{EquationForm, JointKind, Mechanism};
 use std::f64::consts::PI;
 
-/// What is farther apart than this is open, in units.
+/// The halves of an open joint are farther apart than this, in units; and of one that is drawn so.
 const OPEN: f64 = 0.5;
+const DRAWN_APART: f64 = 4.0;
 /// The radius of a ring around what messages name, and of those around the halves of an open joint, in units.
 const RING: f64 = 1.0;
 const HALF_RING: f64 = 0.62;
@@ -38,8 +39,20 @@ pub struct Faults {
     pub named: Vec<usize>,
     /// Motions that nothing holds: the frames that move, with their velocities [m, rad], which have a common scale.
     pub free: Vec<Vec<(usize, Pose)>>,
-    /// Whether it stands where it could not be assembled, so that joints may be open.
-    pub is_open: bool,
+    /// What is left open.
+    pub joints: Joints,
+}
+
+/// How joints stand.
+#[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
+pub enum Joints {
+    /// All are closed.
+    #[default]
+    Closed,
+    /// As they are drawn, more or less closed.
+    Drawn,
+    /// As nearly closed as can be.
+    Open,
 }
 
 pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults: &Faults) {
@@ -47,7 +60,11 @@ pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults:
     let (joints, equations) = whole::first_of_joints_and_equations(model);
     let poses = motion.poses(0);
     let mut marks = Marks { unit: scene.unit, features, poses, joints, equations, nodes: Vec::new() };
-    let open = if faults.is_open { marks.gaps() } else { Vec::new() };
+    let open = match faults.joints {
+        Joints::Closed => Vec::new(),
+        Joints::Drawn => marks.gaps(DRAWN_APART),
+        Joints::Open => marks.gaps(OPEN),
+    };
     for &declaration in faults.named.iter().filter(|declaration| !open.contains(declaration)) {
         marks.ring(declaration);
     }
@@ -56,7 +73,8 @@ pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults:
         Place::Upright(anchor) => Some(anchor.placed(poses)),
         _ => None,
     });
-    Arrows { taken: taken.collect(), straight: Vec::new(), places: places(model, motion) }.add(&mut marks, &faults.free);
+    Arrows { taken: taken.collect(), straight: Vec::new(), places: places(model, motion) }
+        .add(&mut marks, &faults.free);
     let Marks { nodes, .. } = marks;
     scene.nodes.extend(nodes);
     scene.named.clone_from(&faults.named);
@@ -102,8 +120,8 @@ impl Marks<'_> {
         Symbols { unit: self.unit }
     }
 
-    /// Shows which joints are open; gives their declarations.
-    fn gaps(&mut self) -> Vec<usize> {
+    /// Shows which joints are open by more than so many units; gives their declarations.
+    fn gaps(&mut self, least: f64) -> Vec<usize> {
         let model = self.features.model;
         let of_joints = model.joints.iter().enumerate().map(|(number, _)| (self.joints + number, self.halves(number)));
         let of_lengths = model.equations.iter().enumerate().map(|(number, equation)| {
@@ -118,7 +136,7 @@ impl Marks<'_> {
         let halves: Vec<(usize, Option<[Vector; 2]>)> = of_joints.chain(of_lengths).collect();
         let mut open = Vec::new();
         for (declaration, halves) in halves {
-            let is_open = |[from, to]: &[Vector; 2]| distance(*from, *to) > OPEN * self.unit;
+            let is_open = |[from, to]: &[Vector; 2]| distance(*from, *to) > least * self.unit;
             let Some([from, to]) = halves.filter(is_open) else { continue };
             let ring = |at| Shape {
                 path: Path::Circle { at, radius: HALF_RING * self.unit },

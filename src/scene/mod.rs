@@ -28,7 +28,7 @@ mod teeth;
 mod whole;
 
 pub use catalogue::catalogue;
-pub use faults::Faults;
+pub use faults::{Faults, Joints};
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{

@@ -7,7 +7,7 @@ use crate::check::{self, Library};
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
 use crate::lower;
 use crate::model::Mechanism;
-use crate::scene::{Faults, Motion, Pose, Scene, drawn_poses};
+use crate::scene::{Faults, Joints, Motion, Pose, Scene, drawn_poses};
 use crate::source::{FileId, Span};
 use crate::syntax::ast;
 use rustc_hash::FxHashMap;
@@ -101,13 +101,14 @@ impl Checked {
         let lowered = if compiled.is_none() { Some(lower::lower(model)) } else { None };
         let system = compiled.map(Compiled::system).or(lowered.as_ref())?;
         let nearest = compiled.and_then(|compiled| compiled.nearest(t, options));
+        let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };
         let motion = Motion::still(nearest.map_or_else(|| drawn_poses(model), |q| poses(model, &q)));
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
         let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
         let free = if is_left_free { analysis::free_motions(system) } else { Vec::new() };
         let free = free.iter().map(of_frames).collect();
-        let faults = Faults { named: named(&scene, said.iter()), free, is_open: true };
+        let faults = Faults { named: named(&scene, said.iter()), free, joints };
         scene.show_faults(model, &motion, &faults);
         let results = analysis::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
         Some(Seen {
@@ -215,7 +216,8 @@ fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
 fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
     let mut named: Vec<usize> = Vec::new();
     for error in said.filter(|said| said.severity() == Severity::Error) {
-        let redundant = error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
+        let redundant =
+            error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
         match redundant {
             Some(names) => {
                 let is_one = |name: &str| names.iter().any(|one| one.as_str() == Some(name));

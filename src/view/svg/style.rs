@@ -153,7 +153,12 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += ".ghost{opacity:.3}\n";
     }
     if used.is_named {
-        rules += &format!(".named path,.named circle{{stroke-width:{}}}\n.named .link{{stroke-dasharray:{} {}}}\n", width(1.7), width(5.0), width(2.6));
+        rules += &format!(
+            ".named path,.named circle{{stroke-width:{}}}\n.named .link{{stroke-dasharray:{} {}}}\n",
+            width(1.7),
+            width(5.0),
+            width(2.6)
+        );
     }
     if let Some(size) = used.said {
         rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
@@ -206,7 +211,9 @@ fn colors(used: &Used, palette: &Palette) -> String {
         }
     }
     if used.is_named {
-        rules += &format!(".named path,.named circle{{stroke:{wrong}}}\n.named .arrow-head,.named .dot,.named .weld{{fill:{wrong}}}\n");
+        rules += &format!(
+            ".named path,.named circle{{stroke:{wrong}}}\n.named .arrow-head,.named .dot,.named .weld{{fill:{wrong}}}\n"
+        );
     }
     if used.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
