@@ -109,11 +109,7 @@ fn goldens_are_what_is_emitted() {
         } else {
             (format!("tests/emitted/{name}.rs"), stage(name).text((name == "slider_crank").then_some(4)))
         };
-        if std::env::var_os("UPDATE_GOLDENS").is_some() {
-            fs::write(&path, &emitted).expect("written");
-        }
-        let golden = fs::read_to_string(&path).expect("a golden");
-        assert!(golden == emitted, "{path} is not what is emitted now; UPDATE_GOLDENS=1 cargo test writes it");
+        support::golden::holds(path, &emitted);
     }
 }
 

@@ -7,7 +7,6 @@ mod support;
 
 use mechc::{Code, Severity};
 use std::fs;
-use std::path::Path;
 use support::listed::Tests;
 use support::{Span, files, run, stem};
 
@@ -259,13 +258,7 @@ fn index() -> String {
 }
 
 fn the_index_is_that_of_the_catalogue() {
-    let path = Path::new("docs/codes.md");
-    if std::env::var_os("UPDATE_GOLDENS").is_some() {
-        fs::write(path, index()).expect("written");
-    }
-    let golden = fs::read_to_string(path).expect("the index");
-    let hint = "UPDATE_GOLDENS=1 cargo test --test explain writes it";
-    assert!(golden == index(), "{} is not the catalogue as it is now; {hint}", path.display());
+    support::golden::holds("docs/codes.md", &index());
 }
 
 fn main() {

@@ -832,13 +832,6 @@ fn goldens() -> Vec<(&'static str, String)> {
 #[test]
 fn goldens_are_what_is_drawn() {
     for (path, drawn) in goldens() {
-        if std::env::var_os("UPDATE_GOLDENS").is_some() {
-            fs::write(path, &drawn).expect("written");
-        }
-        let golden = fs::read_to_string(path).expect("a golden");
-        assert!(
-            golden == drawn,
-            "{path} is not what is drawn now; UPDATE_GOLDENS=1 cargo test --test pictures writes it"
-        );
+        support::golden::holds(path, &drawn);
     }
 }

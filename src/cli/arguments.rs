@@ -23,10 +23,13 @@ Exit codes:
 ///
 /// It shows that a mechanism is determined, and computes its motion: position, velocity and acceleration.
 #[derive(Parser, Debug)]
-#[command(name = "mechc", version, after_help = AFTER_HELP)]
+#[command(name = "mechc", version, after_help = AFTER_HELP, arg_required_else_help = true, args_conflicts_with_subcommands = true)]
 pub(super) struct Arguments {
     #[command(subcommand)]
-    pub command: Command,
+    pub command: Option<Command>,
+    /// Print the licences of what this program carries
+    #[arg(long, display_order = 100)]
+    licenses: bool,
 }
 
 #[derive(Subcommand, Debug)]

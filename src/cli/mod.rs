@@ -17,6 +17,7 @@ mod formula;
 mod import;
 mod input;
 mod interrupts;
+mod licenses;
 #[cfg(feature = "lsp")]
 mod lsp;
 mod progress;
@@ -40,7 +41,11 @@ use std::process::ExitCode;
 pub fn main() -> ExitCode {
     interrupts::watch();
     let arguments = Arguments::try_parse().unwrap_or_else(|error| usage::with_tip(error).exit());
-    ExitCode::from(match arguments.command {
+    // nothing but the option asks for them
+    let Some(command) = arguments.command else {
+        return ExitCode::from(reported(&Messages::default(), |_| licenses::print()));
+    };
+    ExitCode::from(match command {
         Command::Check(check) => reported(&check.input.messages, |reporter| check::check(&check, reporter)),
         Command::Fmt(fmt) => reported(&fmt.messages, |reporter| fmt::fmt(&fmt, reporter)),
         Command::Emit(emit) => reported(&emit.input.messages, |reporter| emit::emit(&emit, reporter)),

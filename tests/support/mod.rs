@@ -4,6 +4,7 @@
 
 pub mod blocks;
 pub mod change_points;
+pub mod golden;
 pub mod listed;
 pub mod random;
 pub mod reading;
