@@ -18,6 +18,10 @@ const LONGEST: usize = 32;
 /// More names than this are not looked at.
 const MOST: usize = 400;
 
+/// What labels leave free beside pins, if they can.
+const TAKEN: [Look; 7] =
+    [Look::Arrow, Look::ArrowHead, Look::Support, Look::Free, Look::FreeHead, Look::GapEnd, Look::Named];
+
 /// A name in its place.
 #[derive(Clone, Debug)]
 pub(super) struct Label {
@@ -50,7 +54,7 @@ impl Label {
 impl Picture<'_> {
     /// The size of letters (px).
     pub fn letters(&self) -> f64 {
-        letters(self.size)
+        letters(self.room())
     }
 
     /// Writes the names of a moment.
@@ -115,7 +119,7 @@ impl Picture<'_> {
         let mut cost = 0.0;
         for (moment, at) in at.iter().enumerate() {
             let [low, high] = label.bounds(*at);
-            let [width, height] = [self.size[0], self.size[1] - self.said.height];
+            let [width, height] = self.room();
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
                 return None;
             }
@@ -167,7 +171,7 @@ impl Picture<'_> {
             for shape in &node.shapes {
                 match (&shape.path, shape.look) {
                     (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
-                    (path, Look::Arrow | Look::ArrowHead | Look::Support | Look::Free | Look::FreeHead) => {
+                    (path, look) if TAKEN.contains(&look) => {
                         taken.extend(path.places().into_iter().map(|at| (node.place, at)));
                     }
                     _ => {}

@@ -91,9 +91,14 @@ impl<'s> Picture<'s> {
         }
     }
 
+    /// How much of it (px) what is drawn has, above what is said.
+    pub fn room(&self) -> [f64; 2] {
+        [self.size[0], self.size[1] - self.said.height]
+    }
+
     /// Where a place is in the picture.
     pub fn placed(&self, [x, y]: Vector) -> Vector {
-        let [width, height] = [self.size[0], self.size[1] - self.said.height];
+        let [width, height] = self.room();
         [0.5 * width + self.scale * (x - self.middle[0]), 0.5 * height - self.scale * (y - self.middle[1])]
     }
 
