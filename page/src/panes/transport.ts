@@ -93,12 +93,15 @@ export class Transport implements Pane {
             made.style.left = `${(100 * (time - from)) / (to - from)}%`;
             return made;
         };
+        const isEdge = (time: number) => motion.edges.some((edge) => Math.abs(edge - time) <= 1e-6 * (to - from));
         const within = (time: number) => to > from && time >= from && time <= to + 1e-6 * (to - from);
         this.marks.replaceChildren(
             ...motion.edges.filter(within).map((time) => mark(time, "edge", "accelerations jump here")),
-            ...messages.flatMap(({ severity, time, text }) =>
-                moves && time !== undefined && within(time) ? [mark(time, severity === "error" ? "stop" : "remark", text)] : [],
-            ),
+            ...messages.flatMap(({ severity, time, text }) => {
+                if (!moves || time === undefined || !within(time)) return [];
+                if (severity === "error") return [mark(time, "stop", text)];
+                return isEdge(time) ? [] : [mark(time, "remark", text)];
+            }),
         );
         this.factor.textContent = told(this.clock.rate);
     }

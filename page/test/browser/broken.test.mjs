@@ -93,3 +93,17 @@ broken("run/four_bar_into_lock_up.mech", 3, async ({ page }, data) => {
     assert.ok(time < data.variants[0].messages[0].time && time > 0.36, `${time}`);
     await isWhole(page);
 });
+
+test("where two branches meet the scrubber has a mark", { skip }, async () => {
+    const path = join(folder, "passed.html");
+    const name = join(root, "tests", "ui", "run", "parallelogram_through_its_change_point.mech");
+    const told = spawnSync(mechc, ["view", name, "-o", path, "--pass-bifurcations", "--message-format", "short"]);
+    assert.equal(told.status, 0, told.stderr.toString());
+    const { page, faults, close: shut } = await opened(path);
+    assert.ok((await page.locator(".mark.remark").count()) > 0);
+    assert.match(await page.locator(".mark.remark").first().getAttribute("title"), /two branches/);
+    assert.match(await page.locator(".message.warning").first().textContent(), /W0602/);
+    assert.equal(await page.locator(".mechanism .wrong").count(), 0, "nothing is wrong");
+    assert.deepEqual(faults, []);
+    await shut();
+});

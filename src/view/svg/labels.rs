@@ -1,18 +1,12 @@
 //! The names of bodies and pins, beside what they name: no label lies on another at any moment that is shown. One that finds no place is
 //! left out; bodies tell their names as titles too.
 
+use super::letters::{COLUMN, columns, letters};
 use super::nodes::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
-use unicode_width::UnicodeWidthChar;
 
-/// Of letters, in pixels; for the smallest and largest pictures.
-const SIZES: [f64; 2] = [13.0, 18.0];
-/// Of letters, as a part of the picture's shorter side.
-const SIZE: f64 = 1.0 / 42.0;
-/// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
-pub(super) const COLUMN: f64 = 0.66;
 /// Longer names are cut.
 const LONGEST: usize = 32;
 /// More names than this are not looked at.
@@ -197,14 +191,4 @@ fn cut(name: &str) -> String {
         return name.to_owned();
     }
     name.chars().take(LONGEST - 1).chain(['…']).collect()
-}
-
-/// The size of letters (px) of a picture of a size (px).
-pub(super) fn letters(size: [f64; 2]) -> f64 {
-    (SIZE * size[0].min(size[1])).clamp(SIZES[0], SIZES[1])
-}
-
-/// The columns that a text takes on a screen.
-pub(super) fn columns(text: &str) -> usize {
-    text.chars().map(|c| c.width().unwrap_or(0)).sum()
 }

@@ -6,6 +6,7 @@
 mod curves;
 mod keyframes;
 mod labels;
+mod letters;
 mod nodes;
 mod picture;
 mod plots;

@@ -158,7 +158,7 @@ impl<'s> Picture<'s> {
         if !told.is_empty() {
             let _ = writeln!(file, "<desc>{}</desc>", escaped(&told));
         }
-        self.used.said = self.letters_of_said();
+        self.used.said = self.said.letters();
         if !self.options.captions.is_empty() {
             self.used.labels = Some(self.letters());
         }
@@ -166,7 +166,7 @@ impl<'s> Picture<'s> {
         let _ = writeln!(file, "<style>\n{}{}</style>", style::sheet(&self.used, theme, self.unit()), self.rules);
         let _ = writeln!(file, "<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>");
         let captions: String = self.options.captions.iter().map(|caption| self.caption(caption)).collect();
-        let captions = captions + &self.said();
+        let captions = captions + &self.said.written(self.size, self.margin);
         if self.options.scale.is_some() {
             return format!("{file}<g transform=\"scale({MILLIMETERS})\">\n{}{captions}</g>\n</svg>\n", self.body);
         }

@@ -1,8 +1,6 @@
 //! What is wrong with a mechanism, in lines below it.
 
-use super::labels::{COLUMN, columns, letters};
-use super::nodes::PIXELS;
-use super::picture::Picture;
+use super::letters::{COLUMN, columns, letters};
 use crate::view::text::{escaped, number};
 use std::fmt::Write;
 
@@ -13,6 +11,9 @@ const AROUND: f64 = 0.6;
 const MOST: f64 = 0.4;
 /// Lines have room for so many columns at least.
 const NARROWEST: f64 = 8.0;
+
+/// Decimals of pixels.
+const DECIMALS: usize = 2;
 
 /// Messages in lines.
 #[derive(Default)]
@@ -43,24 +44,21 @@ impl Lines {
         let height = height(lines.len());
         Lines { lines, letters, height }
     }
-}
 
-impl Picture<'_> {
-    /// Writes what is said below what is drawn.
-    pub fn said(&self) -> String {
-        let Lines { lines, letters, height } = &self.said;
-        let top = self.size[1] - height + AROUND * letters;
+    /// As they stand at the bottom of a picture of a size (px), within margins.
+    pub fn written(&self, size: [f64; 2], margin: f64) -> String {
+        let top = size[1] - self.height + AROUND * self.letters;
         let mut text = String::new();
-        for (row, line) in lines.iter().enumerate() {
-            let y = number(top + letters * (LINE * row as f64 + 1.0), PIXELS);
-            let _ = writeln!(text, "<text class=\"said\" x=\"{}\" y=\"{y}\">{}</text>", self.margin, escaped(line));
+        for (row, line) in self.lines.iter().enumerate() {
+            let y = number(top + self.letters * (LINE * row as f64 + 1.0), DECIMALS);
+            let _ = writeln!(text, "<text class=\"said\" x=\"{margin}\" y=\"{y}\">{}</text>", escaped(line));
         }
         text
     }
 
-    /// The size of letters of what is said (px), if anything is.
-    pub fn letters_of_said(&self) -> Option<f64> {
-        (!self.said.lines.is_empty()).then_some(self.said.letters)
+    /// The size of their letters (px), if there are any.
+    pub fn letters(&self) -> Option<f64> {
+        (!self.lines.is_empty()).then_some(self.letters)
     }
 }
 
