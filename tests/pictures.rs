@@ -762,7 +762,7 @@ fn what_stops_is_shown_up_to_there() {
     let names: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
     assert!(names.contains(&"motor"), "{names:?}");
     let file = animated(&seen.scene, &seen.motion, &Options { said: vec![why.message.clone()], ..Options::default() });
-    assert!(file.contains("class=\"said\"") && file.contains(" named\"") && file.contains("locks up"));
+    assert!(file.contains("class=\"said\"") && file.contains("named m m") && file.contains("locks up"));
     assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
 }
 
