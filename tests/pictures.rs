@@ -681,11 +681,13 @@ fn free_motions_are_those_by_hand() {
     let [crank, coupler, rocker] = ["crank", "coupler", "rocker"].map(of);
     // along the bar both its ends are as fast, and across the other link it is the bar that turns
     let turns = |wanted: f64, found: f64| assert!((wanted - found / crank[2]).abs() < 1e-9, "{found}, not {wanted}");
-    turns(0.04 * (first - bar).sin() / (0.07 * (second - bar).sin()), rocker[2]);
-    turns(0.04 * (first - second).sin() / (0.1 * (second - bar).sin()), coupler[2]);
+    let sin = |angle: f64| polar(1.0, angle)[1];
+    turns(0.04 * sin(first - bar) / (0.07 * sin(second - bar)), rocker[2]);
+    turns(0.04 * sin(first - second) / (0.1 * sin(second - bar)), coupler[2]);
     // the origins of crank and rocker are pivots; that of the coupler goes with the crank's tip
     assert!([crank[0], crank[1], rocker[0], rocker[1]].iter().all(|speed| speed.abs() < 1e-9));
-    let tip = [-0.04 * first.sin() * crank[2], 0.04 * first.cos() * crank[2]];
+    let [x, y] = times(crank[2], polar(0.04, first));
+    let tip = [-y, x];
     assert!(distance([coupler[0], coupler[1]], tip) < 1e-9);
     let fastest = [crank, coupler, rocker].iter().fold(0.0, |most: f64, [.., turn]| most.max(turn.abs()));
     assert!((fastest - 1.0).abs() < 1e-9, "{fastest}");

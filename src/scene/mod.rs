@@ -101,7 +101,7 @@ impl Scene {
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
         let (traces, named) = (Vec::new(), Vec::new());
-        let scene = Scene { points, nodes, extent, profiles, outlines, traces, named, ..self.clone() };
+        let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, ..self.clone() };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 

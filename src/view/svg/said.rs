@@ -18,7 +18,7 @@ const DECIMALS: usize = 2;
 /// Messages in lines.
 #[derive(Default)]
 pub(super) struct Lines {
-    lines: Vec<String>,
+    rows: Vec<String>,
     /// The size of letters (px).
     letters: f64,
     /// How high they are together (px), with what is free around them.
@@ -42,14 +42,14 @@ impl Lines {
             last.push_str(" …");
         }
         let height = height(lines.len());
-        Lines { lines, letters, height }
+        Lines { rows: lines, letters, height }
     }
 
     /// As they stand at the bottom of a picture of a size (px), within margins.
     pub fn written(&self, size: [f64; 2], margin: f64) -> String {
         let top = size[1] - self.height + AROUND * self.letters;
         let mut text = String::new();
-        for (row, line) in self.lines.iter().enumerate() {
+        for (row, line) in self.rows.iter().enumerate() {
             let y = number(top + self.letters * (LINE * row as f64 + 1.0), DECIMALS);
             let _ = writeln!(text, "<text class=\"said\" x=\"{margin}\" y=\"{y}\">{}</text>", escaped(line));
         }
@@ -58,7 +58,7 @@ impl Lines {
 
     /// The size of their letters (px), if there are any.
     pub fn letters(&self) -> Option<f64> {
-        (!self.lines.is_empty()).then_some(self.letters)
+        (!self.rows.is_empty()).then_some(self.letters)
     }
 }
 
@@ -67,7 +67,7 @@ fn wrapped(text: &str, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
         match lines.last_mut() {
-            Some(line) if columns(line) + 1 + columns(word) <= width as usize => {
+            Some(line) if (columns(line) + 1 + columns(word)) as f64 <= width => {
                 line.push(' ');
                 line.push_str(word);
             }
@@ -92,9 +92,9 @@ mod tests {
     fn a_given_size_keeps_most_of_its_room() {
         let said = ["word ".repeat(400)];
         let within = Lines::of(&said, [400.0, 300.0], 14.0, true);
-        assert!(within.height <= 120.0 && within.lines.last().is_some_and(|line| line.ends_with('…')));
+        assert!(within.height <= 120.0 && within.rows.last().is_some_and(|line| line.ends_with('…')));
         let below = Lines::of(&said, [400.0, 300.0], 14.0, false);
-        assert!(below.height > 300.0 && below.lines.len() > within.lines.len());
+        assert!(below.height > 300.0 && below.rows.len() > within.rows.len());
         assert_eq!(Lines::of(&[], [400.0, 300.0], 14.0, true).height, 0.0);
     }
 }
