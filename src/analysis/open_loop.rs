@@ -20,6 +20,8 @@ const TAKES_PART: f64 = 0.01;
 const LIGHT: f64 = 1e4;
 /// A link is too short or too long if this part of the force acts along it.
 const ALONG: f64 = 0.3;
+/// What is open by more than this, in sizes of the mechanism, is not shown.
+const FAR: f64 = 10.0;
 /// What is open by less than this, scaled, is closed.
 const CLOSED: f64 = 1e-6;
 
@@ -61,11 +63,24 @@ pub(super) enum LinkOf {
 /// The diagnosis where the nearest position is `q`.
 pub(super) fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
     let system = determined.system();
-    let mut evaluator = Evaluator::new(system);
+    let (open, _) = told(determined, q, t)?;
+    Some(errors::open_loop(system, &open, t))
+}
+
+/// The coordinates [m, rad] where all is closed but what is told to be open.
+pub(super) fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
+    let (open, q) = told(determined, q, t)?;
+    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length } else { FAR };
+    (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
+}
+
+/// The loop that does not close, and the coordinates where all but one declaration of it is.
+fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64>)> {
+    let mut evaluator = Evaluator::new(determined.system());
     evaluator.q.copy_from_slice(q);
     let part = open_part(&mut evaluator, determined, t)?;
     let open = open_loop(&mut evaluator, &part, t)?;
-    Some(errors::open_loop(system, &open, t))
+    Some((open, evaluator.q))
 }
 
 /// All equations, or the first block that stays open.

@@ -88,7 +88,10 @@ pub(super) enum Command {
         all of it: how much that is, is told in kB, and of more than 20 MB rows are left out. The slider begins at the file's own value, \
         or at the nearest. Where the mechanism cannot be assembled with a value, or stops, the page says so for that value.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
-        cannot go on, the picture shows it up to there, and the exit code is 3.",
+        cannot go on, the picture shows it up to there, with what the message names in red.\n\n\
+        What is broken is drawn too, while messages and exit codes are those of `run`. A mechanism that is not determined is shown as its \
+        text draws it: what is left free as dashed arrows, redundant joints in rings. One that cannot be assembled is shown with \
+        everything closed but the joint that stays open, and a dashed line between the two halves of that.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \

@@ -192,6 +192,7 @@ mod tests {
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
+            named: vec![1],
         }
     }
 
@@ -236,6 +237,8 @@ mod tests {
         assert_eq!(data["scene"]["declarations"][2][0], "b.<P>");
         assert_eq!(data["variants"][0]["edges"][0], 0.25);
         assert_eq!(data["columns"][0]["scale"][1], 1000.0);
+        assert_eq!(data["variants"][0]["named"], serde_json::json!([1]));
+        assert_eq!(data["scene"]["named"], Value::Null, "variants share a scene whatever is wrong with them");
         assert!(
             html.contains(env!("CARGO_PKG_VERSION")) && html.contains("uPlot") && html.contains("default-src 'none'")
         );

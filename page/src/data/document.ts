@@ -15,6 +15,8 @@ export interface Document {
     readonly motion: Motion;
     readonly results: readonly Result[];
     readonly messages: readonly Message[];
+    /** The declarations that errors name. */
+    readonly named: readonly number[];
 }
 
 const outlines = new WeakMap<Scene, string>();
@@ -52,7 +54,8 @@ async function unpacked(page: Page, variant: number): Promise<Document> {
     const bytes = from.rows > 0 ? await inflated(bytesOfBase64(from.data)) : new Uint8Array(columns);
     const table = new Table(page.columns, columnsOf(bytes, from.rows, columns));
     const motion = new Motion(scene, table, from.edges, from.drawn);
-    return { page, variant, scene, table, motion, results: from.results, messages: from.messages };
+    const { results, messages, named = [] } = from;
+    return { page, variant, scene, table, motion, results, messages, named };
 }
 
 /** So many tables are kept unpacked at the most. */

@@ -80,7 +80,6 @@ export interface Result extends Column {
 }
 
 export interface Label {
-    declaration?: number;
     text: number;
     from: number;
     to: number;
@@ -107,6 +106,8 @@ export interface Variant {
     results: Result[];
     messages: Message[];
     edges: number[];
+    /** The declarations that errors name. */
+    named?: number[];
     /** Where the frames are (x, y, phi of each) if there is no row: as they are drawn in the text. */
     drawn?: [number, number, number][];
     /** What its scene has that the page's has not. */

@@ -23,7 +23,7 @@ pub(super) fn variant(seen: &Seen) -> Variant<'_> {
         motion: &seen.motion,
         all_rows: seen.all_rows,
         results: seen.results.iter().map(|(name, unit, value)| (column(name, unit), *value)).collect(),
-        messages: seen.stopped.iter().collect(),
+        messages: seen.messages().collect(),
     }
 }
 

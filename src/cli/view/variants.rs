@@ -89,18 +89,23 @@ impl Solver<'_> {
         let first = self.varied.iter().fold(0, |place, varied| place * varied.values.len() + varied.nearest);
         let (checked, made, said) = self.made(first, MOST_ROWS);
         reporter.sources = checked.sources().clone();
-        let begun = reporter.settle(made, said)?;
+        let begun = match made {
+            // it is told at the end, when the page is there
+            Some(at_rest) if !has_moved(&at_rest) => at_rest,
+            made => reporter.settle(made, said)?,
+        };
         let most = (MOST_NUMBERS / (self.count() * begun.columns.len())).clamp(2, MOST_ROWS);
         let progress = &mut Progress::of("variants", self.count() as u64, false);
         let mut all = Vec::with_capacity(self.count());
         for variant in 0..self.count() {
             let (checked, made, said) = self.made(variant, most);
-            let errors = match &made {
-                Some(seen) => seen.stopped.clone().map(Diagnostics::from).unwrap_or_default(),
+            let errors = match made.as_ref().and_then(|seen| seen.stopped.clone()) {
+                Some(stop) => stop.into(),
+                None if made.as_ref().is_some_and(has_moved) => Diagnostics::default(),
                 None => errors_of(&said),
             };
             let stopped = (!errors.is_empty()).then(|| (checked.sources().clone(), errors));
-            let seen = made.unwrap_or_else(|| without_motion(&checked, &begun));
+            let seen = made.unwrap_or_else(|| without_picture(said, &begun));
             if seen.columns != begun.columns {
                 progress.finish();
                 return Err(of_other_columns(&self.settings(variant)).into());
@@ -123,20 +128,25 @@ impl Solver<'_> {
         }
         let (compiled, more) = input::proven(&checked, self.arguments.allow_redundant);
         said.extend(more);
-        let Some(compiled) = compiled else { return (checked, None, said) };
-        let seen = match self.times(&checked, &compiled) {
-            Ok(times) => {
-                let pass_bifurcations = self.arguments.pass_bifurcations;
-                let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
-                let (seen, more) = checked.seen(&compiled, &times, &options, most);
-                said.extend(more);
-                seen
-            }
-            Err(why) => {
-                said.extend(why);
-                None
-            }
+        let pass_bifurcations = self.arguments.pass_bifurcations;
+        let options = RunOptions { pass_bifurcations, ..RunOptions::default() };
+        let times = match &compiled {
+            None => None,
+            Some(compiled) => match self.times(&checked, compiled) {
+                Ok(times) => Some((compiled, times)),
+                Err(why) => {
+                    said.extend(why);
+                    None
+                }
+            },
         };
+        let seen = times.as_ref().and_then(|(compiled, times)| {
+            let (seen, more) = checked.seen(compiled, times, &options, most);
+            said.extend(more);
+            seen
+        });
+        let from = times.as_ref().map_or(0.0, |(_, times)| times.from());
+        let seen = seen.or_else(|| checked.seen_at_rest(compiled.as_ref(), (from, &options), &said));
         (checked, seen, said)
     }
 
@@ -156,7 +166,7 @@ impl Solver<'_> {
             let Varied { name, unit, values, nearest, own, .. } = varied.clone();
             Vary { name, unit, values, nearest, own }
         };
-        let shown: Vec<Variant> = variants.iter().map(Solved::shown).collect();
+        let shown: Vec<Variant> = variants.iter().map(|solved| page::variant(&solved.seen)).collect();
         let text = page::written_with(&variants[first].seen, self.varied.iter().map(vary).collect(), shown, sources);
         if text.len() > LONGEST {
             let said =
@@ -191,11 +201,9 @@ impl Solver<'_> {
     }
 }
 
-impl Solved {
-    fn shown(&self) -> Variant<'_> {
-        let stopped = self.stopped.iter().flat_map(|(_, said)| said.iter());
-        Variant { messages: stopped.collect(), ..page::variant(&self.seen) }
-    }
+/// Whether there is a motion, be it whole or not.
+fn has_moved(seen: &Seen) -> bool {
+    !seen.motion.rows().is_empty()
 }
 
 fn is_error(said: &Diagnostic) -> bool {
@@ -210,31 +218,29 @@ fn errors_of(said: &Diagnostics) -> Diagnostics {
     errors
 }
 
-/// What is seen of a variant without a motion: what is drawn in the text, if that is sound, or else nothing but the text.
-fn without_motion(checked: &Checked, begun: &Seen) -> Seen {
-    let (scene, motion) = checked.seen_as_drawn().unwrap_or_else(|| {
-        let mut scene = begun.scene.clone();
-        scene.frames.truncate(1);
-        scene.points.clear();
-        scene.nodes.clear();
-        scene.traces.clear();
-        scene.profiles.clear();
-        (scene, Motion::still(vec![Pose::default()]))
-    });
+/// What is seen of a variant that is not sound: nothing but its text.
+fn without_picture(said: Diagnostics, begun: &Seen) -> Seen {
+    let mut scene = begun.scene.clone();
+    scene.frames.truncate(1);
+    scene.points.clear();
+    scene.nodes.clear();
+    scene.traces.clear();
+    scene.profiles.clear();
+    scene.named.clear();
+    let motion = Motion::still(vec![Pose::default()]);
     let results = begun.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();
-    Seen { scene, motion, all_rows: 0, stopped: None, results, ..begun.clone() }
+    Seen { scene, motion, all_rows: 0, stopped: None, said, results, ..begun.clone() }
 }
 
 /// All have symbols of one size and the extent of all, so that nothing jumps when a slider moves.
 fn alike(all: Vec<(ManuallyDrop<Checked>, Solved)>) -> Vec<Solved> {
-    let has_moved = |seen: &Seen| !seen.motion.rows().is_empty();
     let mut units: Vec<f64> =
         all.iter().filter(|(_, solved)| has_moved(&solved.seen)).map(|(_, solved)| solved.seen.scene.unit).collect();
     units.sort_by(f64::total_cmp);
     let unit = units.get(units.len() / 2).copied();
     let redrawn = |(checked, mut solved): (ManuallyDrop<Checked>, Solved)| {
-        let motion = &solved.seen.motion;
-        let scene = unit.filter(|_| has_moved(&solved.seen)).and_then(|unit| checked.drawn_with_symbols(motion, unit));
+        let seen = &solved.seen;
+        let scene = unit.filter(|_| has_moved(seen)).and_then(|unit| checked.drawn_with_symbols(seen, unit));
         solved.seen.scene = scene.unwrap_or(solved.seen.scene);
         solved
     };

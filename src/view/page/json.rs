@@ -95,6 +95,9 @@ fn variant_with(variant: &Variant, every: usize, count: usize, texts: &Texts, sh
             let drawn: Vec<[f64; 3]> = motion.poses(0).iter().map(|pose| [pose.at[0], pose.at[1], pose.phi]).collect();
             object.insert("drawn".to_owned(), json!(drawn));
         }
+        if !variant.scene.named.is_empty() {
+            object.insert("named".to_owned(), json!(variant.scene.named));
+        }
         if let Some(changes) = changes(shared, &scene(variant.scene, texts)) {
             object.insert("scene".to_owned(), changes);
         }
