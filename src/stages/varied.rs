@@ -323,7 +323,7 @@ mod tests {
             ("length=40mm..0.06m:2", "m", [0.04, 0.06], "length=0.06 m"),
             ("length=2*20mm..60mm:2", "m", [0.04, 0.06], "length=0.06 m"),
             ("speed=1/s..180 deg/s / 30:2", "rad/s", [0.104_719_755_119_659_77, 1.0], "speed=1 rad/s"),
-            ("A.x=-1e1mm..+5mm:2", "mm", [-10.0, 5.0], "A.x=5 mm"),
+            ("A.x=-1e1mm..5mm:2", "mm", [-10.0, 5.0], "A.x=5 mm"),
         ] {
             let found = one(asked);
             assert_eq!((found.unit.as_str(), found.settings[1].as_str()), (unit, setting), "{asked}");
