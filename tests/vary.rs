@@ -80,9 +80,12 @@ fn what_is_not_whole_says_why_and_the_others_are_there() {
 
 #[test]
 fn the_own_variant_decides_how_the_command_ends() {
-    let Outcome { code, said, .. } = view(&["--vary", "rod_length=10mm..20mm:2"]);
-    assert_ne!(code, 0);
-    assert!(said.starts_with("error[E0"), "{said}");
+    let Outcome { code, said, page, .. } = view(&["--vary", "rod_length=10mm..20mm:2"]);
+    assert_eq!(code, 3, "{said}");
+    assert!(said.contains("\nerror[E0601]: the mechanism cannot be assembled"), "{said}");
+    let own = page.expect("a page that shows what is the matter")["variants"][1].clone();
+    assert_eq!(own["messages"][0]["code"], "E0601");
+    assert!(own["drawn"].is_array(), "{own}");
 }
 
 #[test]
