@@ -6,12 +6,14 @@
 
 mod support;
 
+use mechc::rooms::analysis::{FreeMotion, free_motions};
 use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
 };
-use mechc::rooms::view::dxf;
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, plots, still};
+use mechc::rooms::view::{dxf, first_sentence};
+use mechc::rooms::{check, lower, syntax};
 use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
@@ -32,6 +34,24 @@ fn seen_as(path: &Path, text: &str, times: Option<Times>) -> Seen {
 
 fn seen_text(text: &str) -> Seen {
     seen_as(Path::new("test.mech"), text, None)
+}
+
+/// What there is to see of a mechanism that has no motion, and all that is said of it.
+fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
+    let text = fs::read_to_string(path).expect("a mechanism");
+    let mut sources = Sources::default();
+    let file = sources.add(path, text);
+    let checked = Parsed::of_source(sources, file, Path::new(path)).check(&Choice::default(), &Disk::default());
+    let options = RunOptions::default();
+    let (compiled, mut said) = checked.compile(Redundant::Refused, &Cancel::default());
+    if let Some(compiled) = &compiled {
+        let (seen, why) = checked.seen(compiled, &compiled.times().expect("an analysis"), &options, 2000);
+        assert!(seen.is_none(), "{path} moves");
+        said = why;
+    }
+    let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
+    let messages = said.iter().map(|said| format!("error[{}]: {}", said.code, said.message)).collect();
+    (seen, messages)
 }
 
 /// All examples, with their names.
@@ -628,24 +648,245 @@ fn a_film_has_a_picture_of_each_row() {
     assert!(code != 0 && said.contains("there is no folder `no`"), "{code}: {said}");
 }
 
-/// Pictures that a reviewer reads, and the one of the docs.
-fn goldens() -> Vec<(&'static str, String)> {
+/// What the pictures of some examples show beside what these ask for: the point that an example is there for.
+const TRACED: [(&str, &str); 5] = [
+    ("hoeken", "coupler.pen"),
+    ("pantograph", "lower.pen"),
+    ("peaucellier", "side_PD.P"),
+    ("planetary_gear", "planet.pen"),
+    ("trammel", "bar.pen"),
+];
+
+/// Where the gallery's pictures are.
+const GALLERY: &str = "docs/gallery";
+
+/// What the pictures of the gallery weigh together at the most (bytes).
+const HEAVIEST_GALLERY: usize = 2_000_000;
+
+const GALLERY_INTRODUCTION: &str = "\
+# Gallery
+
+The mechanisms of `examples/` as `mechc view` draws them, with the command below each. The pictures are plain SVG without a script: they
+move wherever a browser shows them, this page included, in light and in dark. With `-o NAME.html` in place of `-o NAME.svg` one gets a page
+to play with.
+";
+
+/// The page of all examples, and their pictures.
+fn gallery() -> Vec<(String, String)> {
+    let (mut page, mut pictures) = (GALLERY_INTRODUCTION.to_owned(), Vec::new());
+    for (name, seen) in examples() {
+        let traced = TRACED.iter().find(|(example, _)| *example == name).map(|(_, path)| *path);
+        let anchored = traced.map(|path| {
+            let point = seen.scene.point_named(path).expect("a point of the example");
+            (path.to_owned(), Anchor { frame: point.frame, at: point.at })
+        });
+        let options = Options { traces: anchored.into_iter().collect(), ..Options::default() };
+        pictures.push((format!("{GALLERY}/{name}.svg"), animated(&seen.scene, &seen.motion, &options)));
+        let title = name[..1].to_uppercase() + &name[1..].replace('_', " ");
+        let docs = seen.scene.docs.join("\n");
+        let (first, _) = first_sentence(&docs);
+        let trace = traced.map_or(String::new(), |path| format!(" --trace {path}"));
+        let text = format!("[`{name}.mech`](../examples/{name}.mech)");
+        let command = format!("`mechc view examples/{name}.mech{trace} -o {name}.svg`");
+        page += &format!("\n## {title}\n\n{first}\n\n![{title}, moving](gallery/{name}.svg)\n\n{text}: {command}\n");
+    }
+    pictures.push(("docs/gallery.md".to_owned(), page));
+    pictures
+}
+
+#[test]
+fn the_gallery_has_all_examples_and_nothing_else() {
+    let gallery = gallery();
+    let pictures = || gallery.iter().filter(|(path, _)| Path::new(path).starts_with(GALLERY));
+    let weight: usize = pictures().map(|(_, drawn)| drawn.len()).sum();
+    assert!(weight <= HEAVIEST_GALLERY, "{weight} bytes");
+    for path in files(GALLERY, "svg") {
+        let name = format!("{GALLERY}/{}.svg", stem(&path));
+        assert!(pictures().any(|(known, _)| *known == name), "{name} is of no example");
+    }
+}
+
+/// The free motions of a mechanism, by the names of bodies.
+fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
+    let mut sources = Sources::default();
+    let file = sources.add("free.mech", text);
+    let tree = syntax::parse(&sources, file).tree;
+    let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
+    let system = lower::lower(&model.unwrap_or_else(|| panic!("{said:?}")));
+    let named = |FreeMotion { bodies }: FreeMotion| {
+        bodies.into_iter().map(|(body, velocity)| (system.bodies[body].name.clone(), velocity)).collect()
+    };
+    free_motions(&system).into_iter().map(named).collect()
+}
+
+#[test]
+fn free_motions_are_those_by_hand() {
+    // two links between two pivots, and a bar between their tips; as drawn it nearly closes, which changes no slope
+    let [first, bar, second] = [60.0_f64, 20.0, 80.0].map(f64::to_radians);
+    let four_bar = "mechanism four_bar {
+        ground { point O = (0, 0)  point C = (100 mm, 0) }
+        body crank at (0, 0, 60 deg) { point O = (0, 0)  point A = (40 mm, 0) }
+        body coupler at (20 mm, 34.6 mm, 20 deg) { point A = (0, 0)  point B = (100 mm, 0) }
+        body rocker at (100 mm, 0, 80 deg) { point C = (0, 0)  point B = (70 mm, 0) }
+        joint main: revolute(ground.O, crank.O)
+        joint front: revolute(crank.A, coupler.A)
+        joint back: revolute(coupler.B, rocker.B)
+        joint swing: revolute(ground.C, rocker.C)
+    }";
+    let motions = free(four_bar);
+    let [motion] = motions.as_slice() else { panic!("{motions:?}") };
+    let of = |name: &str| motion.iter().find(|(known, _)| known == name).expect("it moves").1;
+    let [crank, coupler, rocker] = ["crank", "coupler", "rocker"].map(of);
+    // along the bar both its ends are as fast, and across the other link it is the bar that turns
+    let turns = |wanted: f64, found: f64| assert!((wanted - found / crank[2]).abs() < 1e-9, "{found}, not {wanted}");
+    let sin = |angle: f64| polar(1.0, angle)[1];
+    turns(0.04 * sin(first - bar) / (0.07 * sin(second - bar)), rocker[2]);
+    turns(0.04 * sin(first - second) / (0.1 * sin(second - bar)), coupler[2]);
+    // the origins of crank and rocker are pivots; that of the coupler goes with the crank's tip
+    assert!([crank[0], crank[1], rocker[0], rocker[1]].iter().all(|speed| speed.abs() < 1e-9));
+    let [x, y] = times(crank[2], polar(0.04, first));
+    let tip = [-y, x];
+    assert!(distance([coupler[0], coupler[1]], tip) < 1e-9);
+    let fastest = [crank, coupler, rocker].iter().fold(0.0, |most: f64, [.., turn]| most.max(turn.abs()));
+    assert!((fastest - 1.0).abs() < 1e-9, "{fastest}");
+
+    let block = free(
+        "mechanism block { ground { point O = (0, 0) } body block at (1 m, 2 m, 30 deg) { point P = (0, 0)  point Q = (50 mm, 0) } }",
+    );
+    let turn = block.iter().filter(|motion| motion[0].1[2] != 0.0).count();
+    let mut parts: Vec<usize> =
+        block.iter().map(|motion| motion[0].1.iter().position(|x| *x != 0.0).expect("it moves")).collect();
+    parts.sort_unstable();
+    assert!(block.iter().all(|motion| motion.len() == 1 && motion[0].1.iter().filter(|x| **x != 0.0).count() == 1));
+    assert_eq!((turn, parts), (1, vec![0, 1, 2]), "one turn, one motion along either axis");
+
+    let slide = "mechanism slide {
+        ground { point O = (0, 0)  axis way = O along (3, 4) }
+        body block { point P = (0, 0)  axis way = P along (3, 4) }
+        joint guide: translational(ground.way, block.way)
+    }";
+    let [motion] = <[_; 1]>::try_from(free(slide)).expect("one motion");
+    let [x, y, turn] = motion[0].1;
+    assert!((y / x - 4.0 / 3.0).abs() < 1e-9 && turn == 0.0, "{motion:?}");
+}
+
+/// The places of nodes that have a shape of some look, with their declarations.
+fn looking(seen: &Seen, look: Look) -> Vec<(&str, Vector)> {
+    let nodes = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == look));
+    let poses = seen.motion.poses(0);
+    nodes.map(|node| (seen.scene.declarations[node.declaration].name.as_str(), node.place.pose(poses).0.at)).collect()
+}
+
+#[test]
+fn what_is_left_free_has_arrows() {
+    let (seen, said) = seen_at_rest("tests/ui/ndof/three_cranks_without_driver.mech");
+    assert!(said[0].starts_with("error[E0503]"), "{said:?}");
+    let mut arrows = looking(&seen, Look::Free);
+    arrows.sort_by(|a, b| a.0.cmp(b.0));
+    let names: Vec<&str> = arrows.iter().map(|(name, _)| *name).collect();
+    assert_eq!(names, ["bar", "first", "second", "third"]);
+    for (k, (_, at)) in arrows[1..].iter().enumerate() {
+        assert!(distance(*at, [0.1 * k as f64, 0.0]) < 1e-9, "it turns about {at:?}");
+    }
+    let named: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
+    assert_eq!(named, ["b3"], "what is redundant");
+    assert_eq!(looking(&seen, Look::Named).len(), 1);
+    // as it is drawn in the text
+    assert_eq!(seen.motion.poses(0)[4].at, [0.025, 0.043]);
+    assert!(seen.motion.rows().is_empty() && looking(&seen, Look::Gap).is_empty());
+}
+
+#[test]
+fn what_cannot_be_assembled_is_open_where_it_is_said() {
+    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    assert!(said[0].ends_with("joint `swing` stays open by 8.88 mm"), "{said:?}");
+    let open = seen.scene.nodes.iter().filter(|node| node.shapes.iter().any(|shape| shape.look == Look::GapEnd));
+    let [open] = open.collect::<Vec<_>>()[..] else { panic!("one joint is open") };
+    assert_eq!(seen.scene.declarations[open.declaration].name, "swing");
+    let halves: Vec<Vector> = open
+        .shapes
+        .iter()
+        .filter_map(|shape| if let Drawn::Circle { at, .. } = shape.path { Some(at) } else { None })
+        .collect();
+    assert!((distance(halves[0], halves[1]) - 8.88e-3).abs() < 5e-6, "{halves:?}");
+    assert!(seen.scene.named.contains(&open.declaration));
+}
+
+#[test]
+fn what_stops_is_shown_up_to_there() {
+    let seen = stopped();
+    let why = seen.stopped.as_ref().expect("it locks up");
+    let t = why.data["t"].as_f64().expect("a time");
+    let last = *seen.motion.times.last().expect("rows");
+    assert!(last < t && t < last + 0.01);
+    let names: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
+    assert!(names.contains(&"motor"), "{names:?}");
+    let file = animated(&seen.scene, &seen.motion, &Options { said: vec![why.message.clone()], ..Options::default() });
+    assert!(file.contains("class=\"said\"") && file.contains("named m m") && file.contains("locks up"));
+    assert!(farthest_pin("four_bar", &seen, &file) < 0.5);
+}
+
+fn stopped() -> Seen {
+    let path = Path::new("tests/ui/run/four_bar_into_lock_up.mech");
+    seen_as(path, &fs::read_to_string(path).expect("a mechanism"), None)
+}
+
+#[test]
+fn messages_take_no_room_from_what_is_drawn() {
+    let (seen, said) = seen_at_rest("tests/ui/run/loop_that_never_closes.mech");
+    for size in [None, Some([400.0, 300.0]), Some([1280.0, 720.0])] {
+        let options = Options { said: said.clone(), labels: true, size, ..Options::default() };
+        let file = still(&seen.scene, &seen.motion, &seen.motion, &options);
+        let lines: Vec<f64> = file
+            .split("<text class=\"said\"")
+            .skip(1)
+            .map(|tag| attribute(tag, "y").expect("a place").parse().expect("a number"))
+            .collect();
+        let root = &file[..file.find('>').expect("a root")];
+        let height: f64 = attribute(root, "height").expect("a height").parse().expect("a number");
+        assert!(!lines.is_empty() && lines.iter().all(|y| *y < height), "{lines:?} of {height}");
+        let read = Read::of(&file);
+        for point in &seen.scene.points {
+            let [x, y] = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+            assert!(
+                x > 0.0 && y > 0.0 && y < lines[0] - 13.0,
+                "{} is at {x}, {y}, and words at {}",
+                point.name,
+                lines[0]
+            );
+        }
+    }
+}
+
+/// Pictures that a reviewer reads, and those of the docs.
+fn goldens() -> Vec<(String, String)> {
     let span = mechc::Span { file: Sources::default().add("", ""), start: 0, end: 0 };
     let (symbols, rest, captions) = catalogue(span);
     let of_symbols = Options { captions, ..Options::default() };
     let (hoeken, slider_crank) = (example("hoeken"), example("slider_crank"));
     let pen = hoeken.scene.point_named("coupler.pen").expect("the pen");
     let pen = ("coupler.pen".to_owned(), Anchor { frame: pen.frame, at: pen.at });
+    let of_broken = |path: &str| {
+        let (seen, said) = seen_at_rest(path);
+        still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() })
+    };
+    let stopped = stopped();
+    let why = stopped.stopped.as_ref().map(|why| why.message.clone());
+    let at_the_end = Options { said: why.into_iter().collect(), ..Options::default() };
+    let last = stopped.motion.moment(stopped.motion.len() - 1);
     let labelled = Options { labels: true, traces: vec![pen], ..Options::default() };
-    vec![
+    let others = [
         ("docs/symbols.svg", still(&symbols, &rest, &rest, &of_symbols)),
         ("tests/pictures/hoeken.svg", still(&hoeken.scene, &hoeken.motion, &one_row(&hoeken, 0), &labelled)),
         (
             "tests/pictures/slider_crank.plots.svg",
             plots(&slider_crank.scene, &slider_crank.motion.times, &measures(&slider_crank), &Options::default()),
         ),
-        ("tests/pictures/slider_crank.svg", animated(&slider_crank.scene, &slider_crank.motion, &Options::default())),
-    ]
+        ("tests/pictures/refused.svg", of_broken("tests/ui/ndof/three_cranks_without_driver.mech")),
+        ("tests/pictures/open.svg", of_broken("tests/ui/run/loop_that_never_closes.mech")),
+        ("tests/pictures/stopped.svg", still(&stopped.scene, &stopped.motion, &last, &at_the_end)),
+    ];
+    gallery().into_iter().chain(others.map(|(path, drawn)| (path.to_owned(), drawn))).collect()
 }
 
 #[test]

@@ -86,7 +86,7 @@ export class App implements Deeds {
     }
 
     get firstVariant(): number {
-        return variantOf(this.page, this.page.vary.map(({ own }) => own));
+        return variantOf(this.page, this.page.vary.map(({ nearest }) => nearest));
     }
 
     get time(): number {

@@ -37,11 +37,7 @@ pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Mo
     let determined = kinematics.determined();
     let system = determined.system();
     let estimates = kinematics.estimates();
-    // at a switch the later side counts
-    let span = system.analysis.map_or(1.0, |[from, to, _]| to - from);
-    kinematics.settle_time(behind_start(t, span));
-    kinematics.freeze(true, false);
-    kinematics.set_time(t);
+    set_start(kinematics, t);
     if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
         return Err(Box::new(errors::no_value(system, fault, t)));
     }
@@ -54,6 +50,25 @@ pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Mo
     refuse_vanishing_tangents(kinematics, &q, t)?;
     refuse_singular(kinematics, &q, t)?;
     Ok((State::new(t, q), moved))
+}
+
+/// At a switch the later side counts.
+fn set_start(kinematics: &mut Kinematics, t: f64) {
+    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
+    kinematics.settle_time(behind_start(t, span));
+    kinematics.freeze(true, false);
+    kinematics.set_time(t);
+}
+
+/// Where all is closed but what is told to be open, if [`assemble`] finds no position.
+pub(super) fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
+    let estimates = kinematics.estimates();
+    set_start(kinematics, t);
+    kinematics.set_position(&estimates).ok()?;
+    let start = explicit_first(kinematics, &estimates);
+    kinematics.set_position(&start).ok()?;
+    let q = least_squares(kinematics, start);
+    open_loop::opened(&kinematics.determined(), &q, t)
 }
 
 fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {

@@ -5,7 +5,7 @@
 
 use super::errors;
 use super::evaluator::Evaluator;
-use super::freedom::Freedom;
+use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::{Check, ConstraintSystem, DeclarationKind};
@@ -60,6 +60,26 @@ pub(super) fn explain_dependent(system: &ConstraintSystem) -> Option<Diagnostic>
     let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system));
     let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
     (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
+}
+
+/// The motions that a system leaves free that is not determined, where it is drawn; where it is drawn in a position in which it
+/// can move otherwise than elsewhere, those where it is assembled.
+#[must_use]
+pub fn free_motions(system: &ConstraintSystem) -> Vec<FreeMotion> {
+    let rows = everything(system);
+    if usize::max(rows.rows.len(), rows.columns.len()) > LARGEST {
+        return Vec::new();
+    }
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &rows);
+    let mut kept = rows;
+    kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
+    let t = system.analysis.map_or(0.0, |[from, ..]| from);
+    let drawn = motions_as_drawn(system, &kept, t);
+    match (drawn, freedom) {
+        (Some(drawn), Some(freedom)) if drawn.len() != freedom.degrees() => freedom.motions_of_bodies(system),
+        (Some(drawn), _) => drawn,
+        (None, freedom) => freedom.map_or(Vec::new(), |freedom| freedom.motions_of_bodies(system)),
+    }
 }
 
 /// What values say of a system.

@@ -13,6 +13,14 @@ use crate::tolerances::determinacy::freedom::{
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
+/// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
+#[derive(Clone, PartialEq, Debug)]
+pub struct FreeMotion {
+    /// The bodies that move, by their numbers, with the velocities of their frames [m, m, rad]. Of all coordinates, in sizes of
+    /// their bodies and in radians, the fastest moves by 1.
+    pub bodies: Vec<(usize, [f64; 3])>,
+}
+
 /// The motions that equations leave free.
 #[derive(Clone, Debug)]
 pub(super) struct Freedom {
@@ -37,7 +45,7 @@ impl Freedom {
         }
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let system = evaluator.system;
-        let mut taken = Basis::of(&jacobian, part.columns.len()).vectors;
+        let taken = Basis::of(&jacobian, part.columns.len()).vectors;
         let shares = shares_left(&taken, part.columns.len());
         let with_share = |least: f64| {
             let mut count = vec![0; system.bodies.len()];
@@ -55,16 +63,16 @@ impl Freedom {
         };
         let loose = bodies_where(with_share(LOOSE), 3);
         let moving = bodies_where(with_share(MOVES), 1);
-        let mut motions = Vec::new();
-        while let Some(motion) = next_motion(system, part, &taken) {
-            taken.push(motion.clone());
-            motions.push(motion);
-        }
-        let motions = apart(motions).iter().map(|motion| spread(motion, part, system.coordinates.len())).collect();
+        let motions = motions_beside(system, part, taken);
         let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new() };
         freedom.drivers = freedom.drivers(evaluator);
         freedom.joints = freedom.joints(evaluator);
         Some(freedom)
+    }
+
+    /// What its motions do with the bodies.
+    pub fn motions_of_bodies(&self, system: &ConstraintSystem) -> Vec<FreeMotion> {
+        self.motions.iter().map(|motion| of_bodies(system, motion)).collect()
     }
 
     /// How many degrees of freedom are left.
@@ -260,6 +268,36 @@ impl Freedom {
         });
         pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.degrees() / 2, 1))).collect()
     }
+}
+
+/// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
+/// value at that time (s).
+pub(super) fn motions_as_drawn(system: &ConstraintSystem, part: &Part, t: f64) -> Option<Vec<FreeMotion>> {
+    let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
+    let taken = Basis::of(&jacobian, part.columns.len()).vectors;
+    Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
+}
+
+/// A motion of all coordinates, scaled, as one of the bodies.
+fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
+    let fastest = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let velocity = |body: usize| [0, 1, 2].map(|part| (3 * body + part, motion[3 * body + part]));
+    let moves = |body: &usize| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
+    let moved = |body: usize| {
+        let of_rounding = |x: f64| if x.abs() > MOVES * fastest { x / fastest } else { 0.0 };
+        (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates[column].scale))
+    };
+    FreeMotion { bodies: (0..system.bodies.len()).filter(moves).map(moved).collect() }
+}
+
+/// The motions beside an orthonormal basis of what is held, each told by itself, of all coordinates.
+fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+    let mut motions = Vec::new();
+    while let Some(motion) = next_motion(system, part, &taken) {
+        taken.push(motion.clone());
+        motions.push(motion);
+    }
+    apart(motions).iter().map(|motion| spread(motion, part, system.coordinates.len())).collect()
 }
 
 /// For each point, one that stands for all that are pinned together with it, also by way of others.

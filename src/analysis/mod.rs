@@ -46,7 +46,8 @@ mod trust;
 mod yardstick;
 
 pub use assembly::Moved;
-pub use determine::determine;
+pub use determine::{determine, free_motions};
+pub use freedom::FreeMotion;
 pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;
 pub use parts::{Request, with_parts};
@@ -140,6 +141,23 @@ pub fn assemble_from(
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
     started((determined, program), t, estimates, (tolerance, cancel), |_| None)
+}
+
+/// Where the bodies of a mechanism that cannot be assembled at time `t` (s) come nearest to that, from the file's estimates or
+/// from others: all is closed but what is told to be open. None where that is not known, or hopeless [m, rad].
+#[must_use]
+pub fn nearest(
+    determined: Arc<Determined>,
+    program: Arc<Program>,
+    t: f64,
+    estimates: Option<&[f64]>,
+    cancel: &Cancel,
+) -> Option<Vec<f64>> {
+    let mut kinematics = Kinematics::new(determined, program, TOLERANCE, cancel.clone());
+    if let Some(estimates) = estimates {
+        kinematics.begin_from(estimates);
+    }
+    assembly::nearest(&mut kinematics, t)
 }
 
 fn started(

@@ -11,7 +11,7 @@ use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
 use crate::math;
 use crate::structure::{Determined, Part};
-use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, LARGEST, LIGHT, TAKES_PART};
+use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
 
 /// A loop that does not close.
 pub(super) struct OpenLoop {
@@ -51,11 +51,24 @@ pub(super) enum LinkOf {
 /// The diagnosis where the nearest position is `q`.
 pub(super) fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
     let system = determined.system();
-    let mut evaluator = Evaluator::new(system);
+    let (open, _) = told(determined, q, t)?;
+    Some(errors::open_loop(system, &open, t))
+}
+
+/// The coordinates [m, rad] where all is closed but what is told to be open.
+pub(super) fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
+    let (open, q) = told(determined, q, t)?;
+    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length } else { FAR };
+    (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
+}
+
+/// The loop that does not close, and the coordinates where all but one declaration of it is.
+fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64>)> {
+    let mut evaluator = Evaluator::new(determined.system());
     evaluator.q.copy_from_slice(q);
     let part = open_part(&mut evaluator, determined, t)?;
     let open = open_loop(&mut evaluator, &part, t)?;
-    Some(errors::open_loop(system, &open, t))
+    Some((open, evaluator.q))
 }
 
 /// All equations, or the first block that stays open.

@@ -83,15 +83,22 @@ pub(super) enum Command {
         any name. A number in the name, as in frames/%04d.svg, asks for a picture of each row, counted from 0, for a film; their folder is \
         made. OUT.dxf holds traces, the lines of cams, the outlines of gears as polylines within 1 µm, and the places of pins, in \
         millimetres, a layer for each declaration: for cutting. --scale draws true to scale, --body one body alone. OUT.html is a page \
-        that holds all of it and needs nothing else.\n\n\
+        that needs nothing else: the mechanism moves as its reader likes, beside plots of any column, vectors, results and the text.\n\n\
+        --vary gives that page a slider for a param, or for two. The mechanism is solved for each value beforehand, and the page holds \
+        all of it: how much that is, is told in kB, and of more than 20 MB rows are left out. The slider begins at the file's own value, \
+        or at the nearest. Where the mechanism cannot be assembled with a value, or stops, the page says so for that value.\n\n\
         The motion is that of the file's `analysis`, or of --from, --to and --every; with --at alone where there is neither. Where it \
-        cannot go on, the picture shows it up to there, and the exit code is 3.",
+        cannot go on, the picture shows it up to there, with what the message names in red.\n\n\
+        What is broken is drawn too, while messages and exit codes are those of `run`. A mechanism that is not determined is shown as its \
+        text draws it: what is left free as dashed arrows, redundant joints in rings. One that cannot be assembled is shown with \
+        everything closed but the joint that stays open, and a dashed line between the two halves of that.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
         mechc view linkage.mech -o plots.svg\n  mechc view linkage.mech -o frames/%04d.svg --every 40ms\n  \
         mechc view linkage.mech -o crank.svg --body crank --scale 1:2\n  mechc view camshaft.mech -o cam.dxf --body cam\n  \
-        mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms"
+        mechc view linkage.mech -o longer.svg --set crank_length=60mm --to 4 --every 10ms\n  \
+        mechc view linkage.mech -o rods.html --vary rod_length=120mm..180mm:13"
     )]
     View(ViewArguments),
     /// Φ, Φ_q, ν and γ as Rust, as LaTeX for a report, or as JSON
@@ -418,6 +425,11 @@ pub(super) struct ViewArguments {
     /// Where the picture goes; its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<String>,
+
+    /// A slider on the page for a parameter: N values from A to B, each solved beforehand: `--vary rod_length=120mm..180mm:13`. Twice
+    /// at most
+    #[arg(long, value_name = "NAME=A..B:N", allow_hyphen_values = true)]
+    pub vary: Vec<String>,
 
     /// Plots of all measures over time, whatever OUT.svg is called
     #[arg(long, conflicts_with_all = ["at", "trace", "vectors", "labels", "scale", "body"])]

@@ -6,8 +6,10 @@ use super::files::{self, Disk};
 use super::report::Reporter;
 use super::timings::{Phase, Timings};
 use crate::cancel::Cancel;
+use crate::diag::Diagnostics;
 use crate::source::Sources;
 use crate::stages::{self, Checked, Choice, Compiled, Parsed, Redundant};
+use crate::world::World;
 use std::mem::ManuallyDrop;
 use std::path::Path;
 
@@ -44,11 +46,16 @@ pub(super) fn checked_and_compiled(
     // see `run`: nothing is taken apart before the process ends
     let checked = ManuallyDrop::new(checked(parsed, input, by, reporter)?);
     timings.end(Phase::Check);
-    let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
-    let (compiled, said) = checked.compile(redundant, &Cancel::default());
+    let (compiled, said) = proven(&checked, allow_redundant);
     let compiled = reporter.settle(compiled, said)?;
     timings.end(Phase::Prove);
     Ok((checked, compiled))
+}
+
+/// The proof of a mechanism, with what is to be said of it.
+pub(super) fn proven(checked: &Checked, allow_redundant: bool) -> (Option<Compiled>, Diagnostics) {
+    let redundant = if allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+    checked.compile(redundant, &Cancel::default())
 }
 
 /// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
@@ -74,15 +81,36 @@ pub(super) fn path(input: &Input) -> &Path {
     if input.file == "-" { Path::new("") } else { Path::new(&input.file) }
 }
 
-fn checked(parsed: &Parsed, input: &Input, by: &[String], reporter: &mut Reporter) -> Result<Checked, Failure> {
-    let choice = Choice {
+/// Checks the mechanism of a command, and prints its warnings.
+pub(super) fn checked(
+    parsed: &Parsed,
+    input: &Input,
+    by: &[String],
+    reporter: &mut Reporter,
+) -> Result<Checked, Failure> {
+    checked_in(parsed, &choice(input, by), &Disk, reporter)
+}
+
+/// What the options of a command choose.
+pub(super) fn choice(input: &Input, by: &[String]) -> Choice {
+    Choice {
         mechanism: input.mechanism.clone(),
         set: input.set.clone(),
+        varied: Vec::new(),
         inputs: input.signals.clone(),
         samples: input.samples.clone(),
         by: by.to_vec(),
-    };
-    let checked = parsed.check(&choice, &Disk);
+    }
+}
+
+/// Checks what is chosen, and prints its warnings.
+pub(super) fn checked_in(
+    parsed: &Parsed,
+    choice: &Choice,
+    world: &dyn World,
+    reporter: &mut Reporter,
+) -> Result<Checked, Failure> {
+    let checked = parsed.check(choice, world);
     reporter.sources = checked.sources().clone();
     reporter.named.extend(checked.named_files());
     let said = checked.diagnostics().clone();

@@ -10,6 +10,8 @@ const PATIENCE: Duration = Duration::from_secs(1);
 const ROWS: u64 = 64;
 
 pub(super) struct Progress {
+    /// What is counted, as `times`.
+    what: &'static str,
     total: u64,
     done: u64,
     wanted: bool,
@@ -20,9 +22,14 @@ pub(super) struct Progress {
 impl Progress {
     /// For so many rows; none is drawn where the rows themselves go to the terminal.
     pub fn new(total: u64, to_standard_output: bool) -> Progress {
+        Progress::of("times", total, to_standard_output)
+    }
+
+    /// For so many of anything.
+    pub fn of(what: &'static str, total: u64, to_standard_output: bool) -> Progress {
         let rows_on_terminal = to_standard_output && std::io::stdout().is_terminal();
         let wanted = std::io::stderr().is_terminal() && !rows_on_terminal;
-        Progress { total, done: 0, wanted, began: Instant::now(), bar: None }
+        Progress { what, total, done: 0, wanted, began: Instant::now(), bar: None }
     }
 
     /// A row is done.
@@ -36,8 +43,8 @@ impl Progress {
             Some(bar) => bar.set_position(self.done),
             None if self.began.elapsed() > PATIENCE => {
                 let bar = ProgressBar::new(self.total);
-                let template = "{bar:40} {human_pos} of {human_len} times, {eta} left";
-                if let Ok(style) = ProgressStyle::with_template(template) {
+                let template = format!("{{bar:40}} {{human_pos}} of {{human_len}} {}, {{eta}} left", self.what);
+                if let Ok(style) = ProgressStyle::with_template(&template) {
                     bar.set_style(style);
                 }
                 self.bar = Some(bar.with_elapsed(self.began.elapsed()).with_position(self.done));

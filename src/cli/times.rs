@@ -64,6 +64,14 @@ impl Bounds {
         Ok(Some(Times::listed(from, listed)))
     }
 
+    /// All times of the analysis, or where it is not said which these are, those of `--at`.
+    pub fn whole(&self, listed: Option<&Times>) -> Result<Times, Failure> {
+        match listed {
+            Some(listed) if !self.are_known() => Ok(listed.clone()),
+            _ => self.grid(),
+        }
+    }
+
     /// All times of the analysis.
     pub fn grid(&self) -> Result<Times, Failure> {
         let (Some(from), Some(to), Some(every)) = (self.from, self.to, self.every) else {

@@ -71,6 +71,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         outlines: Vec::new(),
         unit: 1.0,
         extent,
+        named: Vec::new(),
     };
     (scene, Motion::still(vec![Pose::default(); 3]), captions)
 }

@@ -14,6 +14,7 @@ mod catalogue;
 mod contacts;
 mod drawing;
 mod drivers;
+mod faults;
 mod features;
 mod gears;
 mod guides;
@@ -27,6 +28,7 @@ mod teeth;
 mod whole;
 
 pub use catalogue::catalogue;
+pub use faults::{Faults, Joints};
 pub use features::drawn_poses;
 pub use motion::Motion;
 pub use plane::{
@@ -63,13 +65,26 @@ pub struct Scene {
     pub unit: f64,
     /// The least and the greatest coordinates of all that is drawn along the motion (m).
     pub extent: [Vector; 2],
+    /// The declarations that messages name, which stand out.
+    pub named: Vec<usize>,
 }
 
 impl Scene {
     /// What there is to draw of a mechanism that moves so; the motion has one row at least.
     #[must_use]
     pub fn of(model: &Mechanism, motion: &Motion) -> Scene {
-        whole::scene(model, motion)
+        whole::scene(model, motion, None)
+    }
+
+    /// The same with symbols of a size (m), be the motion as large as it may.
+    #[must_use]
+    pub fn with_symbols(model: &Mechanism, motion: &Motion, unit: f64) -> Scene {
+        whole::scene(model, motion, Some(unit))
+    }
+
+    /// Shows what is the matter with the mechanism that it is of; where that has no motion, at its only moment.
+    pub fn show_faults(&mut self, model: &Mechanism, motion: &Motion, faults: &Faults) {
+        faults::add(self, model, motion, faults);
     }
 
     /// One body by itself in its own frame, with all that is fixed to it, and the moment at which it is drawn.
@@ -91,7 +106,8 @@ impl Scene {
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
-        let scene = Scene { points, nodes, extent, profiles, outlines, traces: Vec::new(), ..self.clone() };
+        let (traces, named) = (Vec::new(), Vec::new());
+        let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, ..self.clone() };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
@@ -266,11 +282,21 @@ pub enum Look {
     Arrow,
     /// The head of an arrow.
     ArrowHead,
+    /// What nothing holds: the line of an arrow.
+    Free,
+    /// The head of such an arrow.
+    FreeHead,
+    /// From one half of an open joint to the other.
+    Gap,
+    /// A half of an open joint.
+    GapEnd,
+    /// A ring around what a message names.
+    Named,
 }
 
 impl Look {
     /// All of them.
-    pub const ALL: [Look; 25] = [
+    pub const ALL: [Look; 30] = [
         Look::Link,
         Look::Cross,
         Look::MasslessLink,
@@ -296,6 +322,11 @@ impl Look {
         Look::Spring,
         Look::Arrow,
         Look::ArrowHead,
+        Look::Free,
+        Look::FreeHead,
+        Look::Gap,
+        Look::GapEnd,
+        Look::Named,
     ];
 
     /// A word for it, of small letters and hyphens.
@@ -327,6 +358,11 @@ impl Look {
             Look::Spring => "spring",
             Look::Arrow => "arrow",
             Look::ArrowHead => "arrow-head",
+            Look::Free => "free",
+            Look::FreeHead => "free-head",
+            Look::Gap => "gap",
+            Look::GapEnd => "gap-end",
+            Look::Named => "named-ring",
         }
     }
 }

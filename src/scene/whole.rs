@@ -9,7 +9,8 @@ use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 /// Rows that are looked at for the extent of everything.
 const LOOKED_AT: usize = 100;
 
-pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
+/// With symbols of a size, if one is given (m).
+pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Scene {
     let features = Features::of(model);
     let (declarations, first) = declarations(model);
     let (points, numbers) = points(&features);
@@ -21,7 +22,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
         }
     }
     add_idle_points(&features, &mut outlines);
-    let unit = sizes::unit(&features, motion, &outlines);
+    let unit = size.unwrap_or_else(|| sizes::unit(&features, motion, &outlines));
     let (feet, profiles, fine, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
     let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, fine, numbers, first, nodes };
     gears::draw(&mut drawing);
@@ -36,7 +37,8 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion) -> Scene {
     let extent = extent(&nodes, motion, unit);
     let frames = (0..motion.frames().max(1)).collect();
     let (name, docs) = (model.declared.name.clone(), model.docs.clone());
-    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent }
+    let named = Vec::new();
+    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent, named }
 }
 
 /// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.
@@ -79,6 +81,12 @@ fn declarations(model: &Mechanism) -> (Vec<Declaration>, First) {
     (all, first)
 }
 
+/// The declarations of the first joint and of the first equation.
+pub(super) fn first_of_joints_and_equations(model: &Mechanism) -> (usize, usize) {
+    let (_, first) = declarations(model);
+    (first.joints, first.equations)
+}
+
 /// The points that have a name, and by model point its number among them.
 fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
     let model = features.model;
@@ -106,7 +114,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
 }
 
 /// The points that show what a body is: where joints and drivers take hold, what is traced and measured.
-fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
+pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
     for equation in &model.equations {
         if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
@@ -128,7 +136,7 @@ fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
 }
 
 /// The least and greatest coordinates of all nodes along the motion.
-fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
+pub(super) fn extent(nodes: &[Node], motion: &Motion, unit: f64) -> [Vector; 2] {
     let mut all: Option<[Vector; 2]> = None;
     let places: Vec<Vec<Vector>> =
         nodes.iter().map(|node| node.shapes.iter().flat_map(|shape| shape.path.places()).collect()).collect();

@@ -17,6 +17,9 @@ use crate::world::{self, World};
 use std::path::PathBuf;
 use std::sync::{Arc, OnceLock};
 
+/// What messages call the settings of what varies.
+pub(super) const VARY: &str = "--vary";
+
 /// Which mechanism of a file is meant, and what is set in it from outside.
 #[derive(Clone, Debug, Default)]
 pub struct Choice {
@@ -24,6 +27,8 @@ pub struct Choice {
     pub mechanism: Option<String>,
     /// `NAME=FORMULA`; the last of one name counts.
     pub set: Vec<String>,
+    /// The same of what varies from one run to the next, over those of `set`: messages name it so.
+    pub varied: Vec<String>,
     /// What inputs are: `NAME=FORMULA`, each name once.
     pub inputs: Vec<String>,
     /// A CSV file with samples of inputs.
@@ -126,7 +131,7 @@ impl Checked {
         diagnostics.extend(check::check_file(parsed.tree()));
         diagnostics.extend(used.said.clone());
         let tree = &parsed.tree().mechanisms[number];
-        let settings = settings(&choice.set, &mut sources);
+        let settings = settings(choice, &mut sources);
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let (mut model, mut leading, mut checked_with) = (None, None, Surroundings::default());
@@ -402,9 +407,10 @@ fn table_files<'t>(
     files
 }
 
-fn settings(given: &[String], sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
-    let option = NamedFormulas { option: "--set", example: "crank_length=60mm" };
-    let formulas = option.read(given, sources)?;
+fn settings(choice: &Choice, sources: &mut Sources) -> Result<Vec<Setting>, Diagnostics> {
+    let option = |option| NamedFormulas { option, example: "crank_length=60mm" };
+    let mut formulas = option("--set").read(&choice.set, sources)?;
+    formulas.extend(option(VARY).read(&choice.varied, sources)?);
     Ok(formulas.into_iter().map(|(path, value)| Setting { path, value }).collect())
 }
 

@@ -24,6 +24,7 @@ mod seen;
 mod signals;
 mod used;
 mod used_at;
+mod varied;
 
 pub use checked::{Checked, Choice};
 pub use compiled::{Compiled, Redundant};
@@ -36,3 +37,4 @@ pub use known::{Declaration, Interface};
 pub use parsed::Parsed;
 pub use run::{Assembly, Run, RunOptions};
 pub use seen::Seen;
+pub use varied::Varied;

@@ -130,17 +130,29 @@ impl Compiled {
     }
 
     fn started(&self, t: f64, options: &RunOptions, start: Start) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        let (from, said) = self.led(t, options);
+        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        (start(determined, program, t, from.as_deref(), options.tolerance, &options.cancel), said)
+    }
+
+    /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
+    pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
+        let (from, _) = self.led(t, options);
+        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
+        analysis::nearest(determined, program, t, from.as_deref(), &options.cancel)
+    }
+
+    /// Where the inputs that it is told lead it, and its parts; with what is to be said of the way.
+    fn led(&self, t: f64, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
         let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
-        let (from, said) = match self.leading() {
+        match self.leading() {
             None => (None, Diagnostics::default()),
             Some((leading, leave_out)) => {
                 let own = self.analysis().map_or(0.0, |[from, ..]| from);
                 let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
                 leading.begin((self.determined(), self.program()), t, leave_out, &options)
             }
-        };
-        let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        (start(determined, program, t, from.as_deref(), tolerance, cancel), said)
+        }
     }
 }
 

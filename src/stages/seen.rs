@@ -2,10 +2,12 @@
 
 use super::run::{Run, RunOptions};
 use super::{Checked, Compiled};
-use crate::analysis::{ColumnUnit, Times};
+use crate::analysis::{self, ColumnUnit, FreeMotion, Times};
 use crate::check::{self, Library};
-use crate::diag::{Diagnostic, Diagnostics};
-use crate::scene::{Motion, Scene, drawn_poses};
+use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::lower;
+use crate::model::Mechanism;
+use crate::scene::{Faults, Joints, Motion, Pose, Scene, drawn_poses};
 use crate::source::{FileId, Span};
 use crate::syntax::ast;
 use rustc_hash::FxHashMap;
@@ -25,10 +27,19 @@ pub struct Seen {
     pub all_rows: usize,
     /// Why the motion ended before its last time, if it did.
     pub stopped: Option<Diagnostic>,
+    /// What else there is to say of it: why there is no motion, or what was said beside it.
+    pub said: Diagnostics,
     /// Results with the units in which they are told, in SI; none where only some times were asked for.
     pub results: Vec<(String, ColumnUnit, Option<f64>)>,
     /// The texts that its declarations stand in, its own first.
     pub texts: Vec<FileId>,
+}
+
+impl Seen {
+    /// All that there is to say of it, why it ended first.
+    pub fn messages(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.stopped.iter().chain(self.said.iter())
+    }
 }
 
 /// The rows of a run, and how it ended.
@@ -65,21 +76,59 @@ impl Checked {
         };
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
+        show_stop(&mut scene, model, &motion, found.stopped.as_ref());
         let values = found.results.into_iter();
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
         let (all_rows, stopped, texts) = (found.all, found.stopped, self.texts());
-        (Some(Seen { scene, motion, columns, units, all_rows, stopped, results, texts }), said)
+        (Some(Seen { scene, motion, columns, units, all_rows, stopped, said: said.clone(), results, texts }), said)
     }
 
-    /// A scene of what is drawn in the text, without any motion; nothing where it is not sound.
+    /// What there is to draw of a motion that was seen, with symbols of a size (m); nothing where it is not sound.
     #[must_use]
-    pub fn seen_as_drawn(&self) -> Option<(Scene, Motion)> {
+    pub fn drawn_with_symbols(&self, seen: &Seen, unit: f64) -> Option<Scene> {
         let model = self.model()?;
-        let motion = Motion::still(drawn_poses(model));
+        let mut scene = Scene::with_symbols(model, &seen.motion, unit);
+        self.widen_places(&mut scene);
+        show_stop(&mut scene, model, &seen.motion, seen.stopped.as_ref());
+        Some(scene)
+    }
+
+    /// What there is to see of one that is sound and has no motion, for what was said of it. One that is not determined is as it is
+    /// drawn in the text, with its free motions as arrows; one that cannot be assembled at a time (s) as it comes nearest to that, with
+    /// its gaps. Nothing where it is not sound.
+    #[must_use]
+    pub fn seen_at_rest(
+        &self,
+        compiled: Option<&Compiled>,
+        (t, options): (f64, &RunOptions),
+        said: &Diagnostics,
+    ) -> Option<Seen> {
+        let model = self.model()?;
+        let lowered = if compiled.is_none() { Some(lower::lower(model)) } else { None };
+        let system = compiled.map(Compiled::system).or(lowered.as_ref())?;
+        let nearest = compiled.and_then(|compiled| compiled.nearest(t, options));
+        let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };
+        let motion = Motion::still(nearest.map_or_else(|| drawn_poses(model), |q| poses(model, &q)));
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
-        Some((scene, motion))
+        let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
+        let free = if is_left_free { analysis::free_motions(system) } else { Vec::new() };
+        let free = free.iter().map(of_frames).collect();
+        let faults = Faults { named: named(&scene, said.iter()), free, joints };
+        scene.show_faults(model, &motion, &faults);
+        let results = analysis::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
+        Some(Seen {
+            scene,
+            motion,
+            columns: analysis::columns(system),
+            units: analysis::units(system),
+            all_rows: 0,
+            stopped: None,
+            said: said.clone(),
+            results,
+            texts: self.texts(),
+        })
     }
 
     /// The motion at some times alone, with why it ended before the last of them, if it did.
@@ -155,6 +204,63 @@ fn rows(mut run: Run, most: usize) -> Rows {
     let (first, end) = (rows.first().map_or(0.0, |row| row[0]), rows.last().map_or(0.0, |row| row[0]));
     let edges = run.edges().into_iter().filter(|edge| first < *edge && *edge < end).collect();
     Rows { kept: rows, all, edges, stopped, results: answers.values, said }
+}
+
+/// Where frames are by the coordinates [m, rad], the ground first.
+fn poses(model: &Mechanism, q: &[f64]) -> Vec<Pose> {
+    let of_body = |body: &[f64]| Pose { at: [body[0], body[1]], phi: body[2] };
+    let bodies = q.chunks_exact(3).take(model.bodies.len()).map(of_body);
+    std::iter::once(Pose::default()).chain(bodies).collect()
+}
+
+/// A free motion as one of frames, of which the ground is the first.
+fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
+    let of_body = |&(body, [x, y, phi]): &(usize, [f64; 3])| (body + 1, Pose { at: [x, y], phi });
+    motion.bodies.iter().map(of_body).collect()
+}
+
+/// Shows what is named by the message of a motion that stops.
+fn show_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Option<&Diagnostic>) {
+    if let Some(why) = stopped {
+        let faults = Faults { named: named(scene, std::iter::once(why)), ..Faults::default() };
+        scene.show_faults(model, motion, &faults);
+    }
+}
+
+/// The declarations that errors name: those that they call redundant, else those that their places are in.
+fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
+    let mut named: Vec<usize> = Vec::new();
+    for error in said.filter(|said| said.severity() == Severity::Error) {
+        let redundant =
+            error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
+        match redundant {
+            Some(names) => {
+                let is_one = |name: &str| names.iter().any(|one| one.as_str() == Some(name));
+                let all = scene.declarations.iter().enumerate();
+                named.extend(all.filter(|(_, one)| is_one(&one.name)).map(|(number, _)| number));
+            }
+            None => error.labels.iter().for_each(|label| named.extend(innermost(scene, label.span, error))),
+        }
+    }
+    named.sort_unstable();
+    named.dedup();
+    named
+}
+
+/// The smallest declarations around a place; of copies of one text those whose names a message tells, if it tells any.
+fn innermost(scene: &Scene, place: Span, told: &Diagnostic) -> Vec<usize> {
+    let holds = |span: Span| span.file == place.file && span.start <= place.start && place.end <= span.end;
+    let around = || scene.declarations.iter().enumerate().filter(|(_, one)| holds(one.span));
+    let size = |span: Span| span.end - span.start;
+    let Some(least) = around().map(|(_, one)| size(one.span)).min() else { return Vec::new() };
+    let copies: Vec<usize> = around().filter(|(_, one)| size(one.span) == least).map(|(number, _)| number).collect();
+    let texts = || std::iter::once(&told.message).chain(&told.notes).chain(told.labels.iter().map(|label| &label.text));
+    let is_told = |number: &usize| {
+        let name = format!("`{}`", scene.declarations[*number].name);
+        texts().any(|text| text.contains(&name))
+    };
+    let told: Vec<usize> = copies.iter().copied().filter(is_told).collect();
+    if told.is_empty() { copies } else { told }
 }
 
 /// The places of declarations, by those of their names.

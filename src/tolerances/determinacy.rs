@@ -52,6 +52,8 @@ pub mod open_loop {
     pub const LIGHT: f64 = 1e4;
     /// A link is too short or too long if this part of the force acts along it.
     pub const ALONG: f64 = 0.3;
+    /// What is open by more than this, in sizes of the mechanism, is not shown.
+    pub const FAR: f64 = 10.0;
     /// What is open by less than this, scaled, is closed.
     pub const CLOSED: f64 = 1e-6;
 }

@@ -7,4 +7,4 @@ pub mod svg;
 mod text;
 
 pub use path::data;
-pub use text::{escaped, number};
+pub use text::{escaped, first_sentence, number};

@@ -9,7 +9,7 @@ mod json;
 mod places;
 mod still;
 
-use super::escaped;
+use super::{escaped, first_sentence};
 use crate::diag::Diagnostic;
 use crate::scene::{Motion, Scene};
 use crate::source::{FileId, Source};
@@ -18,7 +18,7 @@ use crate::source::{FileId, Source};
 pub const FORMAT: u32 = 1;
 
 /// The longest page (bytes): of more than that rows are left out.
-const LONGEST: usize = 20_000_000;
+pub const LONGEST: usize = 20_000_000;
 /// Rows are left out of a page that is too long no more often than this.
 const MOST_THINNINGS: usize = 6;
 
@@ -63,8 +63,10 @@ pub struct Vary {
     pub unit: String,
     /// In the unit, rising.
     pub values: Vec<f64>,
-    /// Which of them the page begins with.
-    pub own: usize,
+    /// Which of them the page begins with: the one nearest to the file's own.
+    pub nearest: usize,
+    /// The file's own value, in the unit, where it is none of them.
+    pub own: Option<f64>,
 }
 
 /// One motion.
@@ -89,6 +91,12 @@ impl Page<'_> {
         self.at_most(LONGEST)
     }
 
+    /// The variant that it begins with.
+    fn first(&self) -> Option<&Variant<'_>> {
+        let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);
+        self.variants.get(place)
+    }
+
     /// Rows are left out until it is no longer than so many bytes, as far as that goes.
     fn at_most(&self, longest: usize) -> String {
         let mut every = 1;
@@ -105,7 +113,7 @@ impl Page<'_> {
     }
 
     fn with_every(&self, every: usize) -> String {
-        let Some(first) = self.variants.first() else { return String::new() };
+        let Some(first) = self.first() else { return String::new() };
         let parts = [
             ("version", env!("CARGO_PKG_VERSION").to_owned()),
             ("title", escaped(&first.scene.name).into_owned()),
@@ -137,14 +145,11 @@ fn filled(template: &str, parts: &[(&str, String)]) -> String {
 /// The text of the `///` lines: its first sentence, and the rest for who asks for it.
 fn docs(lines: &[String]) -> String {
     let text = lines.join("\n");
-    let text = text.trim();
-    if text.is_empty() {
+    let (first, rest) = first_sentence(&text);
+    if first.is_empty() {
         return String::new();
     }
-    let end = text.find(". ").into_iter().chain(text.find(".\n")).min().map_or(text.len(), |dot| dot + 1);
-    let (first, rest) = text.split_at(end);
     let first = format!("<p>{}</p>", escaped(first));
-    let rest = rest.trim();
     if rest.is_empty() {
         return format!("<div class=\"docs\">{first}</div>");
     }
@@ -187,6 +192,7 @@ mod tests {
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
+            named: vec![1],
         }
     }
 
@@ -231,6 +237,8 @@ mod tests {
         assert_eq!(data["scene"]["declarations"][2][0], "b.<P>");
         assert_eq!(data["variants"][0]["edges"][0], 0.25);
         assert_eq!(data["columns"][0]["scale"][1], 1000.0);
+        assert_eq!(data["variants"][0]["named"], serde_json::json!([1]));
+        assert_eq!(data["scene"]["named"], Value::Null, "variants share a scene whatever is wrong with them");
         assert!(
             html.contains(env!("CARGO_PKG_VERSION")) && html.contains("uPlot") && html.contains("default-src 'none'")
         );

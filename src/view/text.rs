@@ -31,13 +31,40 @@ pub fn escaped(text: &str) -> Cow<'_, str> {
     Cow::Owned(made)
 }
 
+/// The first sentence of a text, and what follows it: it ends at a full stop, but not at that of an initial, as in `D. Stewart`.
+#[must_use]
+pub fn first_sentence(text: &str) -> (&str, &str) {
+    let text = text.trim();
+    let ends = text.char_indices().filter(|(_, c)| matches!(c, '.' | '!' | '?')).map(|(at, _)| at + 1);
+    let is_end = |end: &usize| {
+        let word = text[..end - 1].rsplit(|c: char| !c.is_alphanumeric()).next().unwrap_or_default();
+        let is_initial = word.chars().count() == 1 && word.chars().all(char::is_uppercase);
+        text[*end..].starts_with(char::is_whitespace) && !is_initial
+    };
+    let (first, rest) = text.split_at(ends.into_iter().find(is_end).unwrap_or(text.len()));
+    (first, rest.trim_start())
+}
+
 fn is_forbidden(c: char) -> bool {
     (c < ' ' && !matches!(c, '\t' | '\n' | '\r')) || matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{escaped, number};
+    use super::{escaped, first_sentence, number};
+
+    #[test]
+    fn sentences_end_at_full_stops() {
+        for (text, wanted) in [
+            ("A crank. It turns.", ("A crank.", "It turns.")),
+            (" One of D. Stewart's, at 0.5 m/s.\nMore. ", ("One of D. Stewart's, at 0.5 m/s.", "More.")),
+            ("no end", ("no end", "")),
+            ("Does it turn? Yes", ("Does it turn?", "Yes")),
+            ("", ("", "")),
+        ] {
+            assert_eq!(first_sentence(text), wanted, "{text}");
+        }
+    }
 
     #[test]
     fn numbers_are_short() {

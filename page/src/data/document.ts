@@ -2,6 +2,7 @@
 // documents as it goes. Nothing here draws.
 
 import { FORMAT, type Message, type Page, type Result, type Scene, type Variant } from "./format.ts";
+import { changed } from "./changes.ts";
 import { bytesOfBase64, columnsOf, inflated } from "./inflate.ts";
 import { Table } from "./table.ts";
 import { Motion } from "../motion/motion.ts";
@@ -14,6 +15,8 @@ export interface Document {
     readonly motion: Motion;
     readonly results: readonly Result[];
     readonly messages: readonly Message[];
+    /** The declarations that errors name. */
+    readonly named: readonly number[];
 }
 
 const outlines = new WeakMap<Scene, string>();
@@ -46,12 +49,13 @@ export interface Source {
 async function unpacked(page: Page, variant: number): Promise<Document> {
     const from: Variant | undefined = page.variants[variant];
     if (!from) throw new Error(`there is no variant ${variant}`);
-    const scene = from.scene ?? page.scene;
+    const scene = from.scene ? changed(page.scene, from.scene) : page.scene;
     const columns = page.columns.length;
     const bytes = from.rows > 0 ? await inflated(bytesOfBase64(from.data)) : new Uint8Array(columns);
     const table = new Table(page.columns, columnsOf(bytes, from.rows, columns));
     const motion = new Motion(scene, table, from.edges, from.drawn);
-    return { page, variant, scene, table, motion, results: from.results, messages: from.messages };
+    const { results, messages, named = [] } = from;
+    return { page, variant, scene, table, motion, results, messages, named };
 }
 
 /** So many tables are kept unpacked at the most. */

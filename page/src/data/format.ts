@@ -80,7 +80,6 @@ export interface Result extends Column {
 }
 
 export interface Label {
-    declaration?: number;
     text: number;
     from: number;
     to: number;
@@ -98,16 +97,21 @@ export interface Message {
     time?: number;
 }
 
+/** What makes one value of another: another one in an array of one, or what changes in an object or array, by key or place. */
+export type Changes = [unknown] | { [key: string]: Changes };
+
 export interface Variant {
     rows: number;
     data: string;
     results: Result[];
     messages: Message[];
     edges: number[];
+    /** The declarations that errors name. */
+    named?: number[];
     /** Where the frames are (x, y, phi of each) if there is no row: as they are drawn in the text. */
     drawn?: [number, number, number][];
-    /** Where it is not the file's own. */
-    scene?: Scene;
+    /** What its scene has that the page's has not. */
+    scene?: Changes;
 }
 
 export interface Vary {
@@ -115,8 +119,10 @@ export interface Vary {
     unit: string;
     /** In the unit. */
     values: number[];
-    /** Which of them the file's own is nearest to. */
-    own: number;
+    /** Which of them the page begins with: the one nearest to the file's own. */
+    nearest: number;
+    /** The file's own, where it is none of them. */
+    own: number | null;
 }
 
 export interface Page {

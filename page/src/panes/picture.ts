@@ -62,7 +62,7 @@ export class Picture implements Pane {
     /** Every pin with its place in the page (CSS pixels). */
     pins(): { point: string; x: number; y: number }[] {
         const { document, moment, camera } = this;
-        if (!document || !moment || !camera || moment.row < 0) return [];
+        if (!document || !moment || !camera) return [];
         const { left, top } = this.over.getBoundingClientRect();
         return document.scene.points.map((point) => {
             const [x, y] = camera.pixel(placeOf(moment, anchor(point)));
@@ -103,7 +103,7 @@ export class Picture implements Pane {
         const before = this.camera;
         const sameScene = this.document?.scene === document.scene;
         this.document = document;
-        this.wrong = new Set(namedWrong(document));
+        this.wrong = new Set(document.named);
         if (sameScene && this.drawing) return;
         this.camera = new Camera(document.scene);
         if (before) this.camera.as(before);
@@ -260,17 +260,4 @@ export class Picture implements Pane {
             if (!wishes.vectorsAt.has(point)) wishes.chosen = undefined;
         });
     }
-}
-
-/** What messages name, as far as it is drawn. */
-function namedWrong({ scene, messages }: Document): number[] {
-    const places = messages.filter(({ severity }) => severity === "error").flatMap(({ labels }) => labels ?? []);
-    return places.flatMap((label) => {
-        const around = scene.declarations
-            .map((declaration, number) => ({ number, text: declaration[2], from: declaration[3], to: declaration[4] }))
-            .filter(({ text, from, to }) => text === label.text && from <= label.from && label.to <= to);
-        const size = ({ from, to }: { from: number; to: number }) => to - from;
-        const least = Math.min(...around.map(size));
-        return around.filter((one) => size(one) === least).map(({ number }) => number);
-    });
 }

@@ -162,7 +162,9 @@ class Plot {
         if (!this.chart || !this.series || units(this.series) !== units(series)) return this.make();
         this.series = series;
         this.area.setAttribute("aria-label", inWords(...series));
-        this.chart.setData(dataOf(...series));
+        // at once, rather than after what is drawn next
+        const { chart } = this;
+        chart.batch(() => chart.setData(dataOf(...series)));
         if (this.moment) this.draw(this.moment);
     }
 
@@ -188,7 +190,8 @@ class Plot {
     fit(): void {
         if (!this.chart) this.make();
         else if (this.chart.width !== this.size().width || this.chart.height !== this.size().height) {
-            this.chart.setSize(this.size());
+            const { chart } = this;
+            chart.batch(() => chart.setSize(this.size()));
             if (this.moment) this.draw(this.moment);
         }
     }

@@ -1,7 +1,7 @@
 // Numbers for the whole motion, and what there is to say of it.
 
 import type { Document } from "../data/document.ts";
-import type { Message } from "../data/format.ts";
+import type { Label, Message, Page } from "../data/format.ts";
 import { html } from "../elements.ts";
 import type { Moment } from "../motion/motion.ts";
 import { six, told } from "../numbers.ts";
@@ -28,7 +28,7 @@ export class Results implements Pane {
             }),
         );
         this.numbers.hidden = results.length === 0;
-        const said = messages.map((message) => this.written(message));
+        const said = messages.map((message) => this.written(message, document));
         if (page.thinned) said.push(html("li", { class: "note-of-page" }, page.thinned));
         this.messages.replaceChildren(...said);
         this.messages.hidden = said.length === 0;
@@ -37,11 +37,13 @@ export class Results implements Pane {
 
     draw(_: Moment): void {}
 
-    private written({ severity, code, text, labels, notes, help, time }: Message): HTMLElement {
+    private written({ severity, code, text, labels, notes, help, time }: Message, { page, table }: Document): HTMLElement {
         const item = html("li", { class: `message ${severity}` }, html("strong", {}, `${severity}[${code}]`), ` ${text}`);
-        for (const says of [...(labels ?? []).map((label) => label.says), ...(notes ?? [])]) if (says) item.append(html("div", {}, says));
+        for (const { names, says } of saidOf(labels ?? [], page)) item.append(html("div", {}, html("code", {}, names.join(", ")), ` ${says}`));
+        // a note of several lines is a table
+        for (const note of notes ?? []) item.append(html(note.includes("\n") ? "pre" : "div", {}, note));
         for (const says of help ?? []) item.append(html("div", { class: "help" }, `help: ${says}`));
-        if (time !== undefined) {
+        if (time !== undefined && table.rows > 1) {
             const there = html("button", { type: "button" }, `go to t = ${six(time)} s`);
             there.addEventListener("click", () => {
                 this.deeds.pause();
@@ -51,4 +53,20 @@ export class Results implements Pane {
         }
         return item;
     }
+}
+
+/** No more of a text than this stands for a place of it. */
+const LONGEST = 40;
+
+/** What is said of places, each with what is there; a place of which nothing is said is one of those before it. */
+function saidOf(labels: readonly Label[], { texts }: Page): { names: string[]; says: string }[] {
+    const told: { names: string[]; says: string }[] = [];
+    for (const { text, from, to, says } of labels) {
+        const there = (texts[text]?.text.slice(from, to) ?? "").trim();
+        const name = there.length > LONGEST ? `${there.slice(0, LONGEST - 1)}…` : there;
+        const last = told[told.length - 1];
+        if (says || !last) told.push({ names: [name], says });
+        else last.names.push(name);
+    }
+    return told;
 }

@@ -63,6 +63,7 @@ export class Text implements Pane {
             }
             if (wishes.chosen !== undefined) this.bring(this.marked.get(wishes.chosen));
         }
+        this.blame();
         this.light(wishes);
     }
 
@@ -79,6 +80,13 @@ export class Text implements Pane {
     }
 
     draw(_: Moment): void {}
+
+    /** Marks what errors name. */
+    private blame(): void {
+        const named = new Set(this.document?.named);
+        for (const [declaration, mark] of this.marked) if (!named.has(declaration)) mark.classList.remove("wrong");
+        for (const declaration of named) this.marked.get(declaration)?.classList.add("wrong");
+    }
 
     /** The other texts, for paper. */
     print(): void {
@@ -118,6 +126,7 @@ export class Text implements Pane {
     private turnTo(text: number): void {
         this.shown = text;
         this.lay();
+        this.blame();
     }
 
     /** What is declared in the text that is shown, outer stretches first. */

@@ -80,9 +80,12 @@ export class Transport implements Pane {
         if (this.document === document) return;
         this.document = document;
         const { motion, table, messages } = document;
-        const { from, to } = motion;
-        Object.assign(this.scrubber, { min: String(from), max: String(to > from ? to : from + 1) });
+        const { from } = motion;
         const moves = table.rows > 1;
+        // a motion that stops does so behind its last row
+        const stops = messages.flatMap(({ severity, time }) => (severity === "error" && time !== undefined ? [time] : []));
+        const to = moves ? Math.max(motion.to, ...stops) : motion.to;
+        Object.assign(this.scrubber, { min: String(from), max: String(to > from ? to : from + 1) });
         this.scrubber.disabled = !moves;
         for (const made of this.element.querySelectorAll("button")) made.disabled = !moves;
         const mark = (time: number, kind: string, title: string) => {
@@ -90,10 +93,15 @@ export class Transport implements Pane {
             made.style.left = `${(100 * (time - from)) / (to - from)}%`;
             return made;
         };
+        const isEdge = (time: number) => motion.edges.some((edge) => Math.abs(edge - time) <= 1e-6 * (to - from));
         const within = (time: number) => to > from && time >= from && time <= to + 1e-6 * (to - from);
         this.marks.replaceChildren(
             ...motion.edges.filter(within).map((time) => mark(time, "edge", "accelerations jump here")),
-            ...messages.flatMap(({ time, text }) => (time !== undefined && within(time) ? [mark(time, "stop", text)] : [])),
+            ...messages.flatMap(({ severity, time, text }) => {
+                if (!moves || time === undefined || !within(time)) return [];
+                if (severity === "error") return [mark(time, "stop", text)];
+                return isEdge(time) ? [] : [mark(time, "remark", text)];
+            }),
         );
         this.factor.textContent = told(this.clock.rate);
     }

@@ -17,11 +17,12 @@ export class Variants implements Pane {
         private readonly page: Page,
         private readonly wanted: (variant: number) => void,
     ) {
-        this.chosen = page.vary.map(({ own }) => own);
-        this.sliders = page.vary.map(({ name, values }, place) => {
+        this.chosen = page.vary.map(({ nearest }) => nearest);
+        this.sliders = page.vary.map(({ name, unit, values, own }, place) => {
             const slider = html("input", { type: "range", min: 0, max: values.length - 1, step: 1, "data-param": name });
             const value = html("output", {});
             this.element.append(html("label", {}, html("span", { class: "name" }, name), slider, value));
+            if (own !== null) this.element.append(html("p", {}, `${name} is ${withUnit(short(own), unit)} in the text`));
             slider.addEventListener("input", () => {
                 this.chosen[place] = Number(slider.value);
                 this.tell();
@@ -30,6 +31,9 @@ export class Variants implements Pane {
             return { slider, value };
         });
         this.element.hidden = page.vary.length === 0;
+        const { variants } = page;
+        const size = variants.reduce((sum, { data, scene }) => sum + data.length + JSON.stringify(scene ?? "").length, 0);
+        this.element.append(html("p", {}, `${variants.length} variants, solved beforehand: ${Math.ceil(size / 1000)} kB`));
         this.tell();
     }
 

@@ -6,6 +6,7 @@ import { createRequire } from "node:module";
 import { bundled } from "../made/bundled.mjs";
 import { dataOf } from "./browser.mjs";
 
+const { changed } = await bundled("data/changes.ts");
 const { bytesOfBase64, columnsOf, inflated } = await bundled("data/inflate.ts");
 const axe = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
 
@@ -41,9 +42,10 @@ export function fitted(pairs) {
 }
 
 /** Pins, as they are drawn, and bodies' frames, are where the table has them, at ten times. */
-export async function pinsAreWhereTheTableHasThem({ page }, path) {
+export async function pinsAreWhereTheTableHasThem({ page }, path, variant = 0) {
     const data = dataOf(path);
-    const table = await tableOf(data);
+    data.scene = changed(data.scene, data.variants[variant].scene ?? {});
+    const table = await tableOf(data, variant);
     const pairs = [];
     for (const row of tenRows(table.rows)) {
         const seen = await page.evaluate(async (time) => {
@@ -81,9 +83,9 @@ export async function pinsAreWhereTheTableHasThem({ page }, path) {
 }
 
 /** Every plot's mark is where the column says, and lies on a curve that is drawn; row() has the table's numbers. */
-export async function plotsShowTheirColumns({ page }, path) {
+export async function plotsShowTheirColumns({ page }, path, variant = 0) {
     const data = dataOf(path);
-    const table = await tableOf(data);
+    const table = await tableOf(data, variant);
     const times = tenRows(table.rows).map((row) => table.values[0][row]);
     for (const row of tenRows(table.rows)) {
         const shown = await page.evaluate(async (time) => {

@@ -7,7 +7,7 @@ import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { close, opened } from "./browser.mjs";
+import { close, dataOf, opened } from "./browser.mjs";
 import * as checks from "./checks.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "..", "..", "..");
@@ -63,5 +63,83 @@ for (const name of existsSync(mechc) ? examples : []) {
         await without.close();
     });
 }
+
+/** The rows that `mechc run` prints, as numbers. */
+function rowsOf(name, ...set) {
+    const text = execFileSync(mechc, ["run", join(root, "examples", name), "--format", "json", ...set], { encoding: "utf8" });
+    return JSON.parse(text);
+}
+
+test("what varies is what `run --set` computes, to the bit", { skip: !existsSync(mechc) }, async () => {
+    const path = join(folder, "varied.html");
+    const name = "slider_crank.mech";
+    const vary = ["--vary", "rod_length=110mm..190mm:9", "--vary", "crank_length=0.04m..50mm:3"];
+    execFileSync(mechc, ["view", join(root, "examples", name), "-o", path, ...vary], { stdio: "ignore" });
+    const data = dataOf(path);
+    assert.equal(data.variants.length, 27);
+    assert.deepEqual(data.vary.map(({ values, unit, nearest, own }) => [values.length, unit, nearest, own]), [[9, "mm", 4, null], [3, "m", 2, null]]);
+    assert.deepEqual(data.vary[1].values, [0.04, 0.045, 0.05]);
+    const shown = await opened(path);
+    try {
+        const place = () => shown.page.evaluate(() => document.querySelector(".mechanism").getScreenCTM().a);
+        const size = await place();
+        for (const [rod, crank, variant] of [[110, 0.04, 0], [150, 0.05, 14], [180, 0.045, 22]]) {
+            await shown.page.evaluate(([rod, crank]) => mechc.set("rod_length", rod).then(() => mechc.set("crank_length", crank)), [rod, crank]);
+            const { columns, rows } = rowsOf(name, "--set", `rod_length=${rod}mm`, "--set", `crank_length=${crank}m`);
+            assert.deepEqual(data.columns.map((column) => column.name), columns);
+            const table = await checks.tableOf(data, variant);
+            assert.equal(table.rows, rows.length);
+            const times = rows.map(([t]) => t);
+            const told = await shown.page.evaluate(async (times) => {
+                const rows = [];
+                for (const time of times) {
+                    await mechc.seek(time);
+                    rows.push(mechc.row());
+                }
+                return rows;
+            }, times);
+            told.forEach((row, k) => row.forEach((value, c) => {
+                assert.ok(Object.is(value, rows[k][c]), `${columns[c]} in row ${k}: ${value}, not ${rows[k][c]}`);
+            }));
+            await checks.pinsAreWhereTheTableHasThem(shown, path, variant);
+            await checks.plotsShowTheirColumns(shown, path, variant);
+            assert.equal(await place(), size, "the picture jumps");
+        }
+        const took = await shown.page.evaluate(async () => {
+            const took = [];
+            for (let k = 0; k < 60; k++) {
+                const began = performance.now();
+                await mechc.set("rod_length", 110 + 10 * ((k * 4) % 9));
+                took.push(performance.now() - began);
+            }
+            return took.sort((a, b) => a - b)[57];
+        });
+        console.log(`# set: 95 % ${took.toFixed(1)} ms`);
+        if (process.env.SPEED) assert.ok(took <= 33, `${took} ms`);
+        await checks.axeFindsNothing(shown);
+        await checks.printsWhole(shown, path);
+        assert.deepEqual(shown.faults, []);
+    } finally {
+        await shown.close();
+    }
+});
+
+test("variants that are not whole say why", { skip: !existsSync(mechc) }, async () => {
+    const path = join(folder, "broken.html");
+    execFileSync(mechc, ["view", join(root, "examples", "slider_crank.mech"), "-o", path, "--vary", "rod_length=10mm..130mm:4"], { stdio: "ignore" });
+    const shown = await opened(path);
+    const said = (rod) => shown.page.evaluate((rod) => mechc.set("rod_length", rod).then(() => document.querySelector(".message")?.textContent), rod);
+    try {
+        assert.equal(await said(130), undefined);
+        assert.match(await shown.page.locator(".variants").textContent(), /rod_length is 150 mm in the text4 variants, solved beforehand: \d+ kB/);
+        assert.match(await said(10), /error\[E0601\] the mechanism cannot be assembled/);
+        assert.equal(await shown.page.locator(".time").textContent(), "no motion");
+        assert.equal(await said(130), undefined);
+        await checks.playsAndScrubs(shown);
+        assert.deepEqual(shown.faults, []);
+    } finally {
+        await shown.close();
+    }
+});
 
 test("there is a program to write pages", { skip: existsSync(mechc) ? false : `no ${mechc}` }, () => assert.ok(examples.length > 15));

@@ -196,12 +196,13 @@ test("one row is a still", async () => {
 
 test("no row: as it is drawn, and why", async () => {
     const messages = [{ severity: "error", code: "E0601", text: "it cannot be assembled", labels: [{ text: 0, from: 33, to: 38, says: "here" }] }];
-    const path = file(pageOf(wheel(0, { variant: { drawn: [[0, 0, 0], [0.1, 0, 0.2]], messages } })));
+    const path = file(pageOf(wheel(0, { variant: { drawn: [[0, 0, 0], [0.1, 0, 0.2]], messages, named: [1] } })));
     await looked(path, {}, async (shown) => {
         for (const key of ["Space", "ArrowRight", "End", "v", "l", "t", "s"]) await shown.page.keyboard.press(key);
         assert.match(await shown.page.locator(".message").textContent(), /error\[E0601\] it cannot be assembled/);
         assert.ok((await shown.page.locator('[data-body="wheel"]').boundingBox()).width > 100);
         assert.equal(await shown.page.locator(".time").textContent(), "no motion");
+        assert.equal(await shown.page.locator(".mechanism .wrong").first().getAttribute("data-body"), "wheel");
         await checks.axeFindsNothing(shown);
     });
 });
@@ -220,8 +221,8 @@ test("a run that stops says when and why, and marks the scrubber", async () => {
 function varied() {
     const lengths = Array.from({ length: 11 }, (_, k) => 0.33 + 0.004 * k);
     const all = lengths.map((length) => fourBar({ rows: 1000, lengths: [0.1, length, 0.3, 0.4] }));
-    const variants = all.map((page) => ({ ...page.variants[0], scene: page.scene }));
-    return { ...all[5], vary: [{ name: "length", unit: "mm", values: lengths.map((length) => 1000 * length), own: 5 }], variants };
+    const variants = all.map((page) => ({ ...page.variants[0], scene: [page.scene] }));
+    return { ...all[5], vary: [{ name: "length", unit: "mm", values: lengths.map((length) => 1000 * length), nearest: 5, own: null }], variants };
 }
 
 test("variants: the slider sets them, within a frame or two", async () => {

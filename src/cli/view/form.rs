@@ -32,6 +32,11 @@ pub(super) fn output(arguments: &ViewArguments) -> Result<&str, Failure> {
 /// What is drawn, by the name of a file and its ending.
 pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Failure> {
     let form = if output == "-" || endings::is_special(output) { Form::Picture } else { form_of_ending(output)? };
+    if form != Form::Page && !arguments.vary.is_empty() {
+        return Err(unusable(format!("`--vary` is for pages, and `{output}` is none"))
+            .help("name a `.html` file, or set the param with `--set`")
+            .into());
+    }
     let with_plots = arguments.plots || is_called_plots(output);
     match form {
         Form::Picture if with_plots => match not_of_plots(arguments) {

@@ -3,6 +3,7 @@
 mod form;
 mod frames;
 mod page;
+mod variants;
 mod wanted;
 
 use super::arguments::ViewArguments;
@@ -11,9 +12,8 @@ use super::files::{self, Output};
 use super::input;
 use super::report::Reporter;
 use super::times::Bounds;
-use super::timings::Timings;
 use crate::analysis::Times;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::scene::Motion;
 use crate::stages::{Checked, Compiled, RunOptions, Seen};
 use crate::view::dxf;
@@ -21,6 +21,7 @@ use crate::view::svg::{self, Options, Plot};
 use form::Form;
 use frames::Frames;
 use std::io::Write;
+use std::mem::ManuallyDrop;
 use std::path::Path;
 
 /// Of more rows some are left out.
@@ -29,45 +30,114 @@ const MOST_ROWS: usize = 2000;
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let output = form::output(arguments)?;
     let form = form::form(output, arguments)?;
+    if !arguments.vary.is_empty() {
+        return variants::view(arguments, output, reporter);
+    }
     let frames = Frames::of(output).filter(|_| form == Form::Picture);
-    let (mut timings, given) = (Timings::new(false), &arguments.input);
+    let given = &arguments.input;
     let parsed = input::parsed(given, reporter)?;
-    let stages = input::checked_and_compiled(&parsed, (given, &[]), arguments.allow_redundant, reporter, &mut timings)?;
-    let (checked, compiled) = (&*stages.0, &stages.1);
+    // see `run`: nothing is taken apart before the process ends
+    let checked = ManuallyDrop::new(input::checked(&parsed, given, &[], reporter)?);
+    let options = RunOptions { pass_bifurcations: arguments.pass_bifurcations, ..RunOptions::default() };
+    let target = Target { arguments, form, output, frames };
+    let compiled = match input::proven(&checked, arguments.allow_redundant) {
+        (None, said) => {
+            let file = target.opened(reporter)?;
+            return target.write_at_rest(file, (&checked, None), (0.0, &options), said, reporter);
+        }
+        (compiled, said) => reporter.settle(compiled, said)?,
+    };
     let bounds = Bounds::of(&arguments.interval, compiled.analysis(), &mut reporter.sources)?;
     let listed = bounds.listed(&arguments.at, &mut reporter.sources)?;
-    let file = if frames.is_none() { Some(Output::open(output, &reporter.spared())?) } else { None };
-    let options = RunOptions { pass_bifurcations: arguments.pass_bifurcations, ..RunOptions::default() };
     // symbols are as large as the whole motion asks for, where it is known
     let whole = match &listed {
         Some(listed) if !bounds.are_known() => listed.clone(),
         _ => bounds.grid()?,
     };
-    let most = if frames.is_some() { usize::MAX } else { MOST_ROWS };
-    let (seen, said) = checked.seen(compiled, &whole, &options, most);
-    let mut seen = reporter.settle(seen, said)?;
-    let alone = arguments.body.as_ref().map(|body| wanted::frame(&seen.scene, body)).transpose()?;
-    if let Some(frame) = alone {
-        (seen.scene, seen.motion) = seen.scene.alone(frame);
-    }
-    let pictured = wanted::pictured(arguments, &seen.scene)?;
-    let (moments, stopped) = match listed.filter(|_| alone.is_none() && form != Form::Page) {
+    let file = target.opened(reporter)?;
+    let most = if target.frames.is_some() { usize::MAX } else { MOST_ROWS };
+    let mut seen = match checked.seen(&compiled, &whole, &options, most) {
+        (None, said) => {
+            let at = (whole.from(), &options);
+            return target.write_at_rest(file, (&checked, Some(&compiled)), at, said, reporter);
+        }
+        (seen, said) => reporter.settle(seen, said)?,
+    };
+    let is_alone = target.leave_alone(&mut seen)?;
+    let pictured = wanted::pictured(arguments, &seen)?;
+    let (moments, stopped) = match listed.filter(|_| !is_alone && form != Form::Page) {
         None => (None, seen.stopped.clone()),
         Some(times) => {
-            let (motion, stopped) = moments((checked, compiled), &times, &options)?;
+            let (motion, stopped) = moments((&checked, &compiled), &times, &options, &seen)?;
             (Some(motion), stopped)
         }
     };
     let drawn = Drawn { seen: &seen, moments: moments.as_ref(), pictured: &pictured };
-    match file {
-        Some(mut file) => {
-            let text = drawn.text(form, reporter)?;
-            file.writer().write_all(text.as_bytes()).map_err(|error| file.failure(&error))?;
-            file.close()?;
-        }
-        None => frames.map_or(Ok(()), |frames| drawn.write_frames(&frames, reporter))?,
-    }
+    target.write(file, &drawn, reporter)?;
     stopped.map_or(Ok(()), |why| Err(why.into()))
+}
+
+/// Where what is drawn goes.
+struct Target<'a> {
+    arguments: &'a ViewArguments,
+    form: Form,
+    output: &'a str,
+    frames: Option<Frames>,
+}
+
+impl Target<'_> {
+    /// The file, but for a film, which has many.
+    fn opened(&self, reporter: &Reporter) -> Result<Option<Output>, Failure> {
+        if self.frames.is_some() { Ok(None) } else { Ok(Some(Output::open(self.output, &reporter.spared())?)) }
+    }
+
+    /// Leaves the one body that was asked for, if one was.
+    fn leave_alone(&self, seen: &mut Seen) -> Result<bool, Failure> {
+        let Some(body) = &self.arguments.body else { return Ok(false) };
+        let frame = wanted::frame(&seen.scene, body)?;
+        (seen.scene, seen.motion) = seen.scene.alone(frame);
+        Ok(true)
+    }
+
+    fn write(&self, file: Option<Output>, drawn: &Drawn, reporter: &Reporter) -> Result<(), Failure> {
+        match (file, &self.frames) {
+            (Some(mut file), _) => {
+                let text = drawn.text(self.form, reporter)?;
+                file.writer().write_all(text.as_bytes()).map_err(|error| file.failure(&error))?;
+                file.close()?;
+                Ok(())
+            }
+            (None, Some(frames)) => drawn.write_frames(frames, reporter),
+            (None, None) => Ok(()),
+        }
+    }
+
+    /// Draws a mechanism that is refused, or cannot be assembled at a time (s), and ends as for what was said of that. Of one that has no
+    /// position nothing can be cut or plotted.
+    fn write_at_rest(
+        &self,
+        file: Option<Output>,
+        (checked, compiled): (&Checked, Option<&Compiled>),
+        at: (f64, &RunOptions),
+        mut said: Diagnostics,
+        reporter: &Reporter,
+    ) -> Result<(), Failure> {
+        if self.form == Form::Dxf {
+            let help = "name a `.svg` or `.html` file to see what is the matter with it";
+            said.push(
+                unusable(format!("`{}` is not written: a mechanism without a position is not to be cut", self.output))
+                    .help(help),
+            );
+        }
+        let is_drawn = matches!(self.form, Form::Page | Form::Picture);
+        let seen = if is_drawn { checked.seen_at_rest(compiled, at, &said) } else { None };
+        if let Some(mut seen) = seen {
+            self.leave_alone(&mut seen)?;
+            let pictured = wanted::pictured(self.arguments, &seen)?;
+            self.write(file, &Drawn { seen: &seen, moments: None, pictured: &pictured }, reporter)?;
+        }
+        Err(said.into())
+    }
 }
 
 /// What there is to draw, and of which moments.
@@ -132,17 +202,16 @@ impl Drawn<'_> {
     }
 }
 
-/// The moments that are asked for, and why the last of them are missing, if they are.
+/// The moments that are asked for, and why the last of them are missing, if they are; where all are, the last one before that.
 fn moments(
     (checked, compiled): (&Checked, &Compiled),
     times: &Times,
     options: &RunOptions,
+    seen: &Seen,
 ) -> Result<(Motion, Option<Diagnostic>), Failure> {
     // what there is to remark has been said of the whole motion
     let (found, said) = checked.moments(compiled, times, options);
     let Some((motion, stopped)) = found else { return Err(said.into()) };
-    match stopped {
-        Some(why) if motion.is_empty() => Err(why.into()),
-        stopped => Ok((motion, stopped)),
-    }
+    let last = seen.motion.len().saturating_sub(1);
+    Ok(if motion.is_empty() { (seen.motion.moment(last), stopped) } else { (motion, stopped) })
 }

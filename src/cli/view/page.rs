@@ -3,22 +3,27 @@
 use crate::analysis::ColumnUnit;
 use crate::source::Sources;
 use crate::stages::Seen;
-use crate::view::page::{Column, Page, Variant};
+use crate::view::page::{Column, Page, Variant, Vary};
 
 /// The page of one motion.
 pub(super) fn written(seen: &Seen, sources: &Sources) -> String {
-    let columns = seen.columns.iter().zip(&seen.units).map(|(name, unit)| column(name, unit)).collect();
-    let texts = seen.texts.iter().map(|id| (*id, sources.get(*id))).collect();
-    Page { texts, columns, vary: Vec::new(), variants: vec![variant(seen)] }.written()
+    written_with(seen, Vec::new(), vec![variant(seen)], sources)
 }
 
-fn variant(seen: &Seen) -> Variant<'_> {
+/// The page of what varies; `first` is the variant that it begins with.
+pub(super) fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
+    let columns = first.columns.iter().zip(&first.units).map(|(name, unit)| column(name, unit)).collect();
+    let texts = first.texts.iter().map(|id| (*id, sources.get(*id))).collect();
+    Page { texts, columns, vary, variants }.written()
+}
+
+pub(super) fn variant(seen: &Seen) -> Variant<'_> {
     Variant {
         scene: &seen.scene,
         motion: &seen.motion,
         all_rows: seen.all_rows,
         results: seen.results.iter().map(|(name, unit, value)| (column(name, unit), *value)).collect(),
-        messages: seen.stopped.iter().collect(),
+        messages: seen.messages().collect(),
     }
 }
 

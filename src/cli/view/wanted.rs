@@ -2,20 +2,24 @@
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
-use crate::diag::nearest;
+use crate::diag::{Severity, nearest};
 use crate::scene::{Anchor, Scene};
+use crate::stages::Seen;
 use crate::view::svg::{Options, Theme};
 
 /// What is asked for beside the mechanism.
-pub(super) fn pictured(arguments: &ViewArguments, scene: &Scene) -> Result<Options, Failure> {
+pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options, Failure> {
+    let scene = &seen.scene;
     let theme = match arguments.theme {
         ThemeChoice::Auto => Theme::Auto,
         ThemeChoice::Light => Theme::Light,
         ThemeChoice::Dark => Theme::Dark,
     };
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
+    let errors = seen.messages().filter(|said| said.severity() == Severity::Error);
+    let said = errors.map(|error| format!("error[{}]: {}", error.code, error.message)).collect();
     let ViewArguments { size, scale, vectors, labels, .. } = *arguments;
-    Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new() })
+    Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new(), said })
 }
 
 /// The name that may be meant, as a question.

@@ -17,7 +17,7 @@ const MOST_DECIMALS: usize = 30;
 /// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
 pub(super) fn written(page: &Page, every: usize) -> String {
     let texts = Texts::of(&page.texts);
-    let Some(first) = page.variants.first() else { return String::new() };
+    let Some(first) = page.first() else { return String::new() };
     let scene = scene(first.scene, &texts);
     let variants: Vec<Value> =
         page.variants.iter().map(|variant| variant_with(variant, every, page.columns.len(), &texts, &scene)).collect();
@@ -30,7 +30,7 @@ pub(super) fn written(page: &Page, every: usize) -> String {
         "scene": scene,
         "columns": page.columns.iter().map(|column| Value::Object(column_of(column))).collect::<Vec<_>>(),
         "vary": page.vary.iter().map(|vary| {
-            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "own": vary.own })
+            json!({ "name": vary.name, "unit": vary.unit, "values": vary.values, "nearest": vary.nearest, "own": vary.own })
         }).collect::<Vec<_>>(),
         "variants": variants,
     });
@@ -95,12 +95,34 @@ fn variant_with(variant: &Variant, every: usize, count: usize, texts: &Texts, sh
             let drawn: Vec<[f64; 3]> = motion.poses(0).iter().map(|pose| [pose.at[0], pose.at[1], pose.phi]).collect();
             object.insert("drawn".to_owned(), json!(drawn));
         }
-        let own = scene(variant.scene, texts);
-        if own != *shared {
-            object.insert("scene".to_owned(), own);
+        if !variant.scene.named.is_empty() {
+            object.insert("named".to_owned(), json!(variant.scene.named));
+        }
+        if let Some(changes) = changes(shared, &scene(variant.scene, texts)) {
+            object.insert("scene".to_owned(), changes);
         }
     }
     object
+}
+
+/// What makes one value of another; nothing where they are the same. What is another thing altogether stands in an array of one; of arrays of
+/// one length, and of objects with the same keys, only what differs is there, by its place or key.
+fn changes(from: &Value, to: &Value) -> Option<Value> {
+    if from == to {
+        return None;
+    }
+    let changed = match (from, to) {
+        (Value::Array(from), Value::Array(to)) if from.len() == to.len() => {
+            let pairs = from.iter().zip(to).enumerate();
+            pairs.filter_map(|(place, (from, to))| Some((place.to_string(), changes(from, to)?))).collect()
+        }
+        (Value::Object(from), Value::Object(to)) if from.keys().eq(to.keys()) => {
+            let pairs = from.iter().zip(to.values());
+            pairs.filter_map(|((key, from), to)| Some((key.clone(), changes(from, to)?))).collect()
+        }
+        _ => return Some(json!([to])),
+    };
+    Some(Value::Object(changed))
 }
 
 fn message(said: &Diagnostic, texts: &Texts) -> Value {
@@ -191,7 +213,18 @@ fn trace(trace: &Trace) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::{decimals, kept};
+    use super::{changes, decimals, kept};
+    use serde_json::json;
+
+    #[test]
+    fn only_what_differs_is_told() {
+        let from = json!({ "a": [1, [2, 3]], "b": { "c": "d" } });
+        assert_eq!(changes(&from, &from), None);
+        let to = json!({ "a": [1, [2, 4]], "b": { "c": "e" } });
+        assert_eq!(changes(&from, &to), Some(json!({ "a": { "1": { "1": [4] } }, "b": { "c": ["e"] } })));
+        let to = json!({ "a": [1], "b": { "c": "d", "f": null } });
+        assert_eq!(changes(&from, &to), Some(json!({ "a": [[1]], "b": [{ "c": "d", "f": null }] })));
+    }
 
     #[test]
     fn the_last_row_is_kept() {

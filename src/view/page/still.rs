@@ -23,12 +23,19 @@ pub(super) fn still(scene: &Scene, motion: &Motion) -> String {
         "<svg class=\"still-picture mechanism\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"the mechanism as the motion begins\">"
     );
     for node in &scene.nodes {
-        add(&mut svg, node, motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
+        let is_named = scene.named.contains(&node.declaration);
+        add(&mut svg, (node, is_named), motion.poses(0), &|[x, y]| [scale * (x - left), scale * (top - y)], scale);
     }
     svg + "</svg>"
 }
 
-fn add(svg: &mut String, node: &Node, poses: &[Pose], placed: &dyn Fn([f64; 2]) -> [f64; 2], scale: f64) {
+fn add(
+    svg: &mut String,
+    (node, is_named): (&Node, bool),
+    poses: &[Pose],
+    placed: &dyn Fn([f64; 2]) -> [f64; 2],
+    scale: f64,
+) {
     let (pose, stretch) = node.place.pose(poses);
     let frame = match node.place {
         Place::Fixed(frame) => frame,
@@ -36,7 +43,8 @@ fn add(svg: &mut String, node: &Node, poses: &[Pose], placed: &dyn Fn([f64; 2]) 
         Place::Between { .. } => 0,
     };
     let tint = frame.checked_sub(1).map_or("ground".to_owned(), |body| (body % TINTS).to_string());
-    *svg += &format!("<g class=\"node tint-{tint}\">");
+    let wrong = if is_named { " wrong" } else { "" };
+    *svg += &format!("<g class=\"node tint-{tint}{wrong}\">");
     for shape in &node.shapes {
         let d = written(&shape.path, &|[x, y]| placed(pose.placed([stretch * x, y])), scale, DECIMALS);
         *svg += &format!("<path class=\"look-{}\" d=\"{d}\"/>", shape.look.word());

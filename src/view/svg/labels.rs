@@ -1,22 +1,20 @@
 //! The names of bodies and pins, beside what they name: no label lies on another at any moment that is shown. One that finds no place is
 //! left out; bodies tell their names as titles too.
 
+use super::letters::{COLUMN, columns, letters};
 use super::nodes::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
-use unicode_width::UnicodeWidthChar;
 
-/// Of letters, in pixels; for the smallest and largest pictures.
-const SIZES: [f64; 2] = [13.0, 18.0];
-/// Of letters, as a part of the picture's shorter side.
-const SIZE: f64 = 1.0 / 42.0;
-/// How wide a column is as a part of the size of letters: wide letters of most fonts are no wider on the average.
-const COLUMN: f64 = 0.66;
 /// Longer names are cut.
 const LONGEST: usize = 32;
 /// More names than this are not looked at.
 const MOST: usize = 400;
+
+/// What labels leave free beside pins, if they can.
+const TAKEN: [Look; 7] =
+    [Look::Arrow, Look::ArrowHead, Look::Support, Look::Free, Look::FreeHead, Look::GapEnd, Look::Named];
 
 /// A name in its place.
 #[derive(Clone, Debug)]
@@ -50,7 +48,7 @@ impl Label {
 impl Picture<'_> {
     /// The size of letters (px).
     pub fn letters(&self) -> f64 {
-        (SIZE * self.size[0].min(self.size[1])).clamp(SIZES[0], SIZES[1])
+        letters(self.room())
     }
 
     /// Writes the names of a moment.
@@ -115,7 +113,7 @@ impl Picture<'_> {
         let mut cost = 0.0;
         for (moment, at) in at.iter().enumerate() {
             let [low, high] = label.bounds(*at);
-            let [width, height] = self.size;
+            let [width, height] = self.room();
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
                 return None;
             }
@@ -167,7 +165,7 @@ impl Picture<'_> {
             for shape in &node.shapes {
                 match (&shape.path, shape.look) {
                     (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
-                    (path, Look::Arrow | Look::ArrowHead | Look::Support) => {
+                    (path, look) if TAKEN.contains(&look) => {
                         taken.extend(path.places().into_iter().map(|at| (node.place, at)));
                     }
                     _ => {}
@@ -193,9 +191,4 @@ fn cut(name: &str) -> String {
         return name.to_owned();
     }
     name.chars().take(LONGEST - 1).chain(['…']).collect()
-}
-
-/// The columns that a text takes on a screen.
-fn columns(text: &str) -> usize {
-    text.chars().map(|c| c.width().unwrap_or(0)).sum()
 }

@@ -6,9 +6,11 @@
 mod curves;
 mod keyframes;
 mod labels;
+mod letters;
 mod nodes;
 mod picture;
 mod plots;
+mod said;
 mod style;
 mod vectors;
 
@@ -46,6 +48,8 @@ pub struct Options {
     pub labels: bool,
     /// Words below places (m).
     pub captions: Vec<(Vector, String)>,
+    /// What is wrong with it, below it.
+    pub said: Vec<String>,
 }
 
 /// The mechanism at some moments, the rows of `moments`; of several the last one stands out. Traces are those of the whole motion.

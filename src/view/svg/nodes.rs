@@ -90,6 +90,11 @@ impl Picture<'_> {
                 classes.push("b-ground".to_owned());
             }
         }
+        let is_free = node.shapes.iter().any(|shape| shape.look == Look::Free);
+        if scene.named.contains(&node.declaration) && !is_free {
+            self.used.is_named = true;
+            classes.push("named".to_owned());
+        }
         let attributes = match attributes.split_once(" class=\"") {
             _ if classes.is_empty() => attributes.to_owned(),
             // classes of a motion stand with those of the body

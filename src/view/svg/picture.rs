@@ -1,5 +1,6 @@
 //! A picture in the making: the way from metres to pixels, and the file around all that is drawn.
 
+use super::said::Lines;
 use super::style::{self, Used};
 use super::{Options, Theme};
 use crate::scene::{Anchor, Motion, Pose, Scene, Vector, bounds};
@@ -12,6 +13,8 @@ const LABELLED_MARGIN: f64 = 34.0;
 /// How wide and how high a picture is at least and at most, unless its size is said.
 const WIDTHS: [f64; 2] = [320.0, 800.0];
 const HEIGHTS: [f64; 2] = [220.0, 760.0];
+/// How wide one with a message below it is at least.
+const WIDTH_WITH_MESSAGE: f64 = 480.0;
 /// Symbols are no larger than this (px), unless the size of the picture is said.
 const LARGEST_UNIT: f64 = 30.0;
 
@@ -23,6 +26,10 @@ pub(super) struct Picture<'s> {
     pub scene: &'s Scene,
     pub options: &'s Options,
     pub size: [f64; 2],
+    /// Around what is drawn (px).
+    pub margin: f64,
+    /// What is said below it.
+    pub said: Lines,
     /// Pixels in a metre.
     pub scale: f64,
     /// Which place (m) is in the middle.
@@ -53,9 +60,14 @@ impl<'s> Picture<'s> {
             let needed = |side: usize, [least, most]: [f64; 2]| {
                 crate::math::floor((extent[side] * scale + 2.0 * margin).clamp(least, most) + 0.5)
             };
-            [needed(0, WIDTHS), needed(1, HEIGHTS)]
+            let least = if options.said.is_empty() { WIDTHS[0] } else { WIDTH_WITH_MESSAGE };
+            [needed(0, [least, WIDTHS[1]]), needed(1, HEIGHTS)]
         });
-        let fitting = (inner(size[0]) / extent[0]).min(inner(size[1]) / extent[1]);
+        let is_given = options.size.is_some() && options.scale.is_none();
+        let said = Lines::of(&options.said, size, margin, is_given);
+        let drawn = if is_given { [size[0], size[1] - said.height] } else { size };
+        let size = [drawn[0], drawn[1] + said.height];
+        let fitting = (inner(drawn[0]) / extent[0]).min(inner(drawn[1]) / extent[1]);
         let scale = match options.scale {
             Some(scale) => scale * PER_METER,
             None if options.size.is_some() => fitting,
@@ -67,6 +79,8 @@ impl<'s> Picture<'s> {
             scene,
             options,
             size,
+            margin,
+            said,
             scale,
             middle,
             used,
@@ -77,9 +91,14 @@ impl<'s> Picture<'s> {
         }
     }
 
+    /// How much of it (px) what is drawn has, above what is said.
+    pub fn room(&self) -> [f64; 2] {
+        [self.size[0], self.size[1] - self.said.height]
+    }
+
     /// Where a place is in the picture.
     pub fn placed(&self, [x, y]: Vector) -> Vector {
-        let [width, height] = self.size;
+        let [width, height] = self.room();
         [0.5 * width + self.scale * (x - self.middle[0]), 0.5 * height - self.scale * (y - self.middle[1])]
     }
 
@@ -131,10 +150,15 @@ impl<'s> Picture<'s> {
             number(origin[1], 3),
             escaped(&self.scene.name)
         );
-        let docs = self.scene.docs.join("\n");
-        if !docs.trim().is_empty() {
-            let _ = writeln!(file, "<desc>{}</desc>", escaped(docs.trim()));
+        let mut told = self.scene.docs.join("\n").trim().to_owned();
+        for said in &self.options.said {
+            told += if told.is_empty() { "" } else { "\n" };
+            told += said;
         }
+        if !told.is_empty() {
+            let _ = writeln!(file, "<desc>{}</desc>", escaped(&told));
+        }
+        self.used.said = self.said.letters();
         if !self.options.captions.is_empty() {
             self.used.labels = Some(self.letters());
         }
@@ -142,6 +166,7 @@ impl<'s> Picture<'s> {
         let _ = writeln!(file, "<style>\n{}{}</style>", style::sheet(&self.used, theme, self.unit()), self.rules);
         let _ = writeln!(file, "<rect class=\"paper\" width=\"{width}\" height=\"{height}\"/>");
         let captions: String = self.options.captions.iter().map(|caption| self.caption(caption)).collect();
+        let captions = captions + &self.said.written(self.size, self.margin);
         if self.options.scale.is_some() {
             return format!("{file}<g transform=\"scale({MILLIMETERS})\">\n{}{captions}</g>\n</svg>\n", self.body);
         }

@@ -22,6 +22,10 @@ pub(super) struct Used {
     /// Whether something that is filled is on the ground.
     pub is_ground_filled: bool,
     pub vectors: BTreeSet<&'static str>,
+    /// Whether a message names something.
+    pub is_named: bool,
+    /// The size of letters of what is said below (px), if anything is.
+    pub said: Option<f64>,
 }
 
 /// Colours.
@@ -36,6 +40,10 @@ struct Palette {
     driven: &'static str,
     tints: [&'static str; TINTS],
     traces: [&'static str; TRACE_COLORS],
+    /// Of what nothing holds.
+    free: &'static str,
+    /// Of what a message names.
+    wrong: &'static str,
     velocity: &'static str,
     acceleration: &'static str,
 }
@@ -48,6 +56,8 @@ const LIGHT: Palette = Palette {
     driven: "#0d5fb3",
     tints: ["#bcd9f5", "#ffd3a1", "#c4e6bd", "#f6c3cb", "#d9cdf2", "#f5e79e", "#b9e6e4", "#e3d0bd"],
     traces: ["#c2185b", "#1565c0", "#6a1b9a", "#b45309"],
+    free: "#7a2fb5",
+    wrong: "#c01c28",
     velocity: "#0a7d34",
     acceleration: "#c62828",
 };
@@ -60,6 +70,8 @@ const DARK: Palette = Palette {
     driven: "#7ab8ff",
     tints: ["#2b5782", "#80551f", "#35703c", "#833b49", "#584687", "#766620", "#2a6f6d", "#66503c"],
     traces: ["#ff6fa5", "#6db3ff", "#c99bff", "#ffb454"],
+    free: "#cf9dff",
+    wrong: "#ff7b7b",
     velocity: "#5bd98a",
     acceleration: "#ff7b72",
 };
@@ -116,6 +128,11 @@ fn shapes(used: &Used, strong: f64) -> String {
             }
             Look::Face => format!("stroke-width:{}", width(3.0)),
             Look::Arrow => format!("stroke-width:{}", width(1.6)),
+            Look::Free => format!("stroke-width:{};stroke-dasharray:{} {}", width(1.6), width(3.2), width(2.6)),
+            Look::FreeHead => format!("stroke-width:{}", width(1.3)),
+            Look::Gap => format!("stroke-width:{};stroke-dasharray:{} {}", width(1.4), width(2.4), width(2.6)),
+            Look::GapEnd => format!("stroke-width:{}", width(1.4)),
+            Look::Named => format!("stroke-width:{};stroke-dasharray:{} {}", width(1.8), width(4.5), width(2.6)),
             Look::Spring => format!("stroke-width:{};vector-effect:non-scaling-stroke", width(1.2)),
             Look::Gear | Look::Rack => format!("stroke-width:{};fill-rule:evenodd", width(0.8)),
             _ => continue,
@@ -135,6 +152,17 @@ fn shapes(used: &Used, strong: f64) -> String {
     if used.has_ghosts {
         rules += ".ghost{opacity:.3}\n";
     }
+    if used.is_named {
+        rules += &format!(
+            ".named path,.named circle{{stroke-width:{}}}\n.named .link{{stroke-dasharray:{} {}}}\n",
+            width(1.7),
+            width(5.0),
+            width(2.6)
+        );
+    }
+    if let Some(size) = used.said {
+        rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
+    }
     if !used.vectors.is_empty() {
         rules += &format!(".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n", width(1.2));
     }
@@ -142,7 +170,7 @@ fn shapes(used: &Used, strong: f64) -> String {
 }
 
 fn colors(used: &Used, palette: &Palette) -> String {
-    let &Palette { paper, ink, quiet, driven, .. } = palette;
+    let &Palette { paper, ink, quiet, driven, free, wrong, .. } = palette;
     let mut rules = format!(".paper{{fill:{paper}}}\n");
     let mut group = |looks: &[Look], rule: &str| {
         let words: Vec<String> =
@@ -164,6 +192,10 @@ fn colors(used: &Used, palette: &Palette) -> String {
     group(&[Look::Hatching, Look::Pitch], &format!("fill:none;stroke:{quiet}"));
     group(&[Look::Arrow], &format!("fill:none;stroke:{driven}"));
     group(&[Look::ArrowHead], &format!("fill:{driven};stroke:none"));
+    group(&[Look::Free], &format!("fill:none;stroke:{free}"));
+    group(&[Look::FreeHead], &format!("fill:{paper};stroke:{free}"));
+    group(&[Look::Gap, Look::GapEnd], &format!("fill:none;stroke:{ink}"));
+    group(&[Look::Named], &format!("fill:none;stroke:{wrong}"));
     if used.is_ground_filled {
         rules += &format!(".b-ground{{fill:{}}}\n", palette.ground);
     }
@@ -178,8 +210,16 @@ fn colors(used: &Used, palette: &Palette) -> String {
             rules += &format!(".{word}{{stroke:{color};fill:{color}}}\n");
         }
     }
+    if used.is_named {
+        rules += &format!(
+            ".named path,.named circle{{stroke:{wrong}}}\n.named .arrow-head,.named .dot,.named .weld{{fill:{wrong}}}\n"
+        );
+    }
     if used.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
+    }
+    if used.said.is_some() {
+        rules += &format!(".said{{fill:{wrong}}}\n");
     }
     rules
 }

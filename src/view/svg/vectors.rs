@@ -89,7 +89,7 @@ impl<'s> Picture<'s> {
         }
         let (unit, line) = if word == "velocity" { ("m/s", 1.0) } else { ("m/s²", 0.0) };
         let size = self.letters();
-        let [x, y] = [LEGEND, self.size[1] - 0.6 * size - line * 1.3 * size];
+        let [x, y] = [LEGEND, self.room()[1] - 0.6 * size - line * 1.3 * size];
         self.add_vector(word, word, [x, y - 0.35 * size], [LEGEND_ARROW, 0.0]);
         self.used.labels = Some(size);
         self.body += &format!(
@@ -98,7 +98,7 @@ impl<'s> Picture<'s> {
             number(y, PIXELS),
             three_digits(longest)
         );
-        Some(LONGEST * self.size[0].min(self.size[1]) / longest)
+        Some(LONGEST * self.room()[0].min(self.room()[1]) / longest)
     }
 
     /// The pins of bodies; of those that bodies share one.

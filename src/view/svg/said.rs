@@ -1,0 +1,100 @@
+//! What is wrong with a mechanism, in lines below it.
+
+use super::letters::{COLUMN, columns, letters};
+use crate::view::text::{escaped, number};
+use std::fmt::Write;
+
+/// From line to line, and what is free above the first and below the last of them, in sizes of letters.
+const LINE: f64 = 1.35;
+const AROUND: f64 = 0.6;
+/// What lines take of a picture whose size is given at most.
+const MOST: f64 = 0.4;
+/// Lines have room for so many columns at least.
+const NARROWEST: f64 = 8.0;
+
+/// Decimals of pixels.
+const DECIMALS: usize = 2;
+
+/// Messages in lines.
+#[derive(Default)]
+pub(super) struct Lines {
+    rows: Vec<String>,
+    /// The size of letters (px).
+    letters: f64,
+    /// How high they are together (px), with what is free around them.
+    pub height: f64,
+}
+
+impl Lines {
+    /// Of messages below a picture of a size (px), within margins; if they are to stand in it, as many as it has room for.
+    pub fn of(said: &[String], size: [f64; 2], margin: f64, within: bool) -> Lines {
+        let letters = letters(size);
+        let width = ((size[0] - 2.0 * margin) / (COLUMN * letters)).max(NARROWEST);
+        let mut lines: Vec<String> = said.iter().flat_map(|said| wrapped(said, width)).collect();
+        let height = |count: usize| if count == 0 { 0.0 } else { letters * (LINE * count as f64 + 2.0 * AROUND) };
+        let all = lines.len();
+        while within && height(lines.len()) > MOST * size[1] {
+            lines.pop();
+        }
+        if lines.len() < all
+            && let Some(last) = lines.last_mut()
+        {
+            last.push_str(" …");
+        }
+        let height = height(lines.len());
+        Lines { rows: lines, letters, height }
+    }
+
+    /// As they stand at the bottom of a picture of a size (px), within margins.
+    pub fn written(&self, size: [f64; 2], margin: f64) -> String {
+        let top = size[1] - self.height + AROUND * self.letters;
+        let mut text = String::new();
+        for (row, line) in self.rows.iter().enumerate() {
+            let y = number(top + self.letters * (LINE * row as f64 + 1.0), DECIMALS);
+            let _ = writeln!(text, "<text class=\"said\" x=\"{margin}\" y=\"{y}\">{}</text>", escaped(line));
+        }
+        text
+    }
+
+    /// The size of their letters (px), if there are any.
+    pub fn letters(&self) -> Option<f64> {
+        (!self.rows.is_empty()).then_some(self.letters)
+    }
+}
+
+/// A text in lines of so many columns at most, but for words that are longer.
+fn wrapped(text: &str, width: f64) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match lines.last_mut() {
+            Some(line) if (columns(line) + 1 + columns(word)) as f64 <= width => {
+                line.push(' ');
+                line.push_str(word);
+            }
+            _ => lines.push(word.to_owned()),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Lines, wrapped};
+
+    #[test]
+    fn lines_are_no_wider_than_there_is_room() {
+        assert_eq!(wrapped("a bb ccc dddd", 6.0), ["a bb", "ccc", "dddd"]);
+        assert_eq!(wrapped("incomprehensibilities are", 6.0), ["incomprehensibilities", "are"]);
+        assert!(wrapped(" ", 6.0).is_empty());
+    }
+
+    #[test]
+    fn a_given_size_keeps_most_of_its_room() {
+        let said = ["word ".repeat(400)];
+        let within = Lines::of(&said, [400.0, 300.0], 14.0, true);
+        assert!(within.height <= 120.0 && within.rows.last().is_some_and(|line| line.ends_with('…')));
+        let below = Lines::of(&said, [400.0, 300.0], 14.0, false);
+        assert!(below.height > 300.0 && below.rows.len() > within.rows.len());
+        assert!(Lines::of(&[], [400.0, 300.0], 14.0, true).height <= 0.0);
+    }
+}
