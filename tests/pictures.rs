@@ -6,7 +6,7 @@
 
 mod support;
 
-use mechc::rooms::analysis::{FreeMotion, free_motions};
+use mechc::rooms::analysis::{FreeMotion, Horizon, free_motions};
 use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
@@ -716,7 +716,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies[body].name.clone(), velocity)).collect()
     };
-    free_motions(&system).into_iter().map(named).collect()
+    free_motions(&system, Horizon::of_analysis(None)).into_iter().map(named).collect()
 }
 
 #[test]

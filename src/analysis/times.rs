@@ -113,6 +113,40 @@ impl Times {
     }
 }
 
+/// When a mechanism is assembled, and how far it is looked at from there on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Horizon {
+    /// The first time (s).
+    pub from: f64,
+    /// To the last one (s): what is near in time is near beside this.
+    pub span: f64,
+}
+
+impl Horizon {
+    /// Where nobody says how far: a second.
+    const UNTOLD: f64 = 1.0;
+
+    /// That of output times.
+    #[must_use]
+    pub fn of(times: &Times) -> Horizon {
+        let span = times.span();
+        Horizon { from: times.from(), span: if span > 0.0 { span } else { Horizon::UNTOLD } }
+    }
+
+    /// That of an analysis: first time, last time, step (s); else from 0 on.
+    #[must_use]
+    pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
+        let [from, to, _] = analysis.unwrap_or([0.0, Horizon::UNTOLD, 0.0]);
+        Horizon { from, span: to - from }
+    }
+
+    /// As far from another time on (s).
+    #[must_use]
+    pub fn beginning(self, from: f64) -> Horizon {
+        Horizon { from, ..self }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::Times;
