@@ -1,5 +1,7 @@
 //! Which times are printed.
 
+use crate::tolerances::UNTOLD_SPAN;
+
 /// Output times, ascending.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Times {
@@ -123,20 +125,17 @@ pub struct Horizon {
 }
 
 impl Horizon {
-    /// Where nobody says how far: a second.
-    const UNTOLD: f64 = 1.0;
-
     /// That of output times.
     #[must_use]
     pub fn of(times: &Times) -> Horizon {
         let span = times.span();
-        Horizon { from: times.from(), span: if span > 0.0 { span } else { Horizon::UNTOLD } }
+        Horizon { from: times.from(), span: if span > 0.0 { span } else { UNTOLD_SPAN } }
     }
 
     /// That of an analysis: first time, last time, step (s); else from 0 on.
     #[must_use]
     pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
-        let [from, to, _] = analysis.unwrap_or([0.0, Horizon::UNTOLD, 0.0]);
+        let [from, to, _] = analysis.unwrap_or([0.0, UNTOLD_SPAN, 0.0]);
         Horizon { from, span: to - from }
     }
 

@@ -2,7 +2,7 @@
 //! left out; bodies tell their names as titles too.
 
 use super::letters::{COLUMN, columns, letters};
-use super::nodes::PIXELS;
+use super::picture::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};

@@ -1,7 +1,7 @@
 //! Velocities and accelerations at the pins, as arrows.
 
 use super::keyframes::{Key, Track};
-use super::nodes::PIXELS;
+use super::picture::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Motion, Point, Pose, Vector, direction, length, minus, plus, times};
 use crate::view::text::{escaped, number};
