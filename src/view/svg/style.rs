@@ -24,6 +24,8 @@ pub(super) struct Used {
     pub vectors: BTreeSet<&'static str>,
     /// Whether a message names something.
     pub is_named: bool,
+    /// Whether a message says something of a place.
+    pub has_remarks: bool,
     /// The size of letters of what is said below (px), if anything is.
     pub said: Option<f64>,
 }
@@ -164,7 +166,12 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
     }
     if !used.vectors.is_empty() {
-        rules += &format!(".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n", width(1.2));
+        // accelerations, which are drawn above, leave velocities seen where both go the same way
+        rules += &format!(
+            ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
+            width(0.9),
+            width(2.2)
+        );
     }
     rules
 }
@@ -217,6 +224,9 @@ fn colors(used: &Used, palette: &Palette) -> String {
     }
     if used.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
+    }
+    if used.has_remarks {
+        rules += &format!(".remark{{fill:{wrong}}}\n");
     }
     if used.said.is_some() {
         rules += &format!(".said{{fill:{wrong}}}\n");
