@@ -14,7 +14,7 @@ use mechc::rooms::scene::{
 use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc::rooms::view::{dxf, first_sentence};
 use mechc::rooms::{check, lower, syntax};
-use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
+use mechc::{Cancel, Choice, Code, Diagnostic, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
 use support::random::Random;
@@ -50,7 +50,9 @@ fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
         said = why;
     }
     let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
-    let messages = said.iter().map(|said| format!("error[{}]: {}", said.code, said.message)).collect();
+    let notes = |said: &Diagnostic| if said.code == Code::E0601 { said.notes.clone() } else { Vec::new() };
+    let message = |said: &Diagnostic| format!("error[{}]: {}", said.code, said.message);
+    let messages = said.iter().flat_map(|said| std::iter::once(message(said)).chain(notes(said))).collect();
     (seen, messages)
 }
 

@@ -23,8 +23,10 @@ const RINGS: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2]];
 const NEXT_DIRECTION: f64 = 0.03;
 /// What a label costs that covers a pin; one full of lines; one full of lines that are looked at.
 const ON_PIN: f64 = 1.0;
-const ON_LINES: f64 = 0.6;
-const ON_STRONG_LINES: f64 = 1.2;
+const ON_LINES: f64 = 1.0;
+const ON_STRONG_LINES: f64 = 1.5;
+/// A line that is so near to a label (px) is on it: names between the two sides of a bar are better beside it.
+const NEAR_LINE: f64 = 3.0;
 /// A label is full of a line that is so many times as long as it is high.
 const FULL: f64 = 2.0;
 /// How far places on lines are apart (px), and how many of them are looked at, all moments together.
@@ -174,7 +176,7 @@ impl Picture<'_> {
 
     /// What there is around some places, one for each moment, as far as a label beside them can be.
     fn near(&self, field: &Field, at: &[Vector], half: Vector, reach: f64) -> Field {
-        let farthest = RINGS[RINGS.len() - 1][0] * half[1] + reach + PIN * self.unit();
+        let farthest = RINGS[RINGS.len() - 1][0] * half[1] + reach + PIN * self.unit() + NEAR_LINE;
         let around = half.map(|half| 2.0 * half + farthest);
         let moments = at.iter().zip(&field.moments).map(|([x, y], obstacles)| {
             obstacles.within([[x - around[0], y - around[1]], [x + around[0], y + around[1]]])
@@ -200,8 +202,9 @@ impl Picture<'_> {
             }
             let covered =
                 obstacles.pins.iter().filter(|[x, y]| meets([[x - reach, y - reach], [x + reach, y + reach]]));
+            let around = [low.map(|part| part - NEAR_LINE), high.map(|part| part + NEAR_LINE)];
             let full = |places: &[Vector]| {
-                let long = field.step * places.iter().filter(|place| is_within(**place, [low, high])).count() as f64;
+                let long = field.step * places.iter().filter(|place| is_within(**place, around)).count() as f64;
                 (long / (FULL * 2.0 * label.half[1])).min(1.0)
             };
             cost += ON_PIN * covered.count() as f64;

@@ -170,7 +170,7 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += &format!(
             ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
             width(0.9),
-            width(2.2)
+            width(1.7)
         );
     }
     rules
