@@ -320,7 +320,7 @@ fn arrows_are_at_what_moves() {
     let seen = seen_text(&CAM.replace("point top = (0, 60 mm)", ""));
     assert!(!has_vectors(&seen.scene, &[], &seen.motion));
     let rim = ("disc.edge".to_owned(), Anchor { frame: 1, at: [0.04, 0.0] });
-    assert!(has_vectors(&seen.scene, &[rim.clone()], &seen.motion), "a traced point");
+    assert!(has_vectors(&seen.scene, std::slice::from_ref(&rim), &seen.motion), "a traced point");
     let options = Options { traces: vec![rim], ..options };
     let file = still(&seen.scene, &seen.motion, &one_row(&seen, 20), &options);
     assert_eq!(with_arrows(&file), ["disc.edge"]);

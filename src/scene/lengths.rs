@@ -59,7 +59,7 @@ fn points(features: &Features, declaration: usize) -> Vec<PointId> {
     if let Some(equation) = declaration.checked_sub(equations).and_then(|number| model.equations.get(number)) {
         return match equation.form {
             EquationForm::SquaredDistance(p, q, _) => vec![p, q],
-            _ => Vec::new(),
+            EquationForm::Difference(..) => Vec::new(),
         };
     }
     let joint = declaration.checked_sub(joints).and_then(|number| model.joints.get(number));

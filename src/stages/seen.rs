@@ -249,15 +249,12 @@ fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
     };
     let of = text("of")?;
     let said = format!("{}: {}", analysis::length_in_words(told["length"].as_f64()?), text("is")?);
-    match (text("from"), text("to")) {
-        (Some(from), Some(to)) => {
-            let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == of)?;
-            Some(Length { frame: Some(frame), ends: [declared(from)?, declared(to)?], text: said })
-        }
-        _ => {
-            let declaration = declared(of)?;
-            Some(Length { frame: None, ends: [declaration; 2], text: said })
-        }
+    if let (Some(from), Some(to)) = (text("from"), text("to")) {
+        let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == of)?;
+        Some(Length { frame: Some(frame), ends: [declared(from)?, declared(to)?], text: said })
+    } else {
+        let declaration = declared(of)?;
+        Some(Length { frame: None, ends: [declaration; 2], text: said })
     }
 }
 

@@ -12,6 +12,7 @@ pub(super) const TRACE_COLORS: usize = 4;
 
 /// What a picture holds, for which there have to be rules.
 #[derive(Default)]
+#[allow(clippy::struct_excessive_bools)] // each has rules of its own
 pub(super) struct Used {
     pub looks: BTreeSet<Look>,
     pub tints: BTreeSet<usize>,
