@@ -11,10 +11,10 @@ use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
 };
-use mechc::rooms::view::svg::{Options, Plot, Theme, animated, plots, still};
+use mechc::rooms::view::svg::{Options, Plot, Theme, animated, has_vectors, plots, still};
 use mechc::rooms::view::{dxf, first_sentence};
 use mechc::rooms::{check, lower, syntax};
-use mechc::{Cancel, Choice, Parsed, Redundant, RunOptions, Seen, Sources, Times};
+use mechc::{Cancel, Choice, Code, Diagnostic, Parsed, Redundant, RunOptions, Seen, Sources, Times};
 use std::fs;
 use std::path::Path;
 use support::random::Random;
@@ -50,7 +50,9 @@ fn seen_at_rest(path: &str) -> (Seen, Vec<String>) {
         said = why;
     }
     let seen = checked.seen_at_rest(compiled.as_ref(), (0.0, &options), &said).expect("it is sound");
-    let messages = said.iter().map(|said| format!("error[{}]: {}", said.code, said.message)).collect();
+    let notes = |said: &Diagnostic| if said.code == Code::E0601 { said.notes.clone() } else { Vec::new() };
+    let message = |said: &Diagnostic| format!("error[{}]: {}", said.code, said.message);
+    let messages = said.iter().flat_map(|said| std::iter::once(message(said)).chain(notes(said))).collect();
     (seen, messages)
 }
 
@@ -206,6 +208,136 @@ fn names_of_moments_do_not_lie_on_each_other() {
                 }
             }
         }
+    }
+}
+
+/// A four-bar with a point that is traced, and a cam whose follower has no pin.
+const FOUR_BAR: &str = "\
+mechanism four_bar {
+    ground {
+        point A0 = (0, 0)
+        point B0 = (100 mm, 0)
+    }
+    body crank at (0, 0, 60 deg) {
+        point A0 = (0, 0)
+        point A  = (40 mm, 0)
+    }
+    body coupler at (20 mm, 35 mm, 20 deg) {
+        point A = (0, 0)
+        point B = (120 mm, 0)
+        point C = (60 mm, 45 mm)
+        point D = (60 mm, -10 mm)
+    }
+    body rocker at (100 mm, 0, 70 deg) {
+        point B0 = (0, 0)
+        point B  = (80 mm, 0)
+    }
+    joint J1: revolute(ground.A0, crank.A0)
+    joint J2: revolute(crank.A, coupler.A)
+    joint J3: revolute(coupler.B, rocker.B)
+    joint J4: revolute(ground.B0, rocker.B0)
+    driver motor: rotation(J1) = 60 deg + 30 rpm * t
+    trace path = coupler.C
+    analysis from 0 s to 2 s every 20 ms
+}
+";
+const CAM: &str = "\
+mechanism cam {
+    ground {
+        point O  = (0, 0)
+        axis way = O along (0, 1)
+    }
+    body disc {
+        point O = (0, 0)
+        circle rim = (10 mm, 0) radius 30 mm
+    }
+    body follower at (0, 50 mm, 0) {
+        circle wheel = (0, 0) radius 8 mm
+        axis way = (0, 0) along (0, 1)
+        point top = (0, 60 mm)
+    }
+    joint axle: revolute(ground.O, disc.O)
+    joint guide: translational(ground.way, follower.way)
+    joint contact: cam(disc.rim, follower.wheel)
+    driver motor: rotation(axle) = 60 rpm * t
+    analysis from 0 s to 1 s every 10 ms
+}
+";
+
+#[test]
+fn names_stand_near_what_they_name_and_beside_bars() {
+    let seen = seen_text(FOUR_BAR);
+    let options = Options { labels: true, ..Options::default() };
+    for row in [0, 13, 30, 77] {
+        let file = still(&seen.scene, &seen.motion, &one_row(&seen, row), &options);
+        let (read, poses) = (Read::of(&file), seen.motion.poses(row));
+        let unit = read.scale * seen.scene.unit;
+        let boxes = boxes(&file);
+        for name in ["crank.A0", "crank.A", "rocker.B", "rocker.B0"] {
+            let point = seen.scene.point_named(name).expect("a point");
+            let pin = read.pixels(poses[point.frame].placed(point.at));
+            let own = name.rsplit('.').next();
+            let (_, [low, high]) = boxes.iter().find(|(text, _)| Some(text.as_str()) == own).expect("a label");
+            let nearest = [0, 1].map(|part| pin[part].clamp(low[part], high[part]));
+            let off = distance(nearest, pin);
+            assert!(off < 1.5 * unit, "row {row}: {name} is {off} px off, and a pin's symbol is of {unit} px");
+        }
+        for name in ["crank", "rocker"] {
+            let ends: Vec<Vector> = seen
+                .scene
+                .points
+                .iter()
+                .filter(|point| point.name.starts_with(name))
+                .map(|point| read.pixels(poses[point.frame].placed(point.at)))
+                .collect();
+            let (_, [low, high]) = boxes.iter().find(|(text, _)| text == name).expect("a label");
+            let covered = (0..=100).map(|k| plus(ends[0], times(0.01 * f64::from(k), minus(ends[1], ends[0]))));
+            let is_covered = |[x, y]: Vector| low[0] < x && x < high[0] && low[1] < y && y < high[1];
+            assert!(!covered.into_iter().any(is_covered), "row {row}: the bar goes through its name {name}");
+        }
+    }
+}
+
+/// What has arrows in a picture, by names.
+fn with_arrows(file: &str) -> Vec<&str> {
+    let arrows = file.split('<').filter(|tag| tag.starts_with("path class=\"vector velocity"));
+    let mut names: Vec<&str> = arrows.filter_map(|tag| attribute(tag, "data-name")).collect();
+    names.retain(|name| *name != "velocity");
+    names.dedup();
+    names
+}
+
+#[test]
+fn arrows_are_at_what_moves() {
+    let options = Options { vectors: true, ..Options::default() };
+    for (text, wanted) in [(FOUR_BAR, vec!["crank.A", "coupler.B", "coupler.C"]), (CAM, vec!["follower.top"])] {
+        let seen = seen_text(text);
+        let file = still(&seen.scene, &seen.motion, &one_row(&seen, 20), &options);
+        assert_eq!(with_arrows(&file), wanted);
+        let file = animated(&seen.scene, &seen.motion, &options);
+        assert_eq!(with_arrows(&file), wanted, "moving");
+    }
+    let seen = seen_text(&CAM.replace("point top = (0, 60 mm)", ""));
+    assert!(!has_vectors(&seen.scene, &[], &seen.motion));
+    let rim = ("disc.edge".to_owned(), Anchor { frame: 1, at: [0.04, 0.0] });
+    assert!(has_vectors(&seen.scene, std::slice::from_ref(&rim), &seen.motion), "a traced point");
+    let options = Options { traces: vec![rim], ..options };
+    let file = still(&seen.scene, &seen.motion, &one_row(&seen, 20), &options);
+    assert_eq!(with_arrows(&file), ["disc.edge"]);
+}
+
+#[test]
+fn the_pale_moments_of_a_strobe_lie_below_the_ground() {
+    let seen = seen_text(CAM);
+    let rows = [0, 25, 50, 60].map(|row| seen.motion.rows()[row].clone()).to_vec();
+    let moments = Motion::of_rows(seen.motion.frames() - 1, &seen.columns, rows, Vec::new());
+    let file = still(&seen.scene, &seen.motion, &moments, &Options::default());
+    let ghosts: Vec<usize> = file.match_indices("<g class=\"ghost\"").map(|(at, _)| at).collect();
+    let strong = file.find("<g data-t=").expect("the last one");
+    assert!(ghosts.len() == 3 && ghosts.iter().all(|ghost| *ghost < strong));
+    for look in ["support", "hatching", "ground-line"] {
+        let first = file.find(&format!("class=\"{look}\"")).expect("the ground");
+        assert!(first > strong, "{look}");
     }
 }
 
@@ -838,6 +970,34 @@ fn what_cannot_be_assembled_is_open_where_it_is_said() {
         .collect();
     assert!((distance(halves[0], halves[1]) - 8.88e-3).abs() < 5e-6, "{halves:?}");
     assert!(seen.scene.named.contains(&open.declaration));
+}
+
+#[test]
+fn lengths_that_are_blamed_stand_beside_what_is_red() {
+    let path = "tests/ui/run/loop_that_never_closes.mech";
+    let (seen, said) = seen_at_rest(path);
+    let remarks: Vec<&str> = seen.scene.remarks.iter().map(|remark| remark.text.as_str()).collect();
+    assert_eq!(remarks, ["100 mm: too long", "10 mm: too short", "70 mm: too short"]);
+    assert_eq!(seen.scene.remarks[0].at, [0.05, 0.0], "the middle of the ground's length");
+    let named: Vec<&str> = seen.scene.named.iter().map(|k| seen.scene.declarations[*k].name.as_str()).collect();
+    for body in ["coupler", "rocker"] {
+        assert!(named.contains(&body), "{named:?}");
+    }
+    assert!(!named.contains(&"crank") && !named.contains(&"ground"), "{named:?}");
+    let file = still(&seen.scene, &seen.motion, &seen.motion, &Options { said, ..Options::default() });
+    assert_eq!(file.matches("<text class=\"remark\"").count(), 3);
+    // the command tells them below it, and breaks no number off its unit
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::copy(path, folder.path().join("b.mech")).expect("a copy");
+    let mut command = std::process::Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let status = command.args(["view", "b.mech", "-o", "b.svg"]).current_dir(folder.path()).output().expect("it runs");
+    assert_eq!(status.status.code(), Some(3));
+    let file = fs::read_to_string(folder.path().join("b.svg")).expect("a picture");
+    let lines: Vec<&str> =
+        file.split("<text class=\"said\"").skip(1).filter_map(|tag| tag.split_once('>')?.1.split('<').next()).collect();
+    assert!(lines.iter().any(|line| line.starts_with("too short: `coupler` (10 mm")), "{lines:?}");
+    assert!(lines.iter().any(|line| line.starts_with("too long: the ground (100 mm")), "{lines:?}");
+    assert!(lines.iter().any(|line| line.contains("t = 0 s")), "{lines:?}");
 }
 
 #[test]

@@ -135,8 +135,13 @@ fn pages_are_text_of_one_form() {
 #[test]
 fn pages_on_more_than_words_have_one_form_and_examples_that_run() {
     let all: Vec<&str> = vocabulary::topics().collect();
-    assert!(["parts", "inputs", "samples", "files", "repetition", "by", "names"].iter().all(|name| all.contains(name)));
+    assert!(
+        ["parts", "inputs", "samples", "files", "repetition", "by", "names", "view"]
+            .iter()
+            .all(|name| all.contains(name))
+    );
     assert_eq!(vocabulary::page("range"), vocabulary::page("repetition"));
+    assert_eq!(vocabulary::page("vary"), vocabulary::page("view"));
     for name in all {
         assert!(
             vocabulary::words().all(|word| word.name != name) && !OVERVIEWS.contains(&name),

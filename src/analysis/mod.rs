@@ -47,6 +47,7 @@ mod yardstick;
 
 pub use assembly::Moved;
 pub use determine::{determine, free_motions};
+pub use errors::length as length_in_words;
 pub use freedom::FreeMotion;
 pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;

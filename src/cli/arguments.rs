@@ -91,7 +91,8 @@ pub(super) enum Command {
         cannot go on, the picture shows it up to there, with what the message names in red.\n\n\
         What is broken is drawn too, while messages and exit codes are those of `run`. A mechanism that is not determined is shown as its \
         text draws it: what is left free as dashed arrows, redundant joints in rings. One that cannot be assembled is shown with \
-        everything closed but the joint that stays open, and a dashed line between the two halves of that.",
+        everything closed but the joint that stays open, and a dashed line between the two halves of that; lengths that are too short or too \
+        long are red. `mechc explain view` has the page of all this.",
         after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
@@ -146,7 +147,8 @@ pub(super) enum Command {
         that raises it, says why that is so, and shows the same file mended. Without a code, all codes are listed.\n\n\
         The page of a word says how it is written, what it means (a joint's equations, a unit's value in SI), shows a mechanism \
         with it, and says what others call it. `functions`, `motions`, `quantities`, `reductions`, `joints`, `units`, `keywords` and \
-        `constants` list them; `parts`, `inputs`, `samples`, `files`, `repetition`, `by` and `names` are pages on more than a word.",
+        `constants` list them; `parts`, `inputs`, `samples`, `files`, `repetition`, `by`, `names` and `view` are pages on more \
+        than a word.",
         after_help = "Examples:\n  mechc explain E0203\n  mechc explain step5\n  mechc explain joints | less\n  mechc explain"
     )]
     Explain(ExplainArguments),
@@ -446,7 +448,7 @@ pub(super) struct ViewArguments {
     #[arg(long, value_name = "P")]
     pub trace: Vec<String>,
 
-    /// Velocities and accelerations at the pins, as arrows
+    /// Velocities and accelerations at pins and traced points, as arrows
     #[arg(long)]
     pub vectors: bool,
 

@@ -72,6 +72,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         unit: 1.0,
         extent,
         named: Vec::new(),
+        remarks: Vec::new(),
     };
     (scene, Motion::still(vec![Pose::default(); 3]), captions)
 }

@@ -2,6 +2,7 @@
 //! messages name.
 
 use super::features::{Features, Line};
+use super::lengths::{self, Length};
 use super::plane::{Path, Pose, Vector, cross, distance, dot, left, length, minus, plus, times, unit as normal};
 use super::symbols::Symbols;
 use super::{Anchor, Look, Motion, Node, Place, Scene, Shape, whole};
@@ -41,6 +42,8 @@ pub struct Faults {
     pub free: Vec<Vec<(usize, Pose)>>,
     /// What is left open.
     pub joints: Joints,
+    /// Lengths that stand in the way.
+    pub lengths: Vec<Length>,
 }
 
 /// How joints stand.
@@ -75,8 +78,9 @@ pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults:
     });
     Arrows { taken: taken.collect(), straight: Vec::new(), places: places(model, motion) }
         .add(&mut marks, &faults.free);
-    let Marks { nodes, .. } = marks;
+    let Marks { nodes, features, .. } = marks;
     scene.nodes.extend(nodes);
+    lengths::add(scene, &features, poses, &faults.lengths);
     scene.named.clone_from(&faults.named);
     scene.extent = whole::extent(&scene.nodes, motion, scene.unit);
 }

@@ -19,6 +19,7 @@ mod features;
 mod gears;
 mod guides;
 mod joints;
+mod lengths;
 mod motion;
 mod pins;
 mod plane;
@@ -30,6 +31,7 @@ mod whole;
 pub use catalogue::catalogue;
 pub use faults::{Faults, Joints};
 pub use features::drawn_poses;
+pub use lengths::Length;
 pub use motion::Motion;
 pub use plane::{
     Contour, Path, Pose, Segment, Vector, bounds, cross, direction, distance, dot, hull, is_finite, left, length,
@@ -68,6 +70,8 @@ pub struct Scene {
     pub extent: [Vector; 2],
     /// The declarations that messages name, which stand out.
     pub named: Vec<usize>,
+    /// What messages say of places at rest.
+    pub remarks: Vec<Remark>,
 }
 
 impl Scene {
@@ -107,8 +111,8 @@ impl Scene {
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
-        let (traces, named) = (Vec::new(), Vec::new());
-        let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, ..self.clone() };
+        let (traces, named, remarks) = (Vec::new(), Vec::new(), Vec::new());
+        let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, remarks, ..self.clone() };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
@@ -149,6 +153,15 @@ pub struct Point {
     pub at: Vector,
     /// Whether a joint takes hold there.
     pub is_pin: bool,
+}
+
+/// Words of a message that belong to a place.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Remark {
+    /// Of the ground (m).
+    pub at: Vector,
+    /// What is said of it.
+    pub text: String,
 }
 
 /// A place in a frame.

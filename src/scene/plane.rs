@@ -235,6 +235,17 @@ impl Path {
         }
     }
 
+    /// Places along it, no farther apart than a step (m).
+    #[must_use]
+    pub fn sampled(&self, step: f64) -> Vec<Vector> {
+        let mut found = Vec::new();
+        match self {
+            Path::Circle { at, radius } => add_arc(&mut found, *at, *radius, [0.0, TAU], step),
+            Path::Lines(contours) => contours.iter().for_each(|contour| contour.add_samples(&mut found, step)),
+        }
+        found
+    }
+
     /// The same, elsewhere: seen from the frame that holds the pose.
     #[must_use]
     pub fn moved(&self, pose: &Pose) -> Path {
@@ -252,6 +263,31 @@ impl Contour {
         Some(Contour { start, segments: places.map(Segment::Line).collect(), is_closed })
     }
 
+    fn add_samples(&self, found: &mut Vec<Vector>, step: f64) {
+        let mut from = self.start;
+        let closing = self.is_closed.then_some(Segment::Line(self.start));
+        for segment in self.segments.iter().copied().chain(closing) {
+            let way = minus(segment.end(), from);
+            match segment {
+                Segment::Line(_) => {
+                    let count = pieces(length(way), step);
+                    found.extend((0..=count).map(|k| plus(from, times(f64::from(k) / f64::from(count), way))));
+                }
+                Segment::Arc { to, radius, is_left } => {
+                    let half = 0.5 * length(way);
+                    let away = (radius * radius - half * half).max(0.0).sqrt() * if is_left { 1.0 } else { -1.0 };
+                    let center = plus(plus(from, times(0.5, way)), times(away, left(unit(way))));
+                    let [begin, end] = [from, to].map(|place| direction(minus(place, center)));
+                    // no more than half a turn, either way
+                    let turn = if is_left { end - begin } else { begin - end };
+                    let turn = turn - TAU * math::floor(turn / TAU);
+                    add_arc(found, center, radius, [begin, begin + if is_left { turn } else { -turn }], step);
+                }
+            }
+            from = segment.end();
+        }
+    }
+
     fn moved(&self, pose: &Pose) -> Contour {
         let segment = |segment: &Segment| match *segment {
             Segment::Line(to) => Segment::Line(pose.placed(to)),
@@ -259,6 +295,20 @@ impl Contour {
         };
         Contour { start: pose.placed(self.start), segments: self.segments.iter().map(segment).collect(), ..*self }
     }
+}
+
+/// Adds places on a circle, from one direction (rad) to another.
+fn add_arc(found: &mut Vec<Vector>, at: Vector, radius: f64, [from, to]: [f64; 2], step: f64) {
+    let count = pieces(radius * (to - from).abs(), step);
+    let angle = |k: u32| from + (to - from) * f64::from(k) / f64::from(count);
+    found.extend((0..=count).map(|k| plus(at, polar(radius, angle(k)))));
+}
+
+/// How many pieces no longer than a step a way has.
+fn pieces(way: f64, step: f64) -> u32 {
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // between 1 and 1000
+    let count = (way / step).clamp(0.0, 999.0) as u32;
+    count + 1
 }
 
 /// The corners of the smallest convex polygon around some places, to the left all along; those that are nearer to each other than
@@ -362,6 +412,23 @@ mod tests {
                 let least = (0..corners.len()).map(nearest).fold(f64::INFINITY, f64::min);
                 assert!((least - 0.5).abs() < 1e-12, "{place:?} is {least} away");
             }
+        }
+    }
+
+    #[test]
+    fn samples_are_on_the_path() {
+        let bar = around(&[[0.0, 0.0], [3.0, 0.0]], 0.5);
+        let samples = bar.sampled(0.05);
+        for [x, y] in &samples {
+            let off = distance([*x, *y], [x.clamp(0.0, 3.0), 0.0]);
+            assert!((off - 0.5).abs() < 1e-12, "{x}, {y} is {off} away");
+        }
+        assert!(samples.windows(2).all(|pair| distance(pair[0], pair[1]) <= 0.05 + 1e-12));
+        assert!(distance(samples[0], samples[samples.len() - 1]) < 1e-12, "all around");
+        for to in [-2.0, 2.0] {
+            let arc = Path::arc([1.0, 1.0], 2.0, 0.3, 0.3 + to);
+            let inner = [1.0, 1.0];
+            assert!(arc.sampled(0.1).iter().all(|place| (distance(*place, inner) - 2.0).abs() < 1e-12));
         }
     }
 

@@ -37,8 +37,8 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     let extent = extent(&nodes, motion, unit);
     let frames = (0..motion.frames().max(1)).collect();
     let (name, docs) = (model.declared.name.clone(), model.docs.clone());
-    let named = Vec::new();
-    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent, named }
+    let (named, remarks) = (Vec::new(), Vec::new());
+    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent, named, remarks }
 }
 
 /// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.

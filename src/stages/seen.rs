@@ -7,7 +7,7 @@ use crate::check::{self, Library};
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
 use crate::lower;
 use crate::model::Mechanism;
-use crate::scene::{Faults, Joints, Motion, Pose, Scene, drawn_poses};
+use crate::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
 use crate::source::{FileId, Span};
 use crate::syntax::ast;
 use rustc_hash::FxHashMap;
@@ -119,7 +119,15 @@ impl Checked {
             Vec::new()
         };
         let free = free.iter().map(of_frames).collect();
-        let faults = Faults { named: named(&scene, said.iter()), free, joints };
+        let lengths = if joints == Joints::Open { lengths(&scene, said) } else { Vec::new() };
+        let mut named = named(&scene, said.iter());
+        // a length of the ground is a line of its own, and a declaration of its own is named
+        let bodies = lengths.iter().filter_map(|length| length.frame.filter(|frame| *frame > 0));
+        named.extend(bodies.filter_map(|frame| scene.frames.get(frame)));
+        named.extend(lengths.iter().filter(|length| length.frame.is_none()).map(|length| length.ends[0]));
+        named.sort_unstable();
+        named.dedup();
+        let faults = Faults { named, free, joints, lengths };
         scene.show_faults(model, &motion, &faults);
         let results = analysis::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
         Some(Seen {
@@ -228,6 +236,29 @@ fn show_stop(scene: &mut Scene, model: &Mechanism, motion: &Motion, stopped: Opt
     if let Some(why) = stopped {
         let faults = Faults { named: named(scene, std::iter::once(why)), ..Faults::default() };
         scene.show_faults(model, motion, &faults);
+    }
+}
+
+/// The lengths that errors blame.
+fn lengths(scene: &Scene, said: &Diagnostics) -> Vec<Length> {
+    let blamed = said.iter().filter_map(|said| said.data.get("lengths")?.as_array()).flatten();
+    blamed.filter_map(|length| blamed_length(scene, length)).collect()
+}
+
+fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
+    let text = |key: &str| told[key].as_str();
+    let declared = |name: &str| {
+        let is_meant = |one: &Declaration| matches!(one.kind, "joint" | "constraint" | "driver") && one.name == name;
+        scene.declarations.iter().position(is_meant)
+    };
+    let of = text("of")?;
+    let said = format!("{}: {}", analysis::length_in_words(told["length"].as_f64()?), text("is")?);
+    if let (Some(from), Some(to)) = (text("from"), text("to")) {
+        let frame = scene.frames.iter().position(|declaration| scene.declarations[*declaration].name == of)?;
+        Some(Length { frame: Some(frame), ends: [declared(from)?, declared(to)?], text: said })
+    } else {
+        let declaration = declared(of)?;
+        Some(Length { frame: None, ends: [declaration; 2], text: said })
     }
 }
 

@@ -193,6 +193,7 @@ mod tests {
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
             named: vec![1],
+            remarks: Vec::new(),
         }
     }
 

@@ -8,6 +8,7 @@ use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
 use crate::math;
 use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
+use serde_json::{Value, json};
 
 /// Where a gap has another order of magnitude than the mechanism.
 const FAR_OFF: &str =
@@ -29,7 +30,8 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
     let mut diagnostic = Diagnostic::new(Code::E0601, message)
         .at(declaration.span, format!("{open_word} by {by}"))
         .datum("t", t)
-        .datum("residual", open.residual);
+        .datum("residual", open.residual)
+        .datum("lengths", open.links.iter().map(|link| link_as_data(system, link)).collect::<Vec<_>>());
     let others: Vec<usize> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
     diagnostic = with_places(diagnostic, system, &others, ["beside this", "the loop goes through these"]);
     for (too_short, what) in [(true, "too short"), (false, "too long")] {
@@ -81,6 +83,19 @@ fn without_value(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
 fn at_least(value: f64) -> f64 {
     let digit = math::pow(10.0, math::log10(value).floor() - 2.0);
     (value / digit).ceil() * digit
+}
+
+/// What a length is of, and between which declarations it is.
+fn link_as_data(system: &ConstraintSystem, link: &Link) -> Value {
+    let is = if link.too_short { "too short" } else { "too long" };
+    match link.of {
+        LinkOf::Declaration(k) => json!({ "of": system.declarations[k].name, "length": link.length, "is": is }),
+        LinkOf::Body(body, ends) => {
+            let of = body.map_or("ground", |body| &system.bodies[body].name);
+            let [from, to] = ends.map(|k| &system.declarations[k].name);
+            json!({ "of": of, "from": from, "to": to, "length": link.length, "is": is })
+        }
+    }
 }
 
 /// `coupler` (40 mm from `front` to `back`)

@@ -31,7 +31,8 @@ fn short(value: f64) -> String {
 /// `3.2 mm`, `1.4 m`.
 ///
 /// Less than an atom is nothing.
-fn length(metres: f64) -> String {
+#[must_use]
+pub fn length(metres: f64) -> String {
     // 0.99999 m are 1 m
     let rounded: f64 = format!("{metres:.2e}").parse().unwrap_or(metres);
     let (value, unit) = match rounded.abs() {

@@ -27,6 +27,9 @@ use std::path::Path;
 /// Of more rows some are left out.
 const MOST_ROWS: usize = 2000;
 
+/// What is said where `--vectors` has nothing to show.
+const NO_ARROWS: &str = "there are no arrows: no pin, traced point or point that has a name moves\n";
+
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
     let output = form::output(arguments)?;
     let form = form::form(output, arguments)?;
@@ -78,6 +81,10 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let pictured = wanted::pictured(arguments, &seen)?;
     let drawn = Drawn { seen: &seen, moments: moments.as_ref(), pictured: &pictured };
     target.write(file, &drawn, reporter)?;
+    let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
+    if is_without_arrows && form == Form::Picture && !reporter.is_for_programs() {
+        Reporter::say(NO_ARROWS);
+    }
     stopped.map_or(Ok(()), |why| Err(why.into()))
 }
 
@@ -93,6 +100,11 @@ impl Target<'_> {
     /// The file, but for a film, which has many.
     fn opened(&self, reporter: &Reporter) -> Result<Option<Output>, Failure> {
         if self.frames.is_some() { Ok(None) } else { Ok(Some(Output::open(self.output, &reporter.spared())?)) }
+    }
+
+    /// That nothing is written, in words.
+    fn not_written(&self) -> String {
+        if self.output == "-" { "nothing is written".to_owned() } else { format!("`{}` is not written", self.output) }
     }
 
     /// Leaves the one body that was asked for, if one was.
@@ -126,12 +138,14 @@ impl Target<'_> {
         mut said: Diagnostics,
         reporter: &Reporter,
     ) -> Result<(), Failure> {
-        if self.form == Form::Dxf {
+        let why = match self.form {
+            Form::Dxf => Some("a mechanism without a position is not to be cut"),
+            Form::Plots => Some("a mechanism without a motion has nothing to plot"),
+            Form::Page | Form::Picture => None,
+        };
+        if let Some(why) = why {
             let help = "name a `.svg` or `.html` file to see what is the matter with it";
-            said.push(
-                unusable(format!("`{}` is not written: a mechanism without a position is not to be cut", self.output))
-                    .help(help),
-            );
+            said.push(unusable(format!("{}: {why}", self.not_written())).help(help));
         }
         let is_drawn = matches!(self.form, Form::Page | Form::Picture);
         let seen = if is_drawn { checked.seen_at_rest(compiled, at, &said) } else { None };

@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
-use crate::diag::{Severity, nearest};
+use crate::diag::{Code, Diagnostic, Severity, nearest};
 use crate::scene::{Anchor, Scene};
 use crate::stages::Seen;
 use crate::view::svg::{Options, Theme};
@@ -17,9 +17,15 @@ pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options
     };
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
     let errors = seen.messages().filter(|said| said.severity() == Severity::Error);
-    let said = errors.map(|error| format!("error[{}]: {}", error.code, error.message)).collect();
+    let said = errors.flat_map(in_lines).collect();
     let ViewArguments { size, scale, vectors, labels, .. } = *arguments;
     Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new(), said })
+}
+
+/// What stands below a picture of an error; with its notes where they tell which lengths to look at.
+fn in_lines(error: &Diagnostic) -> impl Iterator<Item = String> {
+    let notes = error.notes.iter().filter(|_| error.code == Code::E0601).cloned();
+    std::iter::once(format!("error[{}]: {}", error.code, error.message)).chain(notes)
 }
 
 /// The name that may be meant, as a question.

@@ -1,10 +1,10 @@
-//! The names of bodies and pins, beside what they name: no label lies on another at any moment that is shown. One that finds no place is
-//! left out; bodies tell their names as titles too.
+//! The names of bodies and pins, and what messages say of places, beside what they name: no label lies on another at any moment that is
+//! shown, and on lines only where there is no room beside them. One that finds no place is left out; bodies tell their names as titles too.
 
 use super::letters::{COLUMN, columns, letters};
 use super::picture::PIXELS;
 use super::picture::Picture;
-use crate::scene::{Anchor, Look, Path, Place, Pose, Vector, bounds, distance, plus, times};
+use crate::scene::{Anchor, Held, Look, Node, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
 
 /// Longer names are cut.
@@ -12,9 +12,41 @@ const LONGEST: usize = 32;
 /// More names than this are not looked at.
 const MOST: usize = 400;
 
-/// What labels leave free beside pins, if they can.
-const TAKEN: [Look; 7] =
-    [Look::Arrow, Look::ArrowHead, Look::Support, Look::Free, Look::FreeHead, Look::GapEnd, Look::Named];
+/// From a pin and from the middle of a body to the label beside it, in sizes of symbols.
+const BESIDE_PIN: f64 = 0.42;
+const BESIDE_BODY: f64 = 0.66;
+/// How much of a pin is not to be covered, in sizes of symbols.
+const PIN: f64 = 0.34;
+/// Rings of places around what is named: how far away, in half heights of a label, and what that costs.
+const RINGS: [[f64; 2]; 4] = [[0.0, 0.0], [0.5, 0.2], [1.0, 0.5], [2.6, 1.2]];
+/// What each direction costs more than the one before it.
+const NEXT_DIRECTION: f64 = 0.03;
+/// What a label costs that covers a pin; one full of lines; one full of lines that are looked at.
+const ON_PIN: f64 = 1.0;
+const ON_LINES: f64 = 1.0;
+const ON_STRONG_LINES: f64 = 1.5;
+/// A line that is so near to a label (px) is on it: names between the two sides of a bar are better beside it.
+const NEAR_LINE: f64 = 3.0;
+/// A label is full of a line that is so many times as long as it is high.
+const FULL: f64 = 2.0;
+/// How far places on lines are apart (px), and how many of them are looked at, all moments together.
+const STEP: f64 = 4.0;
+const MOST_PLACES: usize = 200_000;
+
+/// What is thin or pale, or lies on something that has lines of its own.
+const NO_LINES: [Look; 6] = [Look::Pin, Look::Dot, Look::Hatching, Look::Pitch, Look::Cross, Look::Weld];
+/// Lines that are looked at.
+const STRONG: [Look; 7] =
+    [Look::Arrow, Look::ArrowHead, Look::Free, Look::FreeHead, Look::Gap, Look::GapEnd, Look::Named];
+
+/// What a label is.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Kind {
+    /// What a message says.
+    Remark,
+    Body,
+    Point,
+}
 
 /// A name in its place.
 #[derive(Clone, Debug)]
@@ -26,7 +58,7 @@ pub(super) struct Label {
     pub offset: Vector,
     /// Half the width and the height of its box (px).
     pub half: Vector,
-    is_body: bool,
+    kind: Kind,
 }
 
 impl Label {
@@ -39,10 +71,43 @@ impl Label {
     /// The element that shows it, around its anchor.
     fn element(&self, at: Vector, size: f64) -> String {
         let [x, y] = plus(at, self.offset);
-        let class = if self.is_body { "body-name" } else { "point-name" };
+        let class = match self.kind {
+            Kind::Remark => "remark",
+            Kind::Body => "body-name",
+            Kind::Point => "point-name",
+        };
         let (x, y) = (number(x, PIXELS), number(y + 0.35 * size, PIXELS));
         format!("<text class=\"{class}\" x=\"{x}\" y=\"{y}\">{}</text>", escaped(&self.text))
     }
+}
+
+/// What labels are not to lie on, at one moment (px).
+#[derive(Default)]
+struct Obstacles {
+    pins: Vec<Vector>,
+    /// Places on lines, evenly spread.
+    lines: Vec<Vector>,
+    strong_lines: Vec<Vector>,
+}
+
+impl Obstacles {
+    /// Those in a box.
+    fn within(&self, [low, high]: [Vector; 2]) -> Obstacles {
+        let inside = |places: &[Vector]| -> Vec<Vector> {
+            places.iter().copied().filter(|place| is_within(*place, [low, high])).collect()
+        };
+        Obstacles { pins: inside(&self.pins), lines: inside(&self.lines), strong_lines: inside(&self.strong_lines) }
+    }
+}
+
+fn is_within([x, y]: Vector, [low, high]: [Vector; 2]) -> bool {
+    low[0] <= x && x <= high[0] && low[1] <= y && y <= high[1]
+}
+
+/// Obstacles at all moments that are looked at, and how long the line is that a place stands for (px).
+struct Field {
+    moments: Vec<Obstacles>,
+    step: f64,
 }
 
 impl Picture<'_> {
@@ -51,7 +116,7 @@ impl Picture<'_> {
         letters(self.room())
     }
 
-    /// Writes the names of a moment.
+    /// Writes the labels of a moment.
     pub fn add_labels(&mut self, poses: &[Pose]) {
         for label in self.labels(&[poses]) {
             let at = self.anchored(&label.anchor, poses);
@@ -62,6 +127,7 @@ impl Picture<'_> {
     /// Writes one, in a group with attributes if there are any.
     pub fn add_label(&mut self, label: &Label, at: Vector, attributes: Option<&str>) {
         self.used.labels = Some(self.letters());
+        self.used.has_remarks |= label.kind == Kind::Remark;
         let size = self.letters();
         self.body += &match attributes {
             None => format!("{}\n", label.element(at, size)),
@@ -69,33 +135,34 @@ impl Picture<'_> {
         };
     }
 
-    /// The names with their places, which hold at all of some moments.
+    /// The labels with their places, which hold at all of some moments.
     pub fn labels(&self, moments: &[&[Pose]]) -> Vec<Label> {
+        let named = self.named();
+        if named.is_empty() {
+            return Vec::new();
+        }
         let size = self.letters();
-        let placed =
-            |anchor: &Anchor| -> Vec<Vector> { moments.iter().map(|poses| self.anchored(anchor, poses)).collect() };
-        let pins: Vec<Vec<Vector>> = self
-            .pins()
-            .iter()
-            .map(|(place, at)| moments.iter().map(|poses| self.placed(place.pose(poses).0.placed(*at))).collect())
-            .collect();
+        let field = self.field(moments);
         let mut found: Vec<(Label, Vec<Vector>)> = Vec::new();
-        for (anchor, text, is_body) in self.named() {
+        for (anchor, text, kind) in named {
             let wide = (COLUMN * columns(&text) as f64).max(1.0);
             let half = [0.5 * size * wide + 2.0, 0.6 * size + 1.0];
-            let at = placed(&anchor);
+            let at: Vec<Vector> = moments.iter().map(|poses| self.anchored(&anchor, poses)).collect();
             // the same name at the same place is that of a pin that bodies share
             let is_told = |(known, places): &(Label, Vec<Vector>)| {
-                known.is_body == is_body && places.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
+                known.kind == kind && places.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 1.0)
             };
-            if !is_body && found.iter().any(is_told) {
+            if kind == Kind::Point && found.iter().any(is_told) {
                 continue;
             }
+            let beside = if kind == Kind::Point { BESIDE_PIN } else { BESIDE_BODY };
+            let reach = beside * self.unit() + 2.0;
+            let near = self.near(&field, &at, half, reach);
             let mut best: Option<(f64, Label)> = None;
-            for (rank, offset) in offsets(half, 0.42 * self.unit() + 2.0).enumerate() {
-                let label = Label { text: text.clone(), anchor, offset, half, is_body };
-                let Some(cost) = self.cost(&label, &at, &found, &pins) else { continue };
-                let cost = cost + 0.05 * rank as f64;
+            for (own, offset) in offsets(half, reach, kind != Kind::Point) {
+                let label = Label { text: text.clone(), anchor, offset, half, kind };
+                let Some(cost) = self.cost(&label, &at, &found, &near) else { continue };
+                let cost = cost + own;
                 if best.as_ref().is_none_or(|(least, _)| cost < *least) {
                     best = Some((cost, label));
                 }
@@ -107,11 +174,21 @@ impl Picture<'_> {
         found.into_iter().map(|(label, _)| label).collect()
     }
 
+    /// What there is around some places, one for each moment, as far as a label beside them can be.
+    fn near(&self, field: &Field, at: &[Vector], half: Vector, reach: f64) -> Field {
+        let farthest = RINGS[RINGS.len() - 1][0] * half[1] + reach + PIN * self.unit() + NEAR_LINE;
+        let around = half.map(|half| 2.0 * half + farthest);
+        let moments = at.iter().zip(&field.moments).map(|([x, y], obstacles)| {
+            obstacles.within([[x - around[0], y - around[1]], [x + around[0], y + around[1]]])
+        });
+        Field { moments: moments.collect(), step: field.step }
+    }
+
     /// What is wrong with a label's place; nothing where it cannot be there.
-    fn cost(&self, label: &Label, at: &[Vector], found: &[(Label, Vec<Vector>)], pins: &[Vec<Vector>]) -> Option<f64> {
-        let reach = 0.34 * self.unit();
+    fn cost(&self, label: &Label, at: &[Vector], found: &[(Label, Vec<Vector>)], field: &Field) -> Option<f64> {
+        let reach = PIN * self.unit();
         let mut cost = 0.0;
-        for (moment, at) in at.iter().enumerate() {
+        for (moment, (at, obstacles)) in at.iter().zip(&field.moments).enumerate() {
             let [low, high] = label.bounds(*at);
             let [width, height] = self.room();
             if low[0] < 0.0 || low[1] < 0.0 || high[0] > width || high[1] > height {
@@ -123,67 +200,113 @@ impl Picture<'_> {
             if found.iter().any(|(other, places)| meets(other.bounds(places[moment]))) {
                 return None;
             }
-            let covered = pins.iter().filter(|places| {
-                let [x, y] = places[moment];
-                meets([[x - reach, y - reach], [x + reach, y + reach]])
-            });
-            cost += covered.count() as f64;
+            let covered =
+                obstacles.pins.iter().filter(|[x, y]| meets([[x - reach, y - reach], [x + reach, y + reach]]));
+            let around = [low.map(|part| part - NEAR_LINE), high.map(|part| part + NEAR_LINE)];
+            let full = |places: &[Vector]| {
+                let long = field.step * places.iter().filter(|place| is_within(**place, around)).count() as f64;
+                (long / (FULL * 2.0 * label.half[1])).min(1.0)
+            };
+            cost += ON_PIN * covered.count() as f64;
+            cost += ON_LINES * full(&obstacles.lines) + ON_STRONG_LINES * full(&obstacles.strong_lines);
         }
         Some(cost / at.len().max(1) as f64)
     }
 
-    /// What has a name: bodies first.
-    fn named(&self) -> Vec<(Anchor, String, bool)> {
+    /// What has a label: what messages say, then bodies, then points.
+    fn named(&self) -> Vec<(Anchor, String, Kind)> {
+        let scene = self.scene;
+        let on_ground = |at| Anchor { frame: 0, at };
+        let remarks = scene.remarks.iter().map(|remark| (on_ground(remark.at), cut(&remark.text), Kind::Remark));
+        let mut named: Vec<(Anchor, String, Kind)> = remarks.collect();
+        if self.options.labels {
+            named.extend(self.bodies());
+            let shown =
+                scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
+            for point in shown {
+                let own = point.name.rsplit('.').next().unwrap_or(&point.name);
+                named.push((Anchor { frame: point.frame, at: point.at }, cut(own), Kind::Point));
+            }
+        }
+        named.truncate(MOST);
+        named
+    }
+
+    /// Bodies with the middles of what is drawn of them first.
+    fn bodies(&self) -> Vec<(Anchor, String, Kind)> {
         let scene = self.scene;
         let mut named = Vec::new();
         for node in &scene.nodes {
             let Place::Fixed(frame) = node.place else { continue };
             let is_own = scene.declarations.get(node.declaration).is_some_and(|declaration| declaration.kind == "body");
-            let is_told = named.iter().any(|(anchor, _, _): &(Anchor, String, bool)| anchor.frame == frame);
+            let is_told = named.iter().any(|(anchor, _, _): &(Anchor, String, Kind)| anchor.frame == frame);
             if frame == 0 || !is_own || is_told {
                 continue;
             }
             let places = node.shapes.iter().flat_map(|shape| shape.path.places());
             if let Some([low, high]) = bounds(places) {
                 let at = times(0.5, plus(low, high));
-                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), true));
+                named.push((Anchor { frame, at }, cut(self.name(node.declaration)), Kind::Body));
             }
         }
-        let shown = scene.nodes.iter().flat_map(|node| &node.shapes).filter_map(|shape| scene.points.get(shape.point?));
-        for point in shown {
-            let own = point.name.rsplit('.').next().unwrap_or(&point.name);
-            named.push((Anchor { frame: point.frame, at: point.at }, cut(own), false));
-        }
-        named.truncate(MOST);
         named
     }
 
-    /// What labels leave free if they can: pins and the heads of arrows.
-    fn pins(&self) -> Vec<(Place, Vector)> {
-        let mut taken = Vec::new();
-        for node in &self.scene.nodes {
-            for shape in &node.shapes {
-                match (&shape.path, shape.look) {
-                    (Path::Circle { at, .. }, Look::Pin | Look::Dot) => taken.push((node.place, *at)),
-                    (path, look) if TAKEN.contains(&look) => {
-                        taken.extend(path.places().into_iter().map(|at| (node.place, at)));
+    /// What labels are not to lie on.
+    fn field(&self, moments: &[&[Pose]]) -> Field {
+        let shapes: Vec<Shown> = self.scene.nodes.iter().flat_map(|node| self.shown(node)).collect();
+        let count: usize = shapes.iter().map(|shown| shown.places.len()).sum();
+        let every = (count * moments.len()).div_ceil(MOST_PLACES).max(1);
+        let at = |poses: &&[Pose]| {
+            let mut obstacles = Obstacles::default();
+            for Shown { place, look, places } in &shapes {
+                let (pose, stretch) = place.pose(poses);
+                let placed = |[x, y]: Vector| self.placed(pose.placed([stretch * x, y]));
+                match look {
+                    Look::Pin | Look::Dot => obstacles.pins.extend(places.iter().copied().map(placed)),
+                    look if STRONG.contains(look) => {
+                        obstacles.strong_lines.extend(places.iter().step_by(every).copied().map(placed));
                     }
-                    _ => {}
+                    _ => obstacles.lines.extend(places.iter().step_by(every).copied().map(placed)),
                 }
             }
-        }
-        taken
+            obstacles
+        };
+        Field { moments: moments.iter().map(at).collect(), step: STEP * every as f64 }
+    }
+
+    /// The pins of a node by their middles, and its lines by places on them.
+    fn shown(&self, node: &Node) -> Vec<Shown> {
+        let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
+        let shown = |(path, look): (&Path, Look)| {
+            let places = match (path, look) {
+                (Path::Circle { at, .. }, Look::Pin | Look::Dot) => vec![*at],
+                (_, look) if NO_LINES.contains(&look) || is_stretched => return None,
+                (path, _) => path.sampled(STEP / self.scale),
+            };
+            Some(Shown { place: node.place, look, places })
+        };
+        node.shapes.iter().filter_map(|shape| shown((&shape.path, shape.look))).collect()
     }
 }
 
-/// Places around what is named, the best first: from its middle to that of the text.
-fn offsets(half: Vector, reach: f64) -> impl Iterator<Item = Vector> {
+/// A pin or a line, by places (m).
+struct Shown {
+    place: Place,
+    look: Look,
+    places: Vec<Vector>,
+}
+
+/// Places around what is named, from its middle to that of the text, with what each costs; some things have room for their names inside.
+fn offsets(half: Vector, reach: f64, has_inside: bool) -> impl Iterator<Item = (f64, Vector)> {
     let [x, y] = half;
-    [0.0, 1.0, 2.6].into_iter().flat_map(move |farther| {
+    let around = RINGS.into_iter().flat_map(move |[farther, cost]| {
         let (dx, dy) = (x + reach + farther * y, y + reach + farther * y);
         let (sx, sy) = (0.7 * reach + x + farther * y, 0.7 * reach + y + farther * y);
-        [[sx, -sy], [dx, 0.0], [sx, sy], [0.0, -dy], [0.0, dy], [-sx, -sy], [-dx, 0.0], [-sx, sy]]
-    })
+        let directions = [[sx, -sy], [dx, 0.0], [sx, sy], [0.0, -dy], [0.0, dy], [-sx, -sy], [-dx, 0.0], [-sx, sy]];
+        directions.into_iter().enumerate().map(move |(k, offset)| (cost + NEXT_DIRECTION * k as f64, offset))
+    });
+    has_inside.then_some((0.0, [0.0; 2])).into_iter().chain(around)
 }
 
 fn cut(name: &str) -> String {

@@ -18,6 +18,7 @@ use crate::scene::{Anchor, Motion, Scene, Vector};
 use picture::Picture;
 
 pub use plots::{Plot, plots};
+pub use vectors::has_vectors;
 
 /// Which colours are used.
 #[derive(Clone, Copy, PartialEq, Eq, Debug, Default)]
@@ -42,7 +43,7 @@ pub struct Options {
     pub theme: Theme,
     /// Points whose paths are drawn beside those that the text asks for, with their names.
     pub traces: Vec<(String, Anchor)>,
-    /// Velocities and accelerations at the pins.
+    /// Velocities and accelerations at pins and traced points; of a body that has none of these at its points that have a name.
     pub vectors: bool,
     /// The names of bodies and pins.
     pub labels: bool,
@@ -57,17 +58,14 @@ pub struct Options {
 pub fn still(scene: &Scene, motion: &Motion, moments: &Motion, options: &Options) -> String {
     let mut picture = Picture::new(scene, motion, options);
     let count = moments.len();
-    if count > 1 {
-        picture.add_ground(moments.poses(0));
-    }
     for row in 0..count {
-        picture.add_moment(moments, row, [row + 1 == count, count == 1]);
+        picture.add_moment(moments, row, row + 1 == count);
     }
     picture.add_traces(motion);
     if options.vectors && count > 0 {
         picture.add_vectors(moments, motion);
     }
-    if options.labels && count > 0 {
+    if count > 0 {
         picture.add_labels(moments.poses(count - 1));
     }
     picture.finish()

@@ -7,16 +7,8 @@ use crate::view::path::written;
 use crate::view::text::{escaped, number};
 
 impl Picture<'_> {
-    /// The ground alone, which all moments of a strobe share.
-    pub fn add_ground(&mut self, poses: &[Pose]) {
-        let scene = self.scene;
-        for node in scene.nodes.iter().filter(|node| node.place == Place::Fixed(0)) {
-            self.add_at(node, poses, true);
-        }
-    }
-
-    /// A moment; with ids if it is the one that stands out, and with the ground.
-    pub fn add_moment(&mut self, moments: &Motion, row: usize, [stands_out, with_ground]: [bool; 2]) {
+    /// A moment; with ids and the ground if it is the one that stands out. The ground, which all share, is above the pale ones.
+    pub fn add_moment(&mut self, moments: &Motion, row: usize, stands_out: bool) {
         let t = number(moments.times[row], 9);
         if stands_out {
             self.body += &format!("<g data-t=\"{t}\">\n");
@@ -25,7 +17,7 @@ impl Picture<'_> {
             self.body += &format!("<g class=\"ghost\" data-t=\"{t}\">\n");
         }
         let scene = self.scene;
-        for node in scene.nodes.iter().filter(|node| with_ground || node.place != Place::Fixed(0)) {
+        for node in scene.nodes.iter().filter(|node| stands_out || node.place != Place::Fixed(0)) {
             self.add_at(node, moments.poses(row), stands_out);
         }
         self.body += "</g>\n";

@@ -68,7 +68,8 @@ impl<'s> Picture<'s> {
     pub fn new(scene: &'s Scene, motion: &Motion, options: &'s Options) -> Picture<'s> {
         let [low, high] = with_traces(scene, motion, options);
         let extent = [high[0] - low[0], high[1] - low[1]].map(|side| side.max(4.0 * scene.unit));
-        let margin = if options.labels || options.vectors { LABELLED_MARGIN } else { MARGIN };
+        let is_labelled = options.labels || options.vectors || !scene.remarks.is_empty();
+        let margin = if is_labelled { LABELLED_MARGIN } else { MARGIN };
         let inner = |side: f64| (side - 2.0 * margin).max(0.2 * side);
         let largest = LARGEST_UNIT / scene.unit;
         let size = options.size.filter(|_| options.scale.is_none()).unwrap_or_else(|| {

@@ -65,16 +65,38 @@ impl Lines {
 /// A text in lines of so many columns at most, but for words that are longer.
 fn wrapped(text: &str, width: f64) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
-    for word in text.split_whitespace() {
+    for word in unbroken(text) {
         match lines.last_mut() {
-            Some(line) if (columns(line) + 1 + columns(word)) as f64 <= width => {
+            Some(line) if (columns(line) + 1 + columns(&word)) as f64 <= width => {
                 line.push(' ');
-                line.push_str(word);
+                line.push_str(&word);
             }
-            _ => lines.push(word.to_owned()),
+            _ => lines.push(word),
         }
     }
     lines
+}
+
+/// The words of a text; a number and its unit are one, and so are the two sides of `=`.
+fn unbroken(text: &str) -> Vec<String> {
+    let mut words: Vec<String> = Vec::new();
+    for word in text.split_whitespace() {
+        match words.last_mut() {
+            Some(last) if word == "=" || last.ends_with(" =") || is_unit_of(last, word) => {
+                last.push(' ');
+                last.push_str(word);
+            }
+            _ => words.push(word.to_owned()),
+        }
+    }
+    words
+}
+
+/// Whether a word is the unit of the number behind which it stands.
+fn is_unit_of(number: &str, word: &str) -> bool {
+    let number = number.rsplit([' ', '(']).next().unwrap_or(number);
+    let is_number = number.parse::<f64>().is_ok() && number.ends_with(|c: char| c.is_ascii_digit());
+    is_number && word.starts_with(|c: char| c.is_alphabetic() || c == '°')
 }
 
 #[cfg(test)]
@@ -86,6 +108,13 @@ mod tests {
         assert_eq!(wrapped("a bb ccc dddd", 6.0), ["a bb", "ccc", "dddd"]);
         assert_eq!(wrapped("incomprehensibilities are", 6.0), ["incomprehensibilities", "are"]);
         assert!(wrapped(" ", 6.0).is_empty());
+    }
+
+    #[test]
+    fn numbers_keep_their_units() {
+        assert_eq!(wrapped("at t = 0 s: off by 60 mm", 8.0), ["at", "t = 0 s:", "off by", "60 mm"]);
+        assert_eq!(wrapped("`rod` (30 mm from `A`)", 9.0), ["`rod`", "(30 mm", "from `A`)"]);
+        assert_eq!(wrapped("joint 2, nan mm", 8.0), ["joint 2,", "nan mm"]);
     }
 
     #[test]

@@ -12,6 +12,7 @@ pub(super) const TRACE_COLORS: usize = 4;
 
 /// What a picture holds, for which there have to be rules.
 #[derive(Default)]
+#[allow(clippy::struct_excessive_bools)] // each has rules of its own
 pub(super) struct Used {
     pub looks: BTreeSet<Look>,
     pub tints: BTreeSet<usize>,
@@ -24,6 +25,8 @@ pub(super) struct Used {
     pub vectors: BTreeSet<&'static str>,
     /// Whether a message names something.
     pub is_named: bool,
+    /// Whether a message says something of a place.
+    pub has_remarks: bool,
     /// The size of letters of what is said below (px), if anything is.
     pub said: Option<f64>,
 }
@@ -164,7 +167,12 @@ fn shapes(used: &Used, strong: f64) -> String {
         rules += &format!(".said{{font:{}px system-ui,sans-serif;text-anchor:start;stroke:none}}\n", number(size, 1));
     }
     if !used.vectors.is_empty() {
-        rules += &format!(".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n", width(1.2));
+        // accelerations, which are drawn above, leave velocities seen where both go the same way
+        rules += &format!(
+            ".vector{{stroke-width:{};vector-effect:non-scaling-stroke}}\n.velocity{{stroke-width:{}}}\n",
+            width(0.9),
+            width(1.7)
+        );
     }
     rules
 }
@@ -217,6 +225,9 @@ fn colors(used: &Used, palette: &Palette) -> String {
     }
     if used.labels.is_some() {
         rules += &format!("text{{fill:{ink};stroke:{paper}}}\n");
+    }
+    if used.has_remarks {
+        rules += &format!(".remark{{fill:{wrong}}}\n");
     }
     if used.said.is_some() {
         rules += &format!(".said{{fill:{wrong}}}\n");

@@ -1,9 +1,9 @@
-//! Velocities and accelerations at the pins, as arrows.
+//! Velocities and accelerations at pins and traced points, as arrows.
 
 use super::keyframes::{Key, Track};
 use super::picture::PIXELS;
 use super::picture::Picture;
-use crate::scene::{Motion, Point, Pose, Vector, direction, length, minus, plus, times};
+use crate::scene::{Anchor, Motion, Pen, Point, Scene, Vector, direction, distance, length, minus, plus, times};
 use crate::view::text::{escaped, number};
 
 /// How long the longest arrow of a kind is, as a part of the picture's shorter side.
@@ -18,18 +18,24 @@ const FULL_HEAD_AT: f64 = 18.0;
 const LEGEND: f64 = 12.0;
 const LEGEND_ARROW: f64 = 26.0;
 
+/// Rows that are looked at for the longest arrow.
+const LOOKED_AT: usize = 200;
+/// What is slower than this part of the fastest point is at rest.
+const AT_REST: f64 = 1e-9;
+
 /// What is drawn as arrows: its word, and what it is of a point in a row.
 type Kind = (&'static str, fn(&Motion, usize, &Point) -> Vector);
 
 const KINDS: [Kind; 2] = [("velocity", velocity), ("acceleration", acceleration)];
 
-impl<'s> Picture<'s> {
+impl Picture<'_> {
     /// At the last of some moments; arrows are to scale with the longest of the whole motion.
     pub fn add_vectors(&mut self, moments: &Motion, motion: &Motion) {
         let row = moments.len() - 1;
+        let points = self.apart(self.moving([moments, motion]), moments);
         for (word, of) in KINDS {
-            let Some(scale) = self.scaled([moments, motion], (word, of)) else { continue };
-            for pin in self.free_pins(moments.poses(row)) {
+            let Some(scale) = self.scaled(&points, [moments, motion], (word, of)) else { continue };
+            for pin in &points {
                 let from = self.placed(moments.poses(row)[pin.frame].placed(pin.at));
                 let [x, y] = times(scale, of(moments, row, pin));
                 self.add_vector(word, &pin.name, from, [x, -y]);
@@ -39,9 +45,10 @@ impl<'s> Picture<'s> {
 
     /// At all times: the line and the head of each arrow are on tracks of their own.
     pub fn add_moving_vectors(&mut self, motion: &Motion) {
+        let points = self.apart(self.moving([motion, motion]), motion);
         for (word, of) in KINDS {
-            let Some(scale) = self.scaled([motion, motion], (word, of)) else { continue };
-            for pin in self.free_pins(motion.poses(0)) {
+            let Some(scale) = self.scaled(&points, [motion, motion], (word, of)) else { continue };
+            for pin in &points {
                 let ways: Vec<[Vector; 2]> = (0..motion.len())
                     .map(|row| {
                         let [x, y] = times(scale, of(motion, row, pin));
@@ -77,13 +84,8 @@ impl<'s> Picture<'s> {
     }
 
     /// Pixels of one unit, by the longest arrow of two motions, which a legend tells; nothing where all are at rest.
-    fn scaled(&mut self, motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
-        let scene = self.scene;
-        let pins = || scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
-        let all = motions.into_iter().flat_map(|motion| {
-            motion.sampled(200).flat_map(move |row| pins().map(move |pin| length(of(motion, row, pin))))
-        });
-        let longest = all.filter(|way| way.is_finite()).fold(0.0, f64::max);
+    fn scaled(&mut self, points: &[Point], motions: [&Motion; 2], (word, of): Kind) -> Option<f64> {
+        let longest = points.iter().map(|point| greatest(of, point, motions)).fold(0.0, f64::max);
         if longest <= 0.0 {
             return None;
         }
@@ -101,18 +103,24 @@ impl<'s> Picture<'s> {
         Some(LONGEST * self.room()[0].min(self.room()[1]) / longest)
     }
 
-    /// The pins of bodies; of those that bodies share one.
-    fn free_pins(&self, poses: &[Pose]) -> Vec<&'s Point> {
-        let mut taken: Vec<Vector> = Vec::new();
-        let scene = self.scene;
-        let pins = scene.points.iter().filter(|point| point.is_pin && point.frame > 0);
-        pins.filter(|pin| {
-            let at = self.placed(poses[pin.frame].placed(pin.at));
-            let is_free = taken.iter().all(|known| length(minus(*known, at)) >= 0.5);
+    /// The points that have arrows.
+    fn moving(&self, motions: [&Motion; 2]) -> Vec<Point> {
+        moving(self.scene, &self.options.traces, motions)
+    }
+
+    /// Of points that bodies share all along the motion one.
+    fn apart(&self, points: Vec<Point>, motion: &Motion) -> Vec<Point> {
+        let rows: Vec<usize> = motion.sampled(3).collect();
+        let mut taken: Vec<Vec<Vector>> = Vec::new();
+        let mut is_free = |point: &Point| {
+            let at: Vec<Vector> =
+                rows.iter().map(|row| self.placed(motion.poses(*row)[point.frame].placed(point.at))).collect();
+            let is_there = |known: &Vec<Vector>| known.iter().zip(&at).all(|(a, b)| distance(*a, *b) < 0.5);
+            let is_free = !taken.iter().any(is_there);
             taken.extend(is_free.then_some(at));
             is_free
-        })
-        .collect()
+        };
+        points.into_iter().filter(|point| is_free(point)).collect()
     }
 
     fn add_vector(&mut self, word: &'static str, name: &str, from: Vector, way: Vector) {
@@ -137,6 +145,48 @@ impl<'s> Picture<'s> {
             pair(minus(base, side)),
         );
     }
+}
+
+/// Whether any point of a moving mechanism has arrows, points whose paths are asked for among them.
+#[must_use]
+pub fn has_vectors(scene: &Scene, traces: &[(String, Anchor)], motion: &Motion) -> bool {
+    !moving(scene, traces, [motion, motion]).is_empty()
+}
+
+/// The points that have arrows: pins and traced points that move; of a body that has none of these its other points that have a name and
+/// move.
+fn moving(scene: &Scene, traces: &[(String, Anchor)], motions: [&Motion; 2]) -> Vec<Point> {
+    let pens = scene.traces.iter().filter_map(|trace| match trace.pen {
+        Pen::Point(anchor) => Some((scene.declarations.get(trace.declaration)?.name.clone(), anchor)),
+        Pen::Columns { .. } => None,
+    });
+    let pens: Vec<(String, Anchor)> = pens.chain(traces.iter().cloned()).collect();
+    let is_at = |point: &Point, anchor: &Anchor| point.frame == anchor.frame && distance(point.at, anchor.at) <= 0.0;
+    let mut points: Vec<(Point, bool)> = Vec::new();
+    for point in &scene.points {
+        let is_traced = pens.iter().any(|(_, anchor)| is_at(point, anchor));
+        points.push((point.clone(), point.is_pin || is_traced));
+    }
+    for (name, anchor) in pens {
+        if !points.iter().any(|(point, _)| is_at(point, &anchor)) {
+            let Anchor { frame, at } = anchor;
+            points.push((Point { declaration: frame, name, frame, at, is_pin: false }, true));
+        }
+    }
+    let speeds: Vec<f64> = points.iter().map(|(point, _)| greatest(velocity, point, motions)).collect();
+    let least = AT_REST * speeds.iter().copied().fold(0.0, f64::max);
+    let moving = points.into_iter().zip(speeds).filter(|((point, _), speed)| point.frame > 0 && *speed > least);
+    let moving: Vec<(Point, bool)> = moving.map(|(point, _)| point).collect();
+    let has_better = |frame: usize| moving.iter().any(|(point, is_wanted)| *is_wanted && point.frame == frame);
+    let is_chosen = |(point, is_wanted): &&(Point, bool)| *is_wanted || !has_better(point.frame);
+    moving.iter().filter(is_chosen).map(|(point, _)| point.clone()).collect()
+}
+
+/// The length of a point's longest arrow of a kind.
+fn greatest(of: fn(&Motion, usize, &Point) -> Vector, point: &Point, motions: [&Motion; 2]) -> f64 {
+    let rows = motions.into_iter().flat_map(|motion| motion.sampled(LOOKED_AT).map(move |row| (motion, row)));
+    let ways = rows.map(|(motion, row)| length(of(motion, row, point)));
+    ways.filter(|way| way.is_finite()).fold(0.0, f64::max)
 }
 
 /// A number with three digits that count.
