@@ -52,6 +52,8 @@ pub struct Column<'a> {
     pub unit: &'a str,
     /// What SI is divided by, multiplied with and divided by to be in the unit.
     pub scale: [f64; 3],
+    /// What a column holds, as the page reads it; nothing for a result.
+    pub kind: &'static str,
 }
 
 /// A parameter with the values that it was given.
@@ -189,6 +191,7 @@ mod tests {
             nodes: Vec::new(),
             traces: Vec::new(),
             profiles: Vec::new(),
+            contacts: Vec::new(),
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
@@ -209,7 +212,7 @@ mod tests {
         let file = sources.add("/somewhere/secret/b.mech", format!("body {HOSTILE}"));
         let (scene, motion) = (scene(file), motion(rows));
         let source: &Source = sources.get(file);
-        let column = |name| Column { name, unit: "m", scale: [1.0, 1000.0, 1.0] };
+        let column = |name| Column { name, unit: "m", scale: [1.0, 1000.0, 1.0], kind: "body" };
         let variant = Variant {
             scene: &scene,
             motion: &motion,
@@ -237,6 +240,7 @@ mod tests {
         assert_eq!(data["scene"]["declarations"][2][0], "b.<P>");
         assert_eq!(data["variants"][0]["edges"][0], 0.25);
         assert_eq!(data["columns"][0]["scale"][1], 1000.0);
+        assert_eq!(data["columns"][0]["kind"], "body");
         assert_eq!(data["variants"][0]["named"], serde_json::json!([1]));
         assert_eq!(data["scene"]["named"], Value::Null, "variants share a scene whatever is wrong with them");
         assert!(
