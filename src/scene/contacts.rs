@@ -1,9 +1,9 @@
 //! Cams and what runs on them.
 
 use super::drawing::{Drawing, Layer, shape};
+use super::features::Features;
 use super::plane::{Path, Vector, bounds, distance, dot, minus, plus, times};
 use super::symbols::PIN;
-use super::features::Features;
 use super::{Anchor, Contact, Look, Shape, Touch};
 use crate::model::{AxisId, JointKind, PointId, Profile};
 use std::f64::consts::{FRAC_PI_2, PI};

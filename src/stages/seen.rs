@@ -84,7 +84,10 @@ impl Checked {
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
         let (all_rows, stopped, texts) = (found.all, found.stopped, self.texts());
         let kinds = analysis::kinds(compiled.system());
-        (Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }), said)
+        (
+            Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }),
+            said,
+        )
     }
 
     /// What there is to draw of a motion that was seen, with symbols of a size (m); nothing where it is not sound.

@@ -24,6 +24,7 @@ pub(super) fn written(page: &Page, every: usize) -> String {
     let mut all = json!({
         "format": FORMAT,
         "mechc": env!("CARGO_PKG_VERSION"),
+        "bytes": 0,
         "name": first.scene.name,
         "docs": first.scene.docs.join("\n"),
         "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
