@@ -26,7 +26,9 @@ export class Poles implements Layer {
     private name = "";
     written: Box | undefined;
 
-    show({ motion }: Document, { pairing }: Wishes, camera: Camera): void {
+    show({ motion, scene }: Document, { pairing: asked }: Wishes, camera: Camera): void {
+        // a variant that is not sound has no bodies
+        const pairing = asked && Math.max(asked.one, asked.other) < scene.frames.length ? asked : undefined;
         this.pairing = pairing;
         this.written = undefined;
         this.element.replaceChildren();
