@@ -2,7 +2,7 @@
 
 import type { Document, Source } from "./data/document.ts";
 import type { Page } from "./data/format.ts";
-import { button, html, press } from "./elements.ts";
+import { button, html, press, sign } from "./elements.ts";
 import { keys } from "./keys.ts";
 import { Clock } from "./motion/clock.ts";
 import type { Moment } from "./motion/motion.ts";
@@ -36,6 +36,7 @@ type Switch = (typeof SWITCHES)[number][1];
 export class App implements Deeds {
     readonly element = html("div", { class: "app" });
     readonly picture = new Picture();
+    private readonly alone = button("the picture alone", sign("M3 5h18v11H3zM12 16v4M8 20h8"), { title: "the picture alone (F)", "aria-pressed": "false" });
     private readonly clock = new Clock();
     private readonly wishes = new Wishes();
     private readonly transport = new Transport(this.clock, this);
@@ -46,6 +47,8 @@ export class App implements Deeds {
     private readonly switches = new Map<Switch, HTMLButtonElement>();
     private document: Document | undefined;
     private moment: Moment | undefined;
+    /** Whether there was a motion yet, which says how fast it goes. */
+    private hasMoved = false;
     private before: number | undefined;
     private wanted = 0;
     private readonly times: { between: number; drawing: number }[] = [];
@@ -54,12 +57,17 @@ export class App implements Deeds {
         readonly page: Page,
         private readonly source: Source,
     ) {
+        this.alone.addEventListener("click", () => this.lecture());
+        this.picture.views.append(this.alone);
         this.variants = new Variants(page, (variant) => void this.turnTo(variant));
         this.helping = help(page.mechc);
         const text = new Text();
         const rows = new Rows(() => this.plots.plotted, this);
         const closer = new Closer((name) => this.plots.add(name));
         const results = new Results(this);
+        // a slider that is held stays where it is when there is something to say
+        results.keepRoom(page.variants.length > 1 && page.variants.some(({ messages }) => messages.length > 0));
+        this.element.classList.toggle("varies", page.vary.length > 0);
         this.plots.whenPlotted(() => rows.plottedAnew());
         this.panes = [this.picture, this.transport, this.variants, results, this.plots, text, closer, rows];
         const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]], () => this.draw());
@@ -105,10 +113,12 @@ export class App implements Deeds {
     /** Another motion takes the place of what was shown; time stays where it is. */
     show(document: Document): void {
         const { from, to } = document.motion;
-        const anew = this.document === undefined;
+        const { rows } = document.table;
         this.document = document;
         this.moment = document.motion.moment();
-        this.clock.span(from, to, anew);
+        // what is broken has no time of its own, and takes none away
+        if (rows > 0) this.clock.span(from, to, !this.hasMoved);
+        this.hasMoved ||= rows > 1;
         this.element.classList.toggle("still", document.table.rows < 2);
         for (const pane of this.panes) pane.show(document, this.wishes);
         this.draw();
@@ -138,7 +148,7 @@ export class App implements Deeds {
     }
 
     seek(time: number): Promise<void> {
-        this.clock.time = this.clock.held(time);
+        this.clock.go(time);
         this.draw();
         if (!this.clock.playing) this.transport.say();
         return drawn();
@@ -172,7 +182,7 @@ export class App implements Deeds {
         if (!this.clock.playing) return;
         const began = performance.now();
         const seconds = this.before === undefined ? 0 : (now - this.before) / 1000;
-        this.clock.advance(Math.min(seconds, LONGEST_FRAME));
+        if ((this.document?.table.rows ?? 0) > 1) this.clock.advance(Math.min(seconds, LONGEST_FRAME));
         this.draw();
         if (this.before !== undefined) this.times.push({ between: now - this.before, drawing: performance.now() - began });
         if (this.times.length > PACE) this.times.shift();
@@ -196,6 +206,13 @@ export class App implements Deeds {
         if (change === "pointer") return;
         for (const [wish, made] of this.switches) press(made, this.wishes[wish]);
         this.draw();
+    }
+
+    /** The picture alone, or everything again. */
+    private lecture(): void {
+        const isAlone = this.element.classList.toggle("lecture");
+        press(this.alone, isAlone);
+        this.picture.resized();
     }
 
     private flip(wish: Switch): void {
@@ -231,7 +248,7 @@ export class App implements Deeds {
             "+": () => this.transport.change(() => this.clock.faster()),
             "-": () => this.transport.change(() => this.clock.slower()),
             b: () => this.transport.turnOver(),
-            f: () => this.element.classList.toggle("lecture"),
+            f: () => this.lecture(),
             "0": () => this.picture.whole(),
             "?": () => this.helping.showModal(),
         };

@@ -1,7 +1,5 @@
 // What the reader asked to see. Panes look here, and are told when it changes.
 
-import type { Anchor } from "./data/format.ts";
-import type { Contact } from "./motion/angles.ts";
 
 /** Two frames whose pole is looked at. */
 export interface Pairing {
@@ -10,11 +8,11 @@ export interface Pairing {
     polodes: boolean;
 }
 
-/** An angle at a pin, between the directions to two places. */
+/** An angle at a pin, between the directions to two points: by their numbers, for in another variant they are elsewhere. */
 export interface Corner {
-    one: Anchor;
-    pin: Anchor;
-    other: Anchor;
+    one: number;
+    pin: number;
+    other: number;
 }
 
 export class Wishes {
@@ -33,7 +31,8 @@ export class Wishes {
     pointed: readonly number[] = [];
     pairing: Pairing | undefined;
     corner: Corner | undefined;
-    contact: Contact | undefined;
+    /** The number of the cam's contact that is looked at. */
+    contact: number | undefined;
 
     private readonly told: ((change: Change) => void)[] = [];
 

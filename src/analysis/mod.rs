@@ -275,6 +275,38 @@ impl ColumnUnit {
     }
 }
 
+/// What a column holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum ColumnKind {
+    /// Time.
+    Time,
+    /// A coordinate of a body, or its derivative.
+    Body,
+    /// A coordinate that a joint brings along, or its derivative.
+    Joint,
+    /// What the text measures or traces.
+    Measure,
+    /// A derivative of that.
+    Rate,
+    /// A derivative with something else than time.
+    Variation,
+}
+
+/// What a result's columns hold, in the order of [`columns`].
+pub(crate) fn kinds(system: &ConstraintSystem) -> Vec<ColumnKind> {
+    let mut kinds = vec![ColumnKind::Time];
+    let of_bodies = 3 * system.bodies.len();
+    let is_there = |order: usize, of: &Measure| [true, of.first.is_some(), of.second.is_some()][order];
+    for order in 0..3 {
+        let kind = |k: usize| if k < of_bodies { ColumnKind::Body } else { ColumnKind::Joint };
+        kinds.extend((0..system.coordinates.len()).map(kind));
+        let measures = system.measures.iter().filter(|of| is_there(order, of));
+        kinds.extend(measures.map(|_| if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate }));
+    }
+    kinds.extend(system.appended().iter().map(|_| ColumnKind::Variation));
+    kinds
+}
+
 /// Units of a result's columns, in the order of [`columns`].
 pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
     let mut units = vec![ColumnUnit::si("s")];

@@ -68,6 +68,7 @@ pub fn catalogue(span: Span) -> (Scene, Motion, Vec<(Vector, String)>) {
         nodes,
         traces: Vec::new(),
         profiles: Vec::new(),
+        contacts: Vec::new(),
         outlines: Vec::new(),
         unit: 1.0,
         extent,

@@ -1,10 +1,12 @@
 //! Cams and what runs on them.
 
 use super::drawing::{Drawing, Layer, shape};
+use super::features::Features;
 use super::plane::{Path, Vector, bounds, distance, dot, minus, plus, times};
 use super::symbols::PIN;
-use super::{Anchor, Look, Shape};
-use crate::model::{AxisId, PointId, Profile};
+use super::{Anchor, Contact, Look, Shape, Touch};
+use crate::model::{AxisId, JointKind, PointId, Profile};
+use std::f64::consts::{FRAC_PI_2, PI};
 
 /// A face goes on so far behind the contact, in units.
 const BEYOND: f64 = 1.0;
@@ -24,14 +26,9 @@ pub(super) fn point_follower(drawing: &mut Drawing, number: usize, p: PointId, p
 
 pub(super) fn cam(drawing: &mut Drawing, number: usize, [k, m]: [Profile; 2]) {
     let used = ["u", "w"].map(|part| arguments(drawing, number, part));
-    // of two discs the smaller one is the roller
-    let radius = |profile: Profile| match profile {
-        Profile::Circle(circle) => drawing.features.circle(circle).radius,
-        Profile::Curve(_) => f64::INFINITY,
-    };
-    let (of_k, of_m) = (radius(k), radius(m));
-    shown_profile(drawing, k, used[0], of_k.is_finite() && of_k < of_m);
-    shown_profile(drawing, m, used[1], of_m.is_finite() && of_m <= of_k);
+    let roller = roller(&drawing.features, [k, m]);
+    shown_profile(drawing, k, used[0], roller == Some(0));
+    shown_profile(drawing, m, used[1], roller == Some(1));
     let declaration = drawing.first.joints + number;
     let marks = [k, m].map(|profile| match profile {
         Profile::Circle(circle) => Some(drawing.features.circle(circle)),
@@ -64,6 +61,47 @@ pub(super) fn flat_follower(drawing: &mut Drawing, number: usize, profile: Profi
         drawing.add_fixed(Layer::Blocks, declaration, line.frame, vec![bar]);
         drawing.outlines[line.frame].is_shown = true;
     }
+}
+
+/// All contacts of which it is known which side is the cam: a curve on a curve is told by neither.
+pub(super) fn contacts(features: &Features, first_joint: usize) -> Vec<Contact> {
+    let model = features.model;
+    let carrier = |profile: Profile| features.frame(profile.frame(model));
+    let contact = |(number, joint): (usize, &crate::model::Joint)| {
+        let (cam, follower, touch) = match joint.kind {
+            JointKind::PointFollower(p, profile) => {
+                let tip = features.point(p);
+                (carrier(profile), tip.frame, Touch::Tip(tip.at))
+            }
+            JointKind::FlatFollower(profile, face) => {
+                let line = features.axis(face);
+                (carrier(profile), line.frame, Touch::Face(line.at, line.along))
+            }
+            JointKind::Cam(k, m) => {
+                let (cam, roller, part) = if roller(features, [k, m])? == 0 { (m, k, "u") } else { (k, m, "w") };
+                let argument = format!("{}.{part}", joint.declared.name);
+                (carrier(cam), carrier(roller), rolling(features, roller, argument))
+            }
+            _ => return None,
+        };
+        Some(Contact { declaration: first_joint + number, cam, follower, touch })
+    };
+    model.joints.iter().enumerate().filter_map(contact).collect()
+}
+
+/// Which of two profiles is the roller: of two discs the smaller one.
+fn roller(features: &Features, profiles: [Profile; 2]) -> Option<usize> {
+    let [k, m] = profiles.map(|profile| match profile {
+        Profile::Circle(circle) => features.circle(circle).radius,
+        Profile::Curve(_) => f64::INFINITY,
+    });
+    (k.min(m).is_finite()).then_some(usize::from(m <= k))
+}
+
+fn rolling(features: &Features, profile: Profile, argument: String) -> Touch {
+    let [ahead, aside, back] = [0.0, FRAC_PI_2, PI].map(|w| features.on_profile(profile, w).at);
+    let centre = times(0.5, plus(ahead, back));
+    Touch::Roller { centre, arms: [minus(ahead, centre), minus(aside, centre)], argument }
 }
 
 /// The arguments that a contact has on its way.

@@ -62,6 +62,8 @@ pub struct Scene {
     pub traces: Vec<Trace>,
     /// Lines that contacts run along.
     pub profiles: Vec<Profile>,
+    /// Where cams move followers.
+    pub contacts: Vec<Contact>,
     /// Of what has teeth, finer than they are drawn.
     pub outlines: Vec<Outline>,
     /// The size of symbols (m): a pin is a little smaller, a block a little larger.
@@ -111,14 +113,16 @@ impl Scene {
         let extent = bounds(places).map_or(self.extent, |[low, high]| [minus(low, margin), plus(high, margin)]);
         let profiles = self.profiles.iter().filter(|profile| profile.frame == frame).cloned().collect();
         let outlines = self.outlines.iter().filter(|outline| outline.frame == frame).cloned().collect();
-        let (traces, named, remarks) = (Vec::new(), Vec::new(), Vec::new());
-        let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, remarks, ..self.clone() };
+        let (traces, contacts, named, remarks) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+        let scene =
+            Scene { points, nodes, traces, profiles, contacts, outlines, extent, named, remarks, ..self.clone() };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
     }
 
     /// Takes away what shows what messages name.
     pub fn name_nothing(&mut self) {
         self.named.clear();
+        self.remarks.clear();
         self.nodes.retain(|node| node.shapes.iter().any(|shape| shape.look != Look::Named));
     }
 
@@ -478,6 +482,37 @@ pub struct Profile {
     pub is_closed: bool,
     /// Places on it, by rising argument.
     pub samples: Vec<Sample>,
+}
+
+/// A cam and what it moves.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Contact {
+    /// The joint.
+    pub declaration: usize,
+    /// The number of the cam's frame.
+    pub cam: usize,
+    /// The number of the follower's frame.
+    pub follower: usize,
+    /// What of the follower touches the cam.
+    pub touch: Touch,
+}
+
+/// What of a follower touches a cam, in the follower's frame (m).
+#[derive(Clone, PartialEq, Debug)]
+pub enum Touch {
+    /// A point.
+    Tip(Vector),
+    /// A circle, at the place `centre + cos(w) arms[0] + sin(w) arms[1]`.
+    Roller {
+        /// Its centre.
+        centre: Vector,
+        /// From the centre to the circle where the argument is 0, and where it is a quarter of a turn.
+        arms: [Vector; 2],
+        /// The name of the joint's coordinate that is the argument.
+        argument: String,
+    },
+    /// A straight face: a place of it, and its direction.
+    Face(Vector, Vector),
 }
 
 /// A place on a profile.

@@ -3,7 +3,7 @@
 use super::drawing::{Drawing, First, Layer, Outline};
 use super::features::Features;
 use super::plane::{Vector, bounds, distance, minus, plus};
-use super::{Anchor, Declaration, Motion, Node, Point, Scene, bodies, drivers, gears, joints, sizes};
+use super::{Anchor, Declaration, Motion, Node, Point, Scene, bodies, contacts, drivers, gears, joints, sizes};
 use crate::model::{self, Frame, Mechanism, Named, PointId, Quantity};
 
 /// Rows that are looked at for the extent of everything.
@@ -24,6 +24,7 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     add_idle_points(&features, &mut outlines);
     let unit = size.unwrap_or_else(|| sizes::unit(&features, motion, &outlines));
     let (feet, profiles, fine, nodes) = (Vec::new(), Vec::new(), Vec::new(), Vec::new());
+    let contacts = contacts::contacts(&features, first.joints);
     let mut drawing = Drawing { features, motion, unit, outlines, feet, profiles, fine, numbers, first, nodes };
     gears::draw(&mut drawing);
     joints::draw(&mut drawing);
@@ -38,7 +39,22 @@ pub(super) fn scene(model: &Mechanism, motion: &Motion, size: Option<f64>) -> Sc
     let frames = (0..motion.frames().max(1)).collect();
     let (name, docs) = (model.declared.name.clone(), model.docs.clone());
     let (named, remarks) = (Vec::new(), Vec::new());
-    Scene { name, docs, declarations, frames, points, nodes, traces, profiles, outlines, unit, extent, named, remarks }
+    Scene {
+        name,
+        docs,
+        declarations,
+        frames,
+        points,
+        nodes,
+        traces,
+        profiles,
+        contacts,
+        outlines,
+        unit,
+        extent,
+        named,
+        remarks,
+    }
 }
 
 /// A body that is held in no more than one place shows its other points as well: one of them may be what it is there for.

@@ -2,7 +2,7 @@
 
 use super::run::{Run, RunOptions};
 use super::{Checked, Compiled};
-use crate::analysis::{self, ColumnUnit, FreeMotion, Horizon, Times};
+use crate::analysis::{self, ColumnKind, ColumnUnit, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
 use crate::lower;
@@ -23,6 +23,8 @@ pub struct Seen {
     pub columns: Vec<String>,
     /// The units in which they are printed.
     pub units: Vec<ColumnUnit>,
+    /// What they hold.
+    pub kinds: Vec<ColumnKind>,
     /// How many rows there would be if none had been left out.
     pub all_rows: usize,
     /// Why the motion ended before its last time, if it did.
@@ -81,7 +83,11 @@ impl Checked {
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
         let (all_rows, stopped, texts) = (found.all, found.stopped, self.texts());
-        (Some(Seen { scene, motion, columns, units, all_rows, stopped, said: said.clone(), results, texts }), said)
+        let kinds = analysis::kinds(compiled.system());
+        (
+            Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }),
+            said,
+        )
     }
 
     /// What there is to draw of a motion that was seen, with symbols of a size (m); nothing where it is not sound.
@@ -135,6 +141,7 @@ impl Checked {
             motion,
             columns: analysis::columns(system),
             units: analysis::units(system),
+            kinds: analysis::kinds(system),
             all_rows: 0,
             stopped: None,
             said: said.clone(),

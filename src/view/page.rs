@@ -22,6 +22,11 @@ pub const LONGEST: usize = 20_000_000;
 /// Rows are left out of a page that is too long no more often than this.
 const MOST_THINNINGS: usize = 6;
 
+/// How the data tell the size of the page before it is known: quotes of texts are escaped there, and so nothing else reads like it.
+const NO_SIZE: &str = "\"bytes\":0";
+/// The size takes so many letters, some of them blanks.
+const SIZE_DIGITS: usize = 9;
+
 /// What the page is built from: the same bytes each time (`.ci/page`).
 const TEMPLATE: &str = include_str!("../../page/dist/page.html");
 const SCRIPT: &str = include_str!("../../page/dist/page.js");
@@ -52,6 +57,8 @@ pub struct Column<'a> {
     pub unit: &'a str,
     /// What SI is divided by, multiplied with and divided by to be in the unit.
     pub scale: [f64; 3],
+    /// What a column holds, as the page reads it; nothing for a result.
+    pub kind: &'static str,
 }
 
 /// A parameter with the values that it was given.
@@ -125,8 +132,14 @@ impl Page<'_> {
             ("data", json::written(self, every)),
             ("script", SCRIPT.to_owned()),
         ];
-        filled(TEMPLATE, &parts)
+        with_size(&filled(TEMPLATE, &parts))
     }
+}
+
+/// A page that knows how large it is: a number as wide as any takes the place of [`NO_SIZE`]'s.
+fn with_size(html: &str) -> String {
+    let bytes = html.len() + SIZE_DIGITS - 1;
+    html.replacen(NO_SIZE, &format!("\"bytes\":{bytes:>SIZE_DIGITS$}"), 1)
 }
 
 /// A template with what belongs into its gaps, which are written `{{so}}`; what is put in is not looked at again.
@@ -189,6 +202,7 @@ mod tests {
             nodes: Vec::new(),
             traces: Vec::new(),
             profiles: Vec::new(),
+            contacts: Vec::new(),
             outlines: Vec::new(),
             unit: 0.01,
             extent: [[0.0; 2], [1.0; 2]],
@@ -210,7 +224,7 @@ mod tests {
         let file = sources.add("/somewhere/secret/b.mech", format!("body {HOSTILE}"));
         let (scene, motion) = (scene(file), motion(rows));
         let source: &Source = sources.get(file);
-        let column = |name| Column { name, unit: "m", scale: [1.0, 1000.0, 1.0] };
+        let column = |name| Column { name, unit: "m", scale: [1.0, 1000.0, 1.0], kind: "body" };
         let variant = Variant {
             scene: &scene,
             motion: &motion,
@@ -238,6 +252,8 @@ mod tests {
         assert_eq!(data["scene"]["declarations"][2][0], "b.<P>");
         assert_eq!(data["variants"][0]["edges"][0], 0.25);
         assert_eq!(data["columns"][0]["scale"][1], 1000.0);
+        assert_eq!(data["columns"][0]["kind"], "body");
+        assert_eq!(data["bytes"], html.len());
         assert_eq!(data["variants"][0]["named"], serde_json::json!([1]));
         assert_eq!(data["scene"]["named"], Value::Null, "variants share a scene whatever is wrong with them");
         assert!(

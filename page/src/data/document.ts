@@ -26,7 +26,8 @@ export function outline(scene: Scene): string {
     let text = outlines.get(scene);
     if (text === undefined) {
         const points = scene.points.map(({ name, frame, pin }) => [name, frame, pin]);
-        text = JSON.stringify([scene.declarations, scene.frames, points, scene.profiles]);
+        const contacts = scene.contacts.map(({ declaration, cam, follower }) => [declaration, cam, follower]);
+        text = JSON.stringify([scene.declarations, scene.frames, points, contacts]);
         outlines.set(scene, text);
     }
     return text;

@@ -55,6 +55,20 @@ export interface Profile {
     frame: number;
 }
 
+/** A cam and what it moves. */
+export interface Contact {
+    /** The joint. */
+    declaration: number;
+    cam: number;
+    follower: number;
+    /** What of the follower touches, in its frame: a point, */
+    tip?: [number, number];
+    /** or a circle, at centre + cos(w) arms[0] + sin(w) arms[1], where a column has w, */
+    roller?: { centre: [number, number]; arms: [[number, number], [number, number]]; argument: string };
+    /** or a straight face: a place of it, and its direction. */
+    face?: [at: [number, number], along: [number, number]];
+}
+
 export interface Scene {
     unit: number;
     extent: [[number, number], [number, number]];
@@ -65,6 +79,7 @@ export interface Scene {
     nodes: Node[];
     traces: Trace[];
     profiles: Profile[];
+    contacts: Contact[];
 }
 
 export interface Column {
@@ -72,7 +87,15 @@ export interface Column {
     unit: string;
     /** What SI is divided by, multiplied with and divided by to be in the unit; left out where it is the unit. */
     scale?: [number, number, number];
+    /** What a column of the table holds. */
+    kind?: ColumnKind;
 }
+
+/**
+ * Time; a coordinate of a body or one that a joint brings along, or a derivative of these; what the text measures or traces, or a
+ * derivative of that; a derivative with something else than time.
+ */
+export type ColumnKind = "time" | "body" | "joint" | "measure" | "rate" | "variation";
 
 /** A number for the whole motion, in SI, printed as a column is; null where it has no value. */
 export interface Result extends Column {
@@ -134,6 +157,8 @@ export interface Page {
     scene: Scene;
     columns: Column[];
     vary: Vary[];
+    /** How large the whole page is. */
+    bytes?: number;
     /** In the order of the product of what varies, the last fastest. */
     variants: Variant[];
     /** Why rows were left out, if they were. */

@@ -2,13 +2,15 @@
 
 import type { Document } from "../data/document.ts";
 import { svg } from "../elements.ts";
-import { alongPitch, angleAt, pitchCurve, pressure, transmission, type Contact } from "../motion/angles.ts";
-import { placeOf, velocityOf, type Moment, type Pair } from "../motion/motion.ts";
+import type { Anchor, Contact } from "../data/format.ts";
+import { angleAt, centreOf, pitchCurve, pressure, touchOf, transmission } from "../motion/angles.ts";
+import { anchors } from "../motion/meetings.ts";
+import { OF_A_FRAME, placeOf, type Moment, type Motion, type Pair } from "../motion/motion.ts";
 import { pole, polodes } from "../motion/poles.ts";
 import { short } from "../numbers.ts";
 import type { Camera } from "../picture/camera.ts";
-import type { Corner, Pairing, Wishes } from "../wishes.ts";
-import { inFrame, inUnits, throughWithin, type Layer } from "./layer.ts";
+import type { Pairing, Wishes } from "../wishes.ts";
+import { inFrame, inUnits, throughWithin, type Box, type Layer } from "./layer.ts";
 
 /** The radius of an angle's arc (pixels). */
 const ARC = 34;
@@ -22,9 +24,13 @@ export class Poles implements Layer {
     private readonly text = svg("text", { class: "label" });
     private pairing: Pairing | undefined;
     private name = "";
+    written: Box | undefined;
 
-    show({ motion }: Document, { pairing }: Wishes, camera: Camera): void {
+    show({ motion, scene }: Document, { pairing: asked }: Wishes, camera: Camera): void {
+        // a variant that is not sound has no bodies
+        const pairing = asked && Math.max(asked.one, asked.other) < scene.frames.length ? asked : undefined;
         this.pairing = pairing;
+        this.written = undefined;
         this.element.replaceChildren();
         if (!pairing) return;
         const { one, other } = polodes(motion, pairing.one, pairing.other);
@@ -45,7 +51,7 @@ export class Poles implements Layer {
         const seen = Math.abs(x) < 1e5 && Math.abs(y) < 1e5;
         this.cross.setAttribute("d", seen ? `M${x - 8} ${y}h16M${x} ${y - 8}v16M${x - 5} ${y}a5 5 0 1 0 10 0a5 5 0 1 0 -10 0` : "");
         this.text.textContent = seen ? this.name : "";
-        if (seen) place(this.text, [x + 9, y - 9]);
+        this.written = seen ? place(this.text, [x + 9, y - 9], camera) : undefined;
     }
 }
 
@@ -58,23 +64,25 @@ export class Corners implements Layer {
     private readonly legs = svg("path", { class: "legs" });
     private readonly arc = svg("path", { class: "arc" });
     private readonly text = svg("text", { class: "label" });
-    private corner: Corner | undefined;
+    private places: readonly Anchor[] | undefined;
+    written: Box | undefined;
 
-    show(_: Document, { corner }: Wishes): void {
-        this.corner = corner;
-        this.element.replaceChildren(...(corner ? [this.legs, this.arc, this.text] : []));
+    show({ scene }: Document, { corner }: Wishes): void {
+        this.written = undefined;
+        this.places = corner && anchors(scene, [corner.one, corner.pin, corner.other]);
+        this.element.replaceChildren(...(this.places ? [this.legs, this.arc, this.text] : []));
     }
 
     draw(moment: Moment, camera: Camera): void {
-        if (!this.corner) return;
-        const { one, pin, other } = this.corner;
+        if (!this.places) return;
+        const [one, pin, other] = this.places as [Anchor, Anchor, Anchor];
         const at = camera.pixel(placeOf(moment, pin));
         let first = direction(at, camera.pixel(placeOf(moment, one)));
         const second = direction(at, camera.pixel(placeOf(moment, other)));
         this.legs.setAttribute("d", [one, other].map((to) => `M${at.join(" ")}L${camera.pixel(placeOf(moment, to)).join(" ")}`).join(""));
         // of the two angles between the lines the one that counts is drawn
         if (angleAt(moment, one, pin, other) > Math.PI / 2) first = [-first[0], -first[1]];
-        drawArc(this.arc, this.text, at, first, second, `μ = ${degrees(transmission(moment, one, pin, other))}`);
+        this.written = drawArc(camera, this.arc, this.text, at, first, second, `μ = ${degrees(transmission(moment, one, pin, other))}`);
     }
 }
 
@@ -86,38 +94,44 @@ export class Cams implements Layer {
     private readonly arc = svg("path", { class: "arc" });
     private readonly text = svg("text", { class: "label" });
     private contact: Contact | undefined;
+    private motion: Motion | undefined;
+    written: Box | undefined;
 
-    show({ motion }: Document, { contact }: Wishes, camera: Camera): void {
-        this.contact = contact;
+    show({ motion, scene }: Document, { contact }: Wishes, camera: Camera): void {
+        [this.contact, this.motion] = [contact === undefined ? undefined : scene.contacts[contact], motion];
+        this.written = undefined;
         this.element.replaceChildren();
-        if (!contact) return;
-        this.pitch.setAttribute("d", throughWithin(pitchCurve(motion, contact), camera));
+        if (!this.contact) return;
+        this.pitch.setAttribute("d", throughWithin(pitchCurve(motion, this.contact), camera));
         this.element.append(this.turned, this.normal, this.arc, this.text);
     }
 
     draw(moment: Moment, camera: Camera): void {
-        if (!this.contact) return;
+        if (!this.contact || !this.motion) return;
         this.turned.setAttribute("transform", inUnits(camera));
         this.pitch.setAttribute("transform", inFrame(moment, this.contact.cam, camera));
-        const at = camera.pixel(placeOf(moment, this.contact.centre));
-        const angle = pressure(moment, this.contact);
-        const [tx, ty] = alongPitch(moment, this.contact);
-        const [vx, vy] = velocityOf(moment, this.contact.centre);
-        const length = Math.hypot(tx, ty);
-        // the normal, on the side to which the follower goes; pixels run down
-        let normal: Pair = [-ty / length, -tx / length];
-        const way = Math.hypot(vx, vy);
-        const goes: Pair = [vx / way, -vy / way];
-        if (normal[0] * goes[0] + normal[1] * goes[1] < 0) normal = [-normal[0], -normal[1]];
-        const seen = angle !== undefined && Number.isFinite(normal[0]);
-        const reach = 2.2 * ARC;
-        const line = ([dx, dy]: Pair) => `M${at[0] - reach * dx} ${at[1] - reach * dy}L${at[0] + reach * dx} ${at[1] + reach * dy}`;
-        this.normal.setAttribute("d", seen ? line(normal) + line(goes) : "");
-        if (seen) drawArc(this.arc, this.text, at, normal, goes, `α = ${degrees(angle)}`);
-        else {
-            this.arc.setAttribute("d", "");
+        const touch = touchOf(this.motion, moment, this.contact);
+        const angle = pressure(this.motion, moment, this.contact);
+        if (!touch || angle === undefined) {
+            for (const path of [this.normal, this.arc]) path.setAttribute("d", "");
             this.text.textContent = "";
+            this.written = undefined;
+            return;
         }
+        // what slides has the angle at the middle of its roller as well, where it is seen better
+        const centre = centreOf(this.contact);
+        const isTurning = moment.frames[OF_A_FRAME * this.contact.follower + 5] !== 0;
+        const at = camera.pixel(centre && !isTurning ? placeOf(moment, centre) : touch.at);
+        // pixels run down
+        const down = ([x, y]: Pair): Pair => [x / Math.hypot(x, y), -y / Math.hypot(x, y)];
+        const goes = down(touch.velocity);
+        let normal = down(touch.normal);
+        // on the side to which the follower goes
+        if (normal[0] * goes[0] + normal[1] * goes[1] < 0) normal = [-normal[0], -normal[1]];
+        const reach = 2.2 * ARC * camera.grain;
+        const line = ([dx, dy]: Pair) => `M${at[0] - reach * dx} ${at[1] - reach * dy}L${at[0] + reach * dx} ${at[1] + reach * dy}`;
+        this.normal.setAttribute("d", line(normal) + line(goes));
+        this.written = drawArc(camera, this.arc, this.text, at, normal, goes, `α = ${degrees(angle)}`);
     }
 }
 
@@ -130,16 +144,23 @@ function direction([x, y]: Pair, [tx, ty]: Pair): Pair {
     return [(tx - x) / length, (ty - y) / length];
 }
 
-function drawArc(arc: SVGPathElement, text: SVGTextElement, at: Pair, from: Pair, to: Pair, says: string): void {
+function drawArc(camera: Camera, arc: SVGPathElement, text: SVGTextElement, at: Pair, from: Pair, to: Pair, says: string): Box {
+    const radius = ARC * camera.grain;
     const sweep = from[0] * to[1] - from[1] * to[0] > 0 ? 1 : 0;
-    const end = ([dx, dy]: Pair) => `${at[0] + ARC * dx} ${at[1] + ARC * dy}`;
-    arc.setAttribute("d", `M${end(from)}A${ARC} ${ARC} 0 0 ${sweep} ${end(to)}`);
+    const end = ([dx, dy]: Pair) => `${at[0] + radius * dx} ${at[1] + radius * dy}`;
+    arc.setAttribute("d", `M${end(from)}A${radius} ${radius} 0 0 ${sweep} ${end(to)}`);
     const middle = direction([0, 0], [from[0] + to[0], from[1] + to[1]]);
     text.textContent = says;
-    place(text, [at[0] + 1.4 * ARC * middle[0], at[1] + 1.4 * ARC * middle[1] + 5]);
+    return place(text, [at[0] + 1.4 * radius * middle[0], at[1] + 1.4 * radius * middle[1] + 5 * camera.grain], camera);
 }
 
-function place(text: SVGTextElement, [x, y]: Pair): void {
+/** So large is a letter in parts of the usual size of letters, roughly. */
+const LETTER: Pair = [9, 16];
+
+/** Puts a text to a place, where it has this box, roughly: to measure it takes longer than all else. */
+function place(text: SVGTextElement, [x, y]: Pair, { grain }: Camera): Box {
     text.setAttribute("x", x.toFixed(1));
     text.setAttribute("y", y.toFixed(1));
+    const [wide, high] = LETTER;
+    return [[x, y - 0.85 * high * grain], [x + wide * grain * (text.textContent?.length ?? 0), y + 0.25 * high * grain]];
 }

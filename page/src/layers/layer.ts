@@ -11,7 +11,12 @@ export interface Layer {
     /** There is another motion, or other wishes. */
     show(document: Document, wishes: Wishes, camera: Camera): void;
     draw(moment: Moment, camera: Camera): void;
+    /** Where it has written something, which no label covers (pixels). */
+    readonly written?: Box | undefined;
 }
+
+/** From the least to the greatest corner. */
+export type Box = [Pair, Pair];
 
 /** A path through places in metres, in the picture's units; undefined is a gap. */
 export function through(places: readonly (Pair | undefined)[], camera: Camera): string {

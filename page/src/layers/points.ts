@@ -1,10 +1,13 @@
 // The named points: what is clicked, and their labels.
 
 import { declareAlike, type Document } from "../data/document.ts";
+import type { Node } from "../data/format.ts";
 import { svg } from "../elements.ts";
 import { anchor, meetings } from "../motion/meetings.ts";
 import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
 import type { Camera } from "../picture/camera.ts";
+import { placed } from "../picture/figures.ts";
+import { parsed, upright, written } from "../picture/path.ts";
 import type { Wishes } from "../wishes.ts";
 import type { Layer } from "./layer.ts";
 
@@ -58,8 +61,13 @@ interface Label {
 /** Around a place: right above first, then the other corners, then sides; in parts of the label's size beside a gap. */
 const SIDES: readonly Pair[] = [[1, -1], [-1, -1], [1, 1], [-1, 1], [1, 0], [-1, 0], [0, -1], [0, 1]];
 const GAP = 9;
-/** What the buttons of the view take (pixels). */
-const CORNER: Pair = [44, 116];
+/** What the buttons of the view take, and what is explained in the lower corners (pixels). */
+const CORNER: Pair = [44, 152];
+const LEGEND_OF_VECTORS: Pair = [350, 50];
+const LEGEND_OF_TRACES: Pair = [150, 28];
+/** Places on the line of an arrow that no label covers, and how far from them labels keep (pixels). */
+const ON_ARROW = 9;
+const BESIDE_ARROW = 4;
 /** Between one label and the next (pixels). */
 const AIR = 3;
 /** More labels than this say nothing. */
@@ -70,8 +78,18 @@ export class Labels implements Layer {
     private labels: Label[] = [];
     private document: Document | undefined;
     private shown = false;
+    private arrows: { node: Node; places: Pair[] }[] = [];
+    private legends: { vectors: boolean; traces: boolean } = { vectors: false, traces: false };
+    private measuredAt = 0;
 
-    show(document: Document, wishes: Wishes): void {
+    /** Beside others, which are drawn before. */
+    constructor(private readonly others: readonly Layer[]) {}
+
+    show(document: Document, wishes: Wishes, camera: Camera): void {
+        this.legends = {
+            vectors: wishes.vectors || wishes.vectorsAt.size > 0,
+            traces: (wishes.traces && document.scene.traces.length > 0) || wishes.traced.size > 0,
+        };
         if (!wishes.labels) {
             this.element.replaceChildren();
             this.shown = false;
@@ -81,16 +99,58 @@ export class Labels implements Layer {
         [this.shown, this.document] = [true, document];
         this.labels = [...labelsOfPoints(document), ...labelsOfBodies(document)].slice(0, MOST);
         this.element.replaceChildren(...this.labels.map(({ text }) => text));
+        this.measure();
+        this.measuredAt = camera.grain;
+        this.arrows = document.scene.nodes.flatMap((node) => {
+            const lines = node.shapes.filter(({ look }) => look === "arrow" || look === "arrow-head");
+            return lines.length > 0 ? [{ node, places: lines.flatMap(({ d }) => this.along(written(upright(parsed(d), camera.scale)))) }] : [];
+        });
+    }
+
+    private measure(): void {
         for (const label of this.labels) {
             const { width, height } = label.text.getBBox();
             label.size = [width + 2 * AIR, height];
         }
     }
 
+    /** Places along a path. */
+    private along(d: string): Pair[] {
+        const path = svg("path", { d, class: "probe" });
+        this.element.append(path);
+        const length = path.getTotalLength();
+        const places = Array.from({ length: ON_ARROW }, (_, k): Pair => {
+            const { x, y } = path.getPointAtLength((k / (ON_ARROW - 1)) * length);
+            return [x, y];
+        });
+        path.remove();
+        return places;
+    }
+
+    /** Where arrows are now, as boxes. */
+    private arrowBoxes(moment: Moment, camera: Camera): [Pair, Pair][] {
+        const [left, top] = camera.origin;
+        const air = BESIDE_ARROW * camera.grain;
+        return this.arrows.flatMap(({ node, places }) => {
+            const [c, s, x0, y0] = placed({ node }, moment, camera);
+            return places.map(([x, y]): [Pair, Pair] => {
+                const px = left + camera.pixels * (x0 + c * x - s * y);
+                const py = top - camera.pixels * (y0 + s * x + c * y);
+                return [[px - air, py - air], [px + air, py + air]];
+            });
+        });
+    }
+
     draw(moment: Moment, camera: Camera): void {
         if (!this.shown) return;
+        if (this.measuredAt !== camera.grain) this.measure();
+        this.measuredAt = camera.grain;
+        const { width, height, grain } = camera;
         // buttons stand in the corner
-        const taken: [Pair, Pair][] = [[[camera.width - CORNER[0], 0], [camera.width, CORNER[1]]]];
+        const taken: [Pair, Pair][] = [[[width - CORNER[0], 0], [width, CORNER[1]]], ...this.arrowBoxes(moment, camera)];
+        for (const { written } of this.others) if (written) taken.push(written);
+        if (this.legends.vectors) taken.push([[0, height - LEGEND_OF_VECTORS[1] * grain], [LEGEND_OF_VECTORS[0] * grain, height]]);
+        if (this.legends.traces) taken.push([[width - LEGEND_OF_TRACES[0] * grain, height - LEGEND_OF_TRACES[1] * grain], [width, height]]);
         const isInside = (from: Pair, to: Pair) => from[0] >= 0 && from[1] >= 0 && to[0] <= camera.width && to[1] <= camera.height;
         const free = (from: Pair, to: Pair) =>
             isInside(from, to) && !taken.some(([a, b]) => a[0] < to[0] && from[0] < b[0] && a[1] < to[1] && from[1] < b[1]);
@@ -99,8 +159,8 @@ export class Labels implements Layer {
             const box = (side: number): [Pair, Pair] => {
                 const [dx, dy] = SIDES[side]!;
                 const [width, height] = label.size;
-                const left = x + dx * GAP + (dx - 1) * 0.5 * width;
-                const top = y + dy * GAP + (dy - 1) * 0.5 * height;
+                const left = x + dx * GAP * grain + (dx - 1) * 0.5 * width;
+                const top = y + dy * GAP * grain + (dy - 1) * 0.5 * height;
                 return [[left, top], [left + width, top + height]];
             };
             // where it was, if it can stay: labels that jump cannot be read

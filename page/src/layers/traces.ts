@@ -4,6 +4,7 @@ import type { Document } from "../data/document.ts";
 import type { Anchor, Trace } from "../data/format.ts";
 import { svg } from "../elements.ts";
 import { anchor } from "../motion/meetings.ts";
+import { short } from "../numbers.ts";
 import { placeOf, type Moment, type Motion, type Pair } from "../motion/motion.ts";
 import type { Camera } from "../picture/camera.ts";
 import type { Wishes } from "../wishes.ts";
@@ -15,9 +16,12 @@ const MARKS = 12;
 const FINE = 400;
 
 export class Traces implements Layer {
-    readonly element = svg("g", { class: "traces" });
+    readonly element = svg("g", { class: "traces", "aria-hidden": "true" });
+    private readonly ways = svg("g");
+    private readonly legend = svg("text", { class: "legend", "text-anchor": "end" });
 
     show(document: Document, wishes: Wishes, camera: Camera): void {
+        this.ways.replaceChildren();
         this.element.replaceChildren();
         const { scene, motion, table } = document;
         if (table.rows < 2) return;
@@ -41,15 +45,22 @@ export class Traces implements Layer {
         const [lines, dots] = [along(times), along(marks)];
         ways.forEach(({ declaration }, k) => {
             const dot = (at: Pair | undefined) => (at ? `${through([at], camera)}h0` : "");
-            this.element.append(
+            this.ways.append(
                 svg("path", { class: "trace", d: through(lines[k]!, camera), "data-declaration": declaration }),
                 svg("path", { class: "trace-marks", d: dots[k]!.map(dot).join("") }),
             );
         });
+        if (ways.length === 0) return;
+        const every = `every ${short(evenStep((motion.to - motion.from) / MARKS))} s`;
+        this.legend.replaceChildren(svg("tspan", { class: "legend-mark" }, "●"), ` ${every}`);
+        this.element.append(this.ways, this.legend);
     }
 
     draw(_: Moment, camera: Camera): void {
-        this.element.setAttribute("transform", inUnits(camera));
+        this.ways.setAttribute("transform", inUnits(camera));
+        const { width, height, grain } = camera;
+        this.legend.setAttribute("x", String(width - 12 * grain));
+        this.legend.setAttribute("y", String(height - 11 * grain));
     }
 }
 

@@ -2,6 +2,7 @@
 
 import type { Document } from "../data/document.ts";
 import type { Anchor } from "../data/format.ts";
+import { METRE, inUnit, lengthUnit, type LengthUnit } from "../data/lengths.ts";
 import { svg } from "../elements.ts";
 import { anchor, meetings } from "../motion/meetings.ts";
 import { accelerationOf, placeOf, velocityOf, type Moment, type Motion, type Pair } from "../motion/motion.ts";
@@ -15,6 +16,8 @@ import { evenStep } from "./traces.ts";
 const LONGEST = 0.22;
 /** A head's length and half its width (pixels). */
 const HEAD: Pair = [11, 4];
+/** What the head of a velocity is larger: an acceleration that lies on it is seen on it. */
+const WIDER = 1.5;
 /** More arrows than this hide the mechanism. */
 const MOST = 80;
 /** Rows that are looked at for the greatest. */
@@ -22,7 +25,8 @@ const LOOKS = 200;
 
 interface Kind {
     name: "velocity" | "acceleration";
-    unit: string;
+    /** What stands behind the unit of lengths. */
+    per: string;
     of: (moment: Moment, anchor: Anchor) => Pair;
     greatest: number;
 }
@@ -30,11 +34,13 @@ interface Kind {
 export class Vectors implements Layer {
     readonly element = svg("g", { class: "vectors", "aria-hidden": "true" });
     private kinds: Kind[] = [];
+    private unit: LengthUnit = METRE;
     private arrows: { at: Anchor; kind: Kind; path: SVGPathElement }[] = [];
     private legend: { kind: Kind; path: SVGPathElement; text: SVGTextElement }[] = [];
 
     show(document: Document, wishes: Wishes): void {
-        const { scene, motion } = document;
+        const { scene, motion, page } = document;
+        this.unit = lengthUnit(page);
         const asked = [...wishes.vectorsAt];
         // one of the points that meet stands for all
         if (wishes.vectors) asked.push(...meetings(motion).map((points) => points.find((point) => scene.points[point]!.frame > 0) ?? -1));
@@ -59,24 +65,26 @@ export class Vectors implements Layer {
             const [x, y] = camera.pixel(placeOf(moment, at));
             const [vx, vy] = kind.of(moment, at);
             const scale = longest / kind.greatest;
-            path.setAttribute("d", arrow([x, y], [x + scale * vx, y - scale * vy], kind.name === "acceleration"));
+            path.setAttribute("d", arrow([x, y], [x + scale * vx, y - scale * vy], kind.name === "acceleration", camera.grain));
         }
         this.legend.forEach(({ kind, path, text }, k) => {
-            const value = evenStep((kind.greatest * 60) / longest);
-            const y = camera.height - 16 - 22 * k;
-            const to = 14 + (value * longest) / kind.greatest;
-            path.setAttribute("d", arrow([14, y], [to, y], kind.name === "acceleration"));
-            text.setAttribute("x", String(to + 9));
-            text.setAttribute("y", String(y + 5));
-            text.textContent = `${kind.name} ${short(value)} ${set(kind.unit)}`;
+            const { grain, height } = camera;
+            // of the text's unit it is a round number
+            const value = evenStep(inUnit((kind.greatest * 60 * grain) / longest, this.unit));
+            const y = height - (16 + 22 * k) * grain;
+            const to = 14 * grain + (value * longest) / inUnit(kind.greatest, this.unit);
+            path.setAttribute("d", arrow([14 * grain, y], [to, y], kind.name === "acceleration", grain));
+            text.setAttribute("x", String(to + 9 * grain));
+            text.setAttribute("y", String(y + 5 * grain));
+            text.textContent = `${kind.name} ${short(value)} ${set(this.unit.name + kind.per)}`;
         });
     }
 }
 
 function kinds(motion: Motion, anchors: Anchor[]): Kind[] {
     const all: Kind[] = [
-        { name: "velocity", unit: "m/s", of: velocityOf, greatest: 0 },
-        { name: "acceleration", unit: "m/s^2", of: accelerationOf, greatest: 0 },
+        { name: "velocity", per: "/s", of: velocityOf, greatest: 0 },
+        { name: "acceleration", per: "/s^2", of: accelerationOf, greatest: 0 },
     ];
     const moment = motion.moment();
     const rows = motion.table.rows;
@@ -91,11 +99,11 @@ function kinds(motion: Motion, anchors: Anchor[]): Kind[] {
 }
 
 /** An arrow; one of an acceleration has a second head, so that colour is not all that tells them apart. */
-export function arrow([x, y]: Pair, [tx, ty]: Pair, twice: boolean): string {
+export function arrow([x, y]: Pair, [tx, ty]: Pair, twice: boolean, grain: number): string {
     const length = Math.hypot(tx - x, ty - y);
     if (!(length > 1)) return "";
     const [ux, uy] = [(tx - x) / length, (ty - y) / length];
-    const size = Math.min(1, length / (2 * HEAD[0]));
+    const size = Math.min((twice ? 1 : WIDER) * grain, length / (2 * HEAD[0]));
     const [long, wide] = [HEAD[0] * size, HEAD[1] * size];
     const at = (back: number, aside: number) => `${(tx - back * ux - aside * uy).toFixed(1)} ${(ty - back * uy + aside * ux).toFixed(1)}`;
     const head = (from: number) => `M${at(from, 0)}L${at(from + long, wide)}L${at(from + long, -wide)}Z`;

@@ -10,6 +10,8 @@ const FASTER = 2;
 
 export class Clock {
     time = 0;
+    /** The time that was asked for last: one that is not in the span comes back with a span that has it. */
+    private asked = 0;
     playing = false;
     turning: Turning = "loop";
     /** Seconds of the mechanism in one of the reader's. */
@@ -18,15 +20,20 @@ export class Clock {
     private to = 0;
     private direction = 1;
 
-    /** The span of time there is; where it was before is kept if it lies in it. */
+    /** The span of time there is. */
     span(from: number, to: number, anew: boolean): void {
         this.from = from;
         this.to = to;
         if (anew) {
             this.rate = to > from ? (to - from) / FIRST_RUN : 1;
-            this.time = from;
+            this.asked = from;
         }
-        this.time = this.held(this.time);
+        this.time = this.held(this.asked);
+    }
+
+    /** To a time, or the end that is nearest. */
+    go(time: number): void {
+        this.time = this.asked = this.held(time);
     }
 
     held(time: number): number {
@@ -56,7 +63,7 @@ export class Clock {
             this.direction = folded <= length ? 1 : -1;
             gone = folded <= length ? folded : 2 * length - folded;
         }
-        this.time = this.held(this.from + gone);
+        this.go(this.from + gone);
     }
 }
 

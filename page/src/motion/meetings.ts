@@ -1,6 +1,6 @@
 // Points of several frames that are one place all the time: pins.
 
-import type { NamedPoint } from "../data/format.ts";
+import type { Anchor, NamedPoint, Scene } from "../data/format.ts";
 import { placeOf, type Motion } from "./motion.ts";
 
 /** So near, in parts of the extent, is one place. */
@@ -8,8 +8,14 @@ const ONE_PLACE = 1e-6;
 /** Rows that are looked at. */
 const LOOKS = 7;
 
-export function anchor({ frame, at }: NamedPoint): [number, number, number] {
+export function anchor({ frame, at }: NamedPoint): Anchor {
     return [frame, at[0], at[1]];
+}
+
+/** The places of points with these numbers; none if one of them is not there. */
+export function anchors({ points }: Scene, numbers: readonly number[]): Anchor[] | undefined {
+    const all = numbers.flatMap((number) => (points[number] ? [anchor(points[number])] : []));
+    return all.length === numbers.length ? all : undefined;
 }
 
 /** The points' numbers, those of one place together, in the order of the first of each. */

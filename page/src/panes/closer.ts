@@ -2,13 +2,14 @@
 
 import { declareAlike, type Document } from "../data/document.ts";
 import type { Anchor } from "../data/format.ts";
+import { METRE, inUnit, lengthUnit, type LengthUnit } from "../data/lengths.ts";
 import { button, choice, fill, html, press } from "../elements.ts";
 import { degrees } from "../layers/constructions.ts";
 import { pressure, transmission } from "../motion/angles.ts";
-import { anchor, meetings } from "../motion/meetings.ts";
-import type { Moment, Motion } from "../motion/motion.ts";
+import { anchors, meetings } from "../motion/meetings.ts";
+import type { Moment } from "../motion/motion.ts";
 import { pole } from "../motion/poles.ts";
-import { six } from "../numbers.ts";
+import { six, withUnit } from "../numbers.ts";
 import { toggle, type Wishes } from "../wishes.ts";
 import { factsOf } from "./facts.ts";
 import type { Pane } from "./pane.ts";
@@ -144,7 +145,9 @@ class Poles implements Pane {
         const pairing = this.wishes?.pairing;
         const at = pairing && pole(moment, pairing.one, pairing.other);
         this.value.hidden = !pairing;
-        this.value.textContent = at ? `x = ${six(at[0])} m, y = ${six(at[1])} m` : "at infinity: they do not turn against each other";
+        const told = (unit: LengthUnit) => at && ["x", "y"].map((name, k) => `${name} = ${withUnit(six(inUnit(at[k]!, unit)), unit.name)}`).join(", ");
+        this.value.textContent = (this.document && told(lengthUnit(this.document.page))) ?? "at infinity: they do not turn against each other";
+        this.value.title = at ? `${told(METRE)} (SI)` : "";
     }
 }
 
@@ -189,7 +192,10 @@ class Transmission implements Pane {
 
     draw(moment: Moment): void {
         const corner = this.wishes?.corner;
-        this.value.textContent = corner ? `μ = ${degrees(transmission(moment, corner.one, corner.pin, corner.other))}` : "";
+        const places = corner && anchors(this.document!.scene, [corner.one, corner.pin, corner.other]);
+        const angle = places && transmission(moment, ...(places as [Anchor, Anchor, Anchor]));
+        this.value.textContent = angle === undefined ? "" : `μ = ${degrees(angle)}`;
+        this.value.title = angle === undefined ? "" : `${six(angle)} rad (SI)`;
     }
 
     /** Two of the points at a pin: of moving frames that have other points. */
@@ -217,71 +223,53 @@ class Transmission implements Pane {
     }
 
     private choose(): void {
-        const points = this.document!.scene.points;
         const pins = this.groups[Number(this.pin.value)];
-        const [one, other] = [points[Number(this.one.value)], points[Number(this.other.value)]];
-        const asked = this.pin.value !== "" && pins && this.one.value !== "" && one && other;
+        const asked = this.pin.value !== "" && pins && this.one.value !== "" && this.other.value !== "";
         this.wishes?.change((wishes) => {
-            wishes.corner = asked ? { one: anchor(one), pin: anchor(points[this.linked(pins)[0]!]!), other: anchor(other) } : undefined;
+            const corner = asked && { one: Number(this.one.value), pin: this.linked(pins)[0]!, other: Number(this.other.value) };
+            wishes.corner = corner || undefined;
         });
     }
 }
 
-/** A cam's pitch curve and pressure angle. */
+/** A cam's pitch curve and pressure angle, where a joint has it touch what it moves. */
 class Cam implements Pane {
-    readonly element = html("fieldset", {}, html("legend", {}, "Cam"));
-    private readonly cam = choice("the cam", [NONE]);
-    private readonly centre = choice("the follower's point", [NONE]);
+    readonly element = html("fieldset", {}, html("legend", {}, "Pressure angle and pitch curve"));
+    private readonly joint = choice("at the joint", [NONE]);
     private readonly value = html("output", { class: "value" });
     private readonly plot = button("plot the pressure angle", "plot");
     private document: Document | undefined;
     private wishes: Wishes | undefined;
 
     constructor(plot: (name: string) => void) {
-        this.element.append(
-            html("div", { class: "row-of" }, this.cam, "moves", this.centre),
-            html("div", { class: "row-of" }, this.value, this.plot),
-        );
+        this.element.append(html("div", { class: "row-of" }, "at", this.joint), html("div", { class: "row-of" }, this.value, this.plot));
         this.plot.addEventListener("click", () => plot(PRESSURE));
-        for (const select of [this.cam, this.centre]) select.addEventListener("change", () => this.choose(select === this.cam));
+        this.joint.addEventListener("change", () => {
+            const { value } = this.joint;
+            this.wishes?.change((wishes) => (wishes.contact = value === "" ? undefined : Number(value)));
+        });
     }
 
     show(document: Document, wishes: Wishes): void {
         if (!declareAlike(this.document, document)) {
-            const { scene } = document;
-            const cams = new Set(scene.profiles.map(({ frame }) => frame));
-            fill(this.cam, [NONE, ...frameNames(document).filter(([frame]) => cams.has(Number(frame)))]);
-            this.element.hidden = cams.size === 0;
+            const { contacts, declarations, frames } = document.scene;
+            const name = (frame: number) => declarations[frames[frame]!]?.[0] ?? "ground";
+            const entries = contacts.map(({ declaration, cam, follower }, k): [string, string] => {
+                return [String(k), `${declarations[declaration]?.[0]}: ${name(cam)} moves ${name(follower)}`];
+            });
+            fill(this.joint, [NONE, ...entries]);
+            this.element.hidden = entries.length === 0;
         }
         [this.document, this.wishes] = [document, wishes];
-        this.plot.hidden = !wishes.contact;
+        this.joint.value = wishes.contact === undefined ? "" : String(wishes.contact);
+        this.plot.hidden = wishes.contact === undefined;
     }
 
     draw(moment: Moment): void {
-        const contact = this.wishes?.contact;
-        const angle = contact && pressure(moment, contact);
+        const chosen = this.wishes?.contact;
+        const contact = chosen === undefined ? undefined : this.document!.scene.contacts[chosen];
+        const angle = contact && pressure(this.document!.motion, moment, contact);
         this.value.textContent = !contact ? "" : angle === undefined ? "the follower rests" : `α = ${degrees(angle)}`;
+        if (angle !== undefined) this.value.title = `${six(angle)} rad (SI)`;
     }
-
-    private choose(isOther: boolean): void {
-        const { scene, motion } = this.document!;
-        const cam = Number(this.cam.value);
-        if (isOther) {
-            const points = this.cam.value === "" ? [] : followers(motion, cam);
-            fill(this.centre, points.length > 0 ? points.map((point) => [String(point), scene.points[point]!.name]) : [NONE]);
-        }
-        const point = this.centre.value === "" ? undefined : scene.points[Number(this.centre.value)];
-        this.wishes?.change((wishes) => (wishes.contact = point && this.cam.value !== "" ? { cam, centre: anchor(point) as Anchor } : undefined));
-    }
-}
-
-/** Points that a cam may move: of other moving frames; those that the text of a contact names come first. */
-function followers({ scene }: Motion, cam: number): number[] {
-    const follows = (point: number) => scene.nodes.some(({ upright }) => upright !== undefined && same(upright, anchor(scene.points[point]!)));
-    const points = [...scene.points.keys()].filter((point) => scene.points[point]!.frame > 0 && scene.points[point]!.frame !== cam);
-    return points.sort((a, b) => Number(follows(b)) - Number(follows(a)));
-}
-
-function same(one: Anchor, other: Anchor): boolean {
-    return one.every((value, k) => value === other[k]);
 }

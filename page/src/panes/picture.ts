@@ -25,11 +25,15 @@ const ON_A_PIN = 10;
 const STROBE = 9;
 /** A step of the wheel. */
 const WHEEL = 1.0015;
+/** The size of letters at which everything has its usual size (pixels). */
+const USUAL_LETTERS = 16;
 /** A press that moved no farther is a click (pixels). */
 const CLICK = 4;
 
 export class Picture implements Pane {
     readonly element = html("div", { class: "picture", role: "group", "aria-label": "the mechanism" });
+    /** The buttons in its corner. */
+    readonly views = html("div", { class: "views", role: "group", "aria-label": "view" });
     private readonly over = svg("svg", { class: "over", role: "img", "aria-label": "the mechanism, drawn" });
     private readonly note = html("div", { class: "note", role: "presentation", hidden: true });
     private readonly pointsLayer = new Points();
@@ -45,16 +49,15 @@ export class Picture implements Pane {
     private wrong: ReadonlySet<number> = new Set();
 
     constructor() {
-        this.bare = [new Traces(), new Poles(), new Corners(), new Cams(), new Vectors(), new Labels()];
+        const others = [new Traces(), new Poles(), new Corners(), new Cams(), new Vectors()];
+        this.bare = [...others, new Labels(others)];
         this.layers = [...this.bare.slice(0, 1), this.pointsLayer, ...this.bare.slice(1)];
-        const views = html(
-            "div",
-            { class: "views", role: "group", "aria-label": "view" },
+        this.views.append(
             this.viewButton("nearer", "M12 5v14M5 12h14", () => this.camera?.nearer(1.25)),
             this.viewButton("farther", "M5 12h14", () => this.camera?.nearer(0.8)),
             this.viewButton("show all of it", "M4 9V4h5M15 4h5v5M20 15v5h-5M9 20H4v-5", () => this.camera?.whole()),
         );
-        this.element.append(this.over, views, this.note);
+        this.element.append(this.over, this.views, this.note);
         this.listen();
         new ResizeObserver(() => this.resized()).observe(this.element);
     }
@@ -112,18 +115,18 @@ export class Picture implements Pane {
         this.drawing = many ? new CanvasDrawing(document.scene, this.camera) : new SvgDrawing(document.scene, this.camera);
         if (many) this.element.prepend(this.drawing.element);
         const layers = this.shownLayers().map(({ element }) => element);
-        // traces lie below the mechanism, all else above
-        const drawn = many ? [] : [this.drawing.element];
-        this.over.replaceChildren(...layers.slice(0, 1), ...drawn, ...layers.slice(1));
+        this.over.replaceChildren(...(many ? [] : [this.drawing.element]), ...layers);
         // to measure anew takes longer than all else
         if (before) this.looked();
         else this.resized();
     }
 
-    private resized(): void {
+    /** Its size, or that of letters, is another. */
+    resized(): void {
         const { width, height } = this.over.getBoundingClientRect();
         if (!this.camera || width === 0 || height === 0) return;
         [this.camera.width, this.camera.height] = [width, height];
+        this.camera.grain = parseFloat(getComputedStyle(this.element).fontSize) / USUAL_LETTERS;
         this.looked();
     }
 

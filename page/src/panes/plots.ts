@@ -8,10 +8,12 @@ import { set, short, six, withUnit } from "../numbers.ts";
 import type { Wishes } from "../wishes.ts";
 import type { Deeds, Pane } from "./pane.ts";
 import { plotted } from "./plotted.ts";
-import { around, entries, measured, seriesOf, type Series } from "./series.ts";
+import { around, entries, measured, seriesOf, ticks, type Series } from "./series.ts";
 
 /** So many plots are made at first, at the most. */
 const AT_FIRST = 6;
+/** From one tick to the next, across and up, in letters' sizes. */
+const [ACROSS, UP] = [5.5, 2.4];
 /** A plot's height, in lines of text. */
 const HEIGHT = 8;
 
@@ -22,12 +24,15 @@ export class Plots implements Pane {
     private document: Document | undefined;
     private wishes: Wishes | undefined;
     private moment: Moment | undefined;
+    private readonly empty = html("p", { class: "empty" });
+    /** Whether there was a motion yet, whose measures are plotted. */
+    private hasBegun = false;
     private onPlotted: () => void = () => {};
 
     constructor(private readonly deeds: Deeds) {
         const more = button("add a plot", sign("M12 5v14M5 12h14"));
         more.addEventListener("click", () => this.addFor());
-        this.element.append(html("header", {}, html("h2", {}, "Plots"), more), this.list);
+        this.element.append(html("header", {}, html("h2", {}, "Plots"), more), this.empty, this.list);
         new ResizeObserver(() => this.plots.forEach((plot) => plot.fit())).observe(this.list);
         const again = () => this.plots.forEach((plot) => plot.make());
         matchMedia("(prefers-color-scheme: dark)").addEventListener("change", again);
@@ -51,15 +56,26 @@ export class Plots implements Pane {
             this.list.append(plot.element);
             if (this.document && this.wishes) plot.show(this.document, this.wishes);
             if (this.moment) plot.draw(this.moment);
+            this.tellEmpty();
             this.onPlotted();
         }
     }
 
     show(document: Document, wishes: Wishes): void {
-        const first = this.document === undefined;
         [this.document, this.wishes] = [document, wishes];
         for (const plot of this.plots) plot.show(document, wishes);
-        if (first) for (const name of this.atFirst(document)) this.add(name);
+        if (!this.hasBegun && document.table.rows > 1) {
+            this.hasBegun = true;
+            for (const name of this.atFirst(document)) this.add(name);
+        }
+        this.tellEmpty();
+    }
+
+    /** Says why there is no plot. */
+    private tellEmpty(): void {
+        const moves = (this.document?.table.rows ?? 0) > 1;
+        this.empty.textContent = moves ? "There is no plot: + adds one, of any column." : "There is no motion, and so there is nothing to plot.";
+        this.empty.hidden = this.plots.length > 0;
     }
 
     draw(moment: Moment): void {
@@ -73,7 +89,6 @@ export class Plots implements Pane {
     }
 
     private atFirst(document: Document): string[] {
-        if (document.table.rows < 2) return [];
         const all = measured(document);
         const first = document.table.columns.find(({ name }) => name.endsWith(".phi"))?.name;
         return all.length > 0 ? all.slice(0, AT_FIRST) : first ? [first] : [];
@@ -92,6 +107,7 @@ export class Plots implements Pane {
     private remove(plot: Plot): void {
         this.plots.splice(this.plots.indexOf(plot), 1);
         plot.element.remove();
+        this.tellEmpty();
         this.onPlotted();
     }
 }
@@ -273,7 +289,8 @@ function chart(shown: () => [Series, Series], into: HTMLElement, size: { width: 
     const [x, y] = shown();
     const style = getComputedStyle(into);
     const colour = (name: string) => style.getPropertyValue(name).trim();
-    const font = `${parseFloat(style.fontSize)}px ${style.fontFamily}`;
+    // of a broken number uPlot reads what is behind the point
+    const font = `${Math.round(parseFloat(style.fontSize))}px ${style.fontFamily}`;
     const line = parseFloat(style.fontSize);
     const isTime = x.name === "t";
     const axis = (more: Partial<uPlot.Axis>): uPlot.Axis => ({
@@ -282,6 +299,11 @@ function chart(shown: () => [Series, Series], into: HTMLElement, size: { width: 
         ticks: { stroke: colour("--rule"), width: 1, size: 4 },
         grid: { stroke: colour("--rule"), width: 1 },
         values: (_, ticks) => ticks.map(short),
+        splits: (chart, number, least, greatest) => {
+            const isAcross = number === 0;
+            const room = (isAcross ? chart.bbox.width : chart.bbox.height) / uPlot.pxRatio;
+            return ticks(least, greatest, room / (line * (isAcross ? ACROSS : UP)));
+        },
         ...more,
     });
     const drawn: uPlot.Series = { stroke: colour("--curve"), width: 2, pxAlign: 0, points: { show: false } };

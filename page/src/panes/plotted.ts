@@ -1,9 +1,8 @@
 // A plot on paper: as SVG, of our own, for the charts on the screen are canvases.
 
 import { svg } from "../elements.ts";
-import { evenTimes } from "../layers/traces.ts";
 import { set, short } from "../numbers.ts";
-import { around, type Series } from "./series.ts";
+import { around, ticks, type Series } from "./series.ts";
 
 const [WIDTH, HEIGHT] = [480, 190];
 const [LEFT, RIGHT, TOP, BOTTOM] = [64, 12, 20, 30];
@@ -21,12 +20,12 @@ export function plotted(x: Series, y: Series): SVGSVGElement {
     const up = (value: number) => HEIGHT - BOTTOM - ((value - least) / (greatest - least)) * (HEIGHT - TOP - BOTTOM);
     const name = ({ name, unit }: Series) => (set(unit) ? `${name} (${set(unit)})` : name);
     const made = svg("svg", { class: "plotted", viewBox: `0 0 ${WIDTH} ${HEIGHT}` });
-    for (const value of evenTimes(from, to, ACROSS)) {
+    for (const value of ticks(from, to, ACROSS)) {
         const at = across(value).toFixed(1);
         made.append(svg("path", { class: "grid", d: `M${at} ${TOP}V${HEIGHT - BOTTOM}` }));
         made.append(svg("text", { x: at, y: HEIGHT - BOTTOM + 14, "text-anchor": "middle" }, short(value)));
     }
-    for (const value of evenTimes(least, greatest, UP)) {
+    for (const value of ticks(least, greatest, UP)) {
         const at = up(value).toFixed(1);
         made.append(svg("path", { class: "grid", d: `M${LEFT} ${at}H${WIDTH - RIGHT}` }));
         made.append(svg("text", { x: LEFT - 6, y: Number(at) + 4, "text-anchor": "end" }, short(value)));

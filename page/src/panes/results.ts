@@ -12,9 +12,16 @@ export class Results implements Pane {
     private readonly numbers = html("dl", { class: "numbers" });
     private readonly messages = html("ul", { class: "messages" });
     private document: Document | undefined;
+    private hasRoom = false;
 
     constructor(private readonly deeds: Deeds) {
         this.element.append(html("div", { role: "status", "aria-live": "polite" }, this.messages), this.numbers);
+    }
+
+    /** Whether it takes the same room with messages and without. */
+    keepRoom(keeps: boolean): void {
+        this.hasRoom = keeps;
+        this.element.classList.toggle("kept", keeps);
     }
 
     show(document: Document): void {
@@ -32,7 +39,7 @@ export class Results implements Pane {
         if (page.thinned) said.push(html("li", { class: "note-of-page" }, page.thinned));
         this.messages.replaceChildren(...said);
         this.messages.hidden = said.length === 0;
-        this.element.hidden = said.length === 0 && results.length === 0;
+        this.element.hidden = said.length === 0 && results.length === 0 && !this.hasRoom;
     }
 
     draw(_: Moment): void {}

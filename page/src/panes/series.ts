@@ -4,6 +4,9 @@ import type { Document } from "../data/document.ts";
 import { printed } from "../data/table.ts";
 import { HEAD } from "../elements.ts";
 import { pressure, transmission } from "../motion/angles.ts";
+import { anchors } from "../motion/meetings.ts";
+import type { Anchor, Column } from "../data/format.ts";
+import { evenTimes } from "../layers/traces.ts";
 import type { Moment, Pair } from "../motion/motion.ts";
 import { six, told } from "../numbers.ts";
 import type { Wishes } from "../wishes.ts";
@@ -26,12 +29,15 @@ const DEGREES = 180 / Math.PI;
 
 /** The series of a name, if there is one. */
 export function seriesOf(document: Document, wishes: Wishes, name: string): Series | undefined {
-    const { table, motion } = document;
-    const { corner, contact } = wishes;
-    if (name === TRANSMISSION && corner) {
-        return computed(document, name, (moment) => transmission(moment, corner.one, corner.pin, corner.other));
+    const { table, motion, scene } = document;
+    const { corner } = wishes;
+    const places = corner && anchors(scene, [corner.one, corner.pin, corner.other]);
+    if (name === TRANSMISSION && places) {
+        const [one, pin, other] = places as [Anchor, Anchor, Anchor];
+        return computed(document, name, (moment) => transmission(moment, one, pin, other));
     }
-    if (name === PRESSURE && contact) return computed(document, name, (moment) => pressure(moment, contact) ?? NaN);
+    const contact = wishes.contact === undefined ? undefined : scene.contacts[wishes.contact];
+    if (name === PRESSURE && contact) return computed(document, name, (moment) => pressure(motion, moment, contact) ?? NaN);
     const place = table.place(name);
     if (place === undefined) return undefined;
     const column = table.columns[place]!;
@@ -48,32 +54,36 @@ function computed({ motion, table }: Document, name: string, of: (moment: Moment
     return { name, unit: "deg", values, at: (moment) => of(moment) * DEGREES, si };
 }
 
-/** Columns of the table that are no body's, nor a derivative: what the text measures. */
-export function measured({ scene, table }: Document): string[] {
-    const bodies = bodyColumns(scene);
-    return table.columns.map(({ name }) => name).filter((name) => name !== "t" && !bodies.has(name) && !/\.d{1,2}$/.test(name) && !name.endsWith(".u"));
-}
-
-function bodyColumns({ frames, declarations }: Document["scene"]): Set<string> {
-    const names = frames.slice(1).map((declaration) => declarations[declaration]?.[0] ?? "");
-    return new Set(names.flatMap((name) => ["x", "y", "phi"].map((part) => `${name}.${part}`)));
+/** What the text measures and traces. */
+export function measured({ table }: Document): string[] {
+    return table.columns.filter(({ kind }) => kind === "measure").map(({ name }) => name);
 }
 
 /** All that can be chosen, in groups. */
 export function entries(document: Document, wishes: Wishes): [string, string][] {
-    const names = document.table.columns.map(({ name }) => name);
-    const measures = measured(document);
-    const own = new Set(measures.flatMap((name) => [name, `${name}.d`, `${name}.dd`]));
+    const { columns } = document.table;
+    const isMeasured = ({ kind }: Column) => kind === "measure" || kind === "rate";
+    const names = (which: (column: Column) => boolean) => columns.filter(which).map(({ name }) => name);
     const group = (head: string, names: string[]): [string, string][] => {
         return names.length > 0 ? [[HEAD, head], ...names.map((name): [string, string] => [name, name])] : [];
     };
-    const constructions = [...(wishes.corner ? [TRANSMISSION] : []), ...(wishes.contact ? [PRESSURE] : [])];
+    const constructions = [...(wishes.corner ? [TRANSMISSION] : []), ...(wishes.contact === undefined ? [] : [PRESSURE])];
     return [
         ["t", "t"],
-        ...group("measures", names.filter((name) => own.has(name))),
+        ...group("measures", names(isMeasured)),
         ...group("constructions", constructions),
-        ...group("coordinates", names.filter((name) => name !== "t" && !own.has(name))),
+        ...group("coordinates", names((column) => column.kind !== "time" && !isMeasured(column))),
     ];
+}
+
+/** An axis has so many ticks at least. */
+const FEWEST_TICKS = 3;
+
+/** Ticks of an axis at even steps, about so many. */
+export function ticks(least: number, greatest: number, about: number): number[] {
+    let all: number[] = [];
+    for (let parts = Math.max(FEWEST_TICKS, about); all.length < FEWEST_TICKS && parts < 30; parts *= 1.3) all = evenTimes(least, greatest, parts);
+    return all;
 }
 
 /** A range with some air around it. */

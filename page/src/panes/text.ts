@@ -48,6 +48,7 @@ export class Text implements Pane {
     show(document: Document, wishes: Wishes): void {
         this.wishes = wishes;
         const { page, scene } = document;
+        const isNew = this.document !== document;
         const alike = this.texts === page.texts && declareAlike(this.document, document);
         this.document = document;
         if (!alike) {
@@ -64,6 +65,7 @@ export class Text implements Pane {
             if (wishes.chosen !== undefined) this.bring(this.marked.get(wishes.chosen));
         }
         this.blame();
+        if (isNew) this.bringBlamed();
         this.light(wishes);
     }
 
@@ -86,6 +88,20 @@ export class Text implements Pane {
         const named = new Set(this.document?.named);
         for (const [declaration, mark] of this.marked) if (!named.has(declaration)) mark.classList.remove("wrong");
         for (const declaration of named) this.marked.get(declaration)?.classList.add("wrong");
+    }
+
+    /** Brings the first place that errors name into sight. */
+    private bringBlamed(): void {
+        const places = (this.document?.named ?? []).flatMap((declaration) => {
+            const declared = this.declarations[declaration];
+            return declared && declared[4] > declared[3] ? [{ declaration, text: declared[2], from: declared[3] }] : [];
+        });
+        places.sort((a, b) => a.text - b.text || a.from - b.from);
+        const [first] = places;
+        if (!first) return;
+        if (!places.some(({ text }) => text === this.shown)) this.turnTo(first.text);
+        const here = places.find(({ text }) => text === this.shown);
+        this.bring(here && this.marked.get(here.declaration));
     }
 
     /** The other texts, for paper. */

@@ -18,11 +18,14 @@ export class Variants implements Pane {
         private readonly wanted: (variant: number) => void,
     ) {
         this.chosen = page.vary.map(({ nearest }) => nearest);
+        const said: string[] = [];
         this.sliders = page.vary.map(({ name, unit, values, own }, place) => {
             const slider = html("input", { type: "range", min: 0, max: values.length - 1, step: 1, "data-param": name });
             const value = html("output", {});
             this.element.append(html("label", {}, html("span", { class: "name" }, name), slider, value));
-            if (own !== null) this.element.append(html("p", {}, `${name} is ${withUnit(short(own), unit)} in the text`));
+            if (own !== null) said.push(`${name} is ${withUnit(short(own), unit)} in the text`);
+            // what is told has the same room always, and so has the slider
+            value.style.minWidth = `${Math.max(...values.map((value) => withUnit(short(value), unit).length))}ch`;
             slider.addEventListener("input", () => {
                 this.chosen[place] = Number(slider.value);
                 this.tell();
@@ -31,9 +34,9 @@ export class Variants implements Pane {
             return { slider, value };
         });
         this.element.hidden = page.vary.length === 0;
-        const { variants } = page;
-        const size = variants.reduce((sum, { data, scene }) => sum + data.length + JSON.stringify(scene ?? "").length, 0);
-        this.element.append(html("p", {}, `${variants.length} variants, solved beforehand: ${Math.ceil(size / 1000)} kB`));
+        const size = page.bytes === undefined ? "" : `; this page has ${Math.ceil(page.bytes / 1000)} kB`;
+        said.push(`${page.variants.length} variants, solved beforehand${size}`);
+        this.element.append(html("p", {}, `${said.join(". ")}.`));
         this.tell();
     }
 

@@ -19,6 +19,8 @@ export class Camera {
     /** The picture in pixels. */
     width = 640;
     height = 480;
+    /** What is drawn in pixels of its own, such as letters and arrows' heads, is so many times its usual size. */
+    grain = 1;
     private zoom = 1;
     private moved: Pair = [0, 0];
 
@@ -80,6 +82,7 @@ export class Camera {
 
     /** As another one looks. */
     as(other: Camera): void {
-        [this.width, this.height, this.zoom, this.moved] = [other.width, other.height, other.zoom, other.moved];
+        [this.width, this.height, this.grain] = [other.width, other.height, other.grain];
+        [this.zoom, this.moved] = [other.zoom, other.moved];
     }
 }

@@ -37,7 +37,7 @@ export function tint(frame: number): string {
 }
 
 /** Where a figure is at a moment. */
-export function placed({ node }: Figure, moment: Moment, camera: Camera): Placed {
+export function placed({ node }: Pick<Figure, "node">, moment: Moment, camera: Camera): Placed {
     if (node.upright) {
         const [x, y] = camera.units(placeOf(moment, node.upright));
         return [1, 0, x, y];

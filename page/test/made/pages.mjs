@@ -31,12 +31,13 @@ export function motion(bodies, others, times, at) {
     const rows = Array.from(times, (time) => at(jet(time, 1)));
     const names = [...bodies.flatMap((body) => ["x", "y", "phi"].map((part) => `${body}.${part}`)), ...others.map(({ name }) => name)];
     const unit = (name) => others.find((other) => other.name === name) ?? { unit: name.endsWith(".phi") ? "rad" : "m" };
-    const columns = [{ name: "t", unit: "s" }];
+    const columns = [{ name: "t", unit: "s", kind: "time" }];
     const values = [Float64Array.from(times)];
     for (const [order, mark, per] of [["x", "", ""], ["d", ".d", "/s"], ["dd", ".dd", "/s^2"]]) {
         names.forEach((name, k) => {
             const { unit: text, scale } = unit(name);
-            columns.push({ name: name + mark, unit: text + per, ...(scale ? { scale } : {}) });
+            const kind = k < 3 * bodies.length ? "body" : others[k - 3 * bodies.length].kind ?? (order === "x" ? "measure" : "rate");
+            columns.push({ name: name + mark, unit: text + per, ...(scale ? { scale } : {}), kind });
             values.push(Float64Array.from(rows, (row) => row[k][order]));
         });
     }
@@ -99,7 +100,7 @@ export function whole(name, sheet, scene, table, more = {}) {
         name,
         docs: "",
         texts: [{ name: `${name}.mech`, text: sheet.text }],
-        scene: { declarations: sheet.declarations, traces: [], profiles: [], ...scene, nodes: scene.nodes.map(turned) },
+        scene: { declarations: sheet.declarations, traces: [], profiles: [], contacts: [], ...scene, nodes: scene.nodes.map(turned) },
         columns,
         vary: [],
         variants: [variant],
@@ -136,7 +137,7 @@ export function fourBar({ rows = 1000, size = 0.4, names = {}, lengths = [0.1, 0
     const coupler = sheet.declare(name.coupler, "body", `    body ${name.coupler} { point C = (0, 0); point D = (350 mm, 0); point ${name.tip} = (175 mm, 120 mm) }`);
     const rocker = sheet.declare(name.rocker, "body", `    body ${name.rocker} { point B = (0, 0); point D = (300 mm, 0) }`);
     const joints = ["main", "pin", "knee", "pivot"].map((joint) => sheet.declare(joint, "joint", `    joint ${joint}: revolute(…)  // a pin`));
-    sheet.declare("motor", "driver", "    driver motor: rotation(main) = 60 rpm * t");
+    const motor = sheet.declare("motor", "driver", "    driver motor: rotation(main) = 60 rpm * t");
     const trace = sheet.declare("path", "trace", `    trace path = ${name.coupler}.${name.tip} in mm`);
     sheet.declare("lift", "measure", `    measure lift = y(${name.coupler}.${name.tip}) in mm`);
     sheet.line("}");
@@ -190,6 +191,7 @@ export function fourBar({ rows = 1000, size = 0.4, names = {}, lengths = [0.1, 0
         pin(joints[1], [1, a, 0]),
         pin(joints[2], [2, b, 0]),
         pin(joints[3], [0, d, 0]),
+        { declaration: motor, upright: [0, 0, 0], shapes: [{ look: "arrow", d: `M${2 * half} 0A${2 * half} ${2 * half} 0 0 1 0 ${2 * half}` }] },
     ];
     const scene = {
         unit: half,

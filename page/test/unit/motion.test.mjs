@@ -11,6 +11,8 @@ const { Motion, placeOf, velocityOf, accelerationOf, within } = await bundled("m
 const { pole, polodes } = await bundled("motion/poles.ts");
 const { transmission, pressure } = await bundled("motion/angles.ts");
 const { Clock, told } = await bundled("motion/clock.ts");
+const { inUnit, lengthUnit } = await bundled("data/lengths.ts");
+const { measured, ticks } = await bundled("panes/series.ts");
 const { Table, printed } = await bundled("data/table.ts");
 const { bytesOfBase64, columnsOf, inflated } = await bundled("data/inflate.ts");
 const { six, siUnit } = await bundled("numbers.ts");
@@ -148,7 +150,7 @@ test("a cam's pressure angle is the slope of its law over its radius", () => {
     const scene = { frames: [0, 1, 2], declarations: [["ground"], ["cam"], ["follower"]], points: [], extent: [[0, 0], [1, 1]] };
     const motion = new Motion(scene, new Table(columns, values), []);
     for (const t of [0.2, 0.5, 0.9]) {
-        const angle = pressure(motion.at(t, motion.moment()), { cam: 1, centre: [2, 0, 0] });
+        const angle = pressure(motion, motion.at(t, motion.moment()), { cam: 1, follower: 2, tip: [0, 0] });
         near(angle, Math.atan((0.01 * Math.sin(2 * t)) / (0.05 + 0.01 * Math.cos(2 * t))), 1e-6);
     }
 });
@@ -184,4 +186,37 @@ test("numbers have six digits, a decimal point and their unit", () => {
     assert.equal(siUnit("mm/s^2"), "m/s^2");
     assert.equal(siUnit("rpm/s"), "rad/s/s");
     assert.equal(printed({ name: "l", unit: "mm", scale: [1, 1000, 1] }, 0.05), 50);
+});
+
+test("time that a span has not comes back with one that has it", () => {
+    const clock = new Clock();
+    clock.span(0, 1, true);
+    clock.go(0.3);
+    clock.span(0, 0.1, false);
+    assert.equal(clock.time, 0.1);
+    clock.span(0, 1, false);
+    assert.equal(clock.time, 0.3);
+});
+
+test("lengths are told in the unit that the text writes", () => {
+    const unit = (...texts) => lengthUnit({ texts: texts.map((text) => ({ text })) }).name;
+    assert.equal(unit("param a = 40 mm // 1 m 2 m 3 m\nparam b = 30mm, 1 m, 60 rpm"), "mm");
+    assert.equal(unit("point A = (1 in, 2.5 in)", "1 mm"), "in");
+    assert.equal(unit("a = 3 min, 4 mrad"), "m");
+    near(inUnit(0.0254, { name: "in", times: 10000, by: 254 }), 1);
+});
+
+test("what is measured is told by what a column holds, not by its name", () => {
+    const columns = [["t", "time"], ["b.x", "body"], ["roll.w", "joint"], ["u", "measure"], ["part.u", "measure"], ["u.d", "rate"]];
+    assert.deepEqual(measured({ table: { columns: columns.map(([name, kind]) => ({ name, kind })) } }), ["u", "part.u"]);
+});
+
+test("an axis has three ticks at least, all of them on it", () => {
+    for (const [least, greatest] of [[0, 1], [-0.06, 1.06], [99.5, 100.5], [-1e-6, 3.9e-6], [12, 49], [0.3, 0.61]]) {
+        for (const about of [1, 2.5, 4, 8]) {
+            const all = ticks(least, greatest, about);
+            assert.ok(all.length >= 3 && all.length <= Math.max(10, 2 * about), `${all} from ${least} to ${greatest}`);
+            assert.ok(all.every((tick) => tick >= least - 1e-9 * (greatest - least) && tick <= greatest + 1e-9 * (greatest - least)));
+        }
+    }
 });

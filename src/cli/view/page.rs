@@ -1,6 +1,6 @@
 //! The page of what was seen: what each room knows, put together.
 
-use crate::analysis::ColumnUnit;
+use crate::analysis::{ColumnKind, ColumnUnit};
 use crate::source::Sources;
 use crate::stages::Seen;
 use crate::view::page::{Column, Page, Variant, Vary};
@@ -12,7 +12,9 @@ pub(super) fn written(seen: &Seen, sources: &Sources) -> String {
 
 /// The page of what varies; `first` is the variant that it begins with.
 pub(super) fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
-    let columns = first.columns.iter().zip(&first.units).map(|(name, unit)| column(name, unit)).collect();
+    let kinds = first.kinds.iter().map(|kind| word(*kind));
+    let columns = first.columns.iter().zip(&first.units).zip(kinds);
+    let columns = columns.map(|((name, unit), kind)| Column { kind, ..column(name, unit) }).collect();
     let texts = first.texts.iter().map(|id| (*id, sources.get(*id))).collect();
     Page { texts, columns, vary, variants }.written()
 }
@@ -28,5 +30,16 @@ pub(super) fn variant(seen: &Seen) -> Variant<'_> {
 }
 
 fn column<'a>(name: &'a str, unit: &'a ColumnUnit) -> Column<'a> {
-    Column { name, unit: &unit.text, scale: unit.scale() }
+    Column { name, unit: &unit.text, scale: unit.scale(), kind: "" }
+}
+
+fn word(kind: ColumnKind) -> &'static str {
+    match kind {
+        ColumnKind::Time => "time",
+        ColumnKind::Body => "body",
+        ColumnKind::Joint => "joint",
+        ColumnKind::Measure => "measure",
+        ColumnKind::Rate => "rate",
+        ColumnKind::Variation => "variation",
+    }
 }

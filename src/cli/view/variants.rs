@@ -231,6 +231,7 @@ fn without_picture(said: Diagnostics, begun: &Seen) -> Seen {
     scene.nodes.clear();
     scene.traces.clear();
     scene.profiles.clear();
+    scene.contacts.clear();
     scene.named.clear();
     let motion = Motion::still(vec![Pose::default()]);
     let results = begun.results.iter().map(|(name, unit, _)| (name.clone(), unit.clone(), None)).collect();

@@ -3,7 +3,7 @@
 use super::places::Texts;
 use super::{Column, FORMAT, Page, Variant, columns};
 use crate::diag::Diagnostic;
-use crate::scene::{Anchor, Held, Node, Pen, Place, Scene, Trace};
+use crate::scene::{Anchor, Contact, Held, Node, Pen, Place, Scene, Touch, Trace};
 use crate::source::Source;
 use crate::view::path::data;
 use serde_json::{Map, Value, json};
@@ -24,6 +24,7 @@ pub(super) fn written(page: &Page, every: usize) -> String {
     let mut all = json!({
         "format": FORMAT,
         "mechc": env!("CARGO_PKG_VERSION"),
+        "bytes": 0,
         "name": first.scene.name,
         "docs": first.scene.docs.join("\n"),
         "texts": page.texts.iter().map(|(_, source)| text(source)).collect::<Vec<_>>(),
@@ -53,6 +54,9 @@ fn column_of(column: &Column) -> Map<String, Value> {
     object.insert("unit".to_owned(), column.unit.into());
     if column.scale.iter().any(|part| part.to_bits() != 1.0_f64.to_bits()) {
         object.insert("scale".to_owned(), json!(column.scale));
+    }
+    if !column.kind.is_empty() {
+        object.insert("kind".to_owned(), column.kind.into());
     }
     object
 }
@@ -168,6 +172,7 @@ fn scene(scene: &Scene, texts: &Texts) -> Value {
         "profiles": scene.profiles.iter().map(|profile| {
             json!({ "declaration": profile.declaration, "frame": profile.frame })
         }).collect::<Vec<_>>(),
+        "contacts": scene.contacts.iter().map(contact).collect::<Vec<_>>(),
     })
 }
 
@@ -199,6 +204,18 @@ fn written_node(node: &Node, decimals: usize) -> Value {
     let shapes =
         node.shapes.iter().map(|shape| json!({ "look": shape.look.word(), "d": data(&shape.path, 1.0, decimals) }));
     json!({ "declaration": node.declaration, name: place, "shapes": shapes.collect::<Vec<_>>() })
+}
+
+fn contact(contact: &Contact) -> Value {
+    let Contact { declaration, cam, follower, .. } = contact;
+    let (kind, touch) = match &contact.touch {
+        Touch::Tip(at) => ("tip", json!(at)),
+        Touch::Roller { centre, arms, argument } => {
+            ("roller", json!({ "centre": centre, "arms": arms, "argument": argument }))
+        }
+        Touch::Face(at, along) => ("face", json!([at, along])),
+    };
+    json!({ "declaration": declaration, "cam": cam, "follower": follower, kind: touch })
 }
 
 fn trace(trace: &Trace) -> Value {
