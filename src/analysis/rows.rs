@@ -18,7 +18,6 @@ use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SHORT, STEPS_AHEA
 #[cfg(feature = "threads")]
 use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
 use crate::tolerances::steps::march::{FEWEST_STEPS_NEAR, LARGEST_BETWEEN, LARGEST_CORRECTION, MOST_STEPS};
-#[cfg(feature = "threads")]
 use std::sync::Arc;
 
 /// The output times, and the rows that are ready.
