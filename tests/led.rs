@@ -3,7 +3,7 @@
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
-use mechc::rooms::analysis::{self, LeadOptions, Way};
+use mechc::rooms::analysis::{self, Horizon, LeadOptions, Way};
 use mechc::rooms::math::{acos, cos, sin};
 use mechc::rooms::program::Program;
 use mechc::rooms::{check, lower, syntax};
@@ -238,7 +238,8 @@ fn an_input_is_led_to_a_number_too() {
     let model = model.unwrap_or_else(|| panic!("{said:?}"));
     let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
-    let (determined, _) = analysis::determine(lower::lower(&model), false).expect("determined");
+    let (determined, _) =
+        analysis::determine(lower::lower(&model), false, Horizon::of_analysis(None)).expect("determined");
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };

@@ -6,7 +6,7 @@
 
 mod support;
 
-use mechc::rooms::analysis::{FreeMotion, free_motions};
+use mechc::rooms::analysis::{FreeMotion, Horizon, free_motions};
 use mechc::rooms::scene::{
     Anchor, Look, Motion, Path as Drawn, Place, Pose, Scene, Segment, Vector, catalogue, distance, dot, minus, plus,
     polar, times,
@@ -625,17 +625,29 @@ fn pictures_true_to_scale_are_in_millimetres_of_paper() {
     assert_eq!(attribute(root, "viewBox"), Some(&*format!("0 0 {width} {height}")));
     let [low, high] = seen.scene.extent;
     assert!(width.parse::<f64>().expect("a number") >= 500.0 * (high[0] - low[0]));
-    // through the group around all, places are where the scale has them
+    assert!((Read::of(&file).scale - 500.0).abs() < 1e-9);
+    let text = "mechanism arm { ground { point O = (0, 0) } body b { point O = (0, 0)  point tip = (3 m, 0) }
+        joint a: revolute(ground.O, b.O) driver d: rotation(a) = 1 rad/s * t  analysis from 0 s to 1 s every 0.1 s }";
+    let arm = seen_as(Path::new("arm.mech"), text, None);
+    for (seen, scale) in [(seen, 0.6), (arm, 1.0)] {
+        for row in 0..seen.motion.len() {
+            places_are_true(&seen, row, &Options { scale: Some(scale), ..Options::default() });
+        }
+    }
+}
+
+/// Through the group around all, places are where the scale has them, to a tenth of a micrometre of paper.
+fn places_are_true(seen: &Seen, row: usize, options: &Options) {
+    let file = still(&seen.scene, &seen.motion, &one_row(seen, row), options);
     let (_, group) = file.split_once("<g transform=\"scale(").expect("a group");
     let each: f64 = group.split(')').next().expect("a scale").parse().expect("a number");
     let read = Read::of(&file);
-    assert!((read.scale - 500.0).abs() < 1e-9, "{} mm in a metre", read.scale);
     assert!(!read.points.is_empty());
     for (path, local, group) in &read.points {
         let point = seen.scene.point_named(path).expect("a point");
-        let wanted = read.pixels(seen.motion.poses(0)[point.frame].placed(point.at));
+        let wanted = read.pixels(seen.motion.poses(row)[point.frame].placed(point.at));
         let found = times(each, read.placed(*local, group, 0.0));
-        assert!(distance(found, wanted) < 0.02, "{path}: {found:?}, not {wanted:?}");
+        assert!(distance(found, wanted) < 1e-4, "{path}: {found:?}, not {wanted:?}");
     }
 }
 
@@ -707,6 +719,18 @@ fn what_is_cut_keeps_to_its_lines() {
     let (polylines, _) = read_dxf(&text);
     assert_eq!(polylines.len(), 1, "the disc alone");
     assert!(off_circle(&polylines[0].1, [0.0045, 0.0], 0.0125) < 1e-6);
+    // as exact on paper where it is cut larger than it is
+    let text = dxf::written(&scene, &rest, rest.poses(0), &[], 40.0).expect("something");
+    let (polylines, _) = read_dxf(&text);
+    assert!(off_circle(&polylines[0].1, [0.36, 0.0], 1.0) < 1e-6);
+    // one that is given by a formula, too: chords of both sizes are alike
+    let seen = example("cam_with_dwells");
+    let count = |scale: f64| {
+        let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], scale).expect("something");
+        read_dxf(&text).0.iter().map(|(_, places, _)| places.len()).max().expect("a polyline")
+    };
+    let counts = [count(1.0), count(100.0)];
+    assert!((8 * counts[0]..12 * counts[0]).contains(&counts[1]), "chords for a hundredth of the height: {counts:?}");
 }
 
 #[test]
@@ -742,6 +766,10 @@ fn gears_are_cut_with_their_teeth() {
         "{:?}",
         polylines.iter().map(|(layer, places, _)| (layer, places.len())).collect::<Vec<_>>()
     );
+    let text = dxf::written(&seen.scene, &seen.motion, seen.motion.poses(0), &[], 16.0).expect("something");
+    let finer = read_dxf(&text).0;
+    let chords = |lines: &[Polyline]| lines.iter().map(|(_, places, _)| places.len()).sum::<usize>();
+    assert!(chords(&finer) > 3 * chords(&polylines), "{} and {}", chords(&finer), chords(&polylines));
 }
 
 /// Runs `mechc view` in a folder of its own, which holds `a.mech`.
@@ -848,7 +876,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies[body].name.clone(), velocity)).collect()
     };
-    free_motions(&system).into_iter().map(named).collect()
+    free_motions(&system, Horizon::of_analysis(None)).into_iter().map(named).collect()
 }
 
 #[test]

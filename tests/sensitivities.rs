@@ -7,7 +7,7 @@
 
 mod support;
 
-use mechc::rooms::analysis;
+use mechc::rooms::analysis::{self, Horizon};
 use mechc::rooms::ir::{ConstraintSystem, Param};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use std::fmt::Write;
@@ -355,7 +355,8 @@ fn inputs(path: &Path) {
 /// How many operations it takes to solve for a row.
 fn operations(path: &Path, text: &str, choice: &Choice) -> usize {
     let (determined, program) = compile(path, text, choice).expect("it is determined").inside();
-    let started = analysis::start(determined, program, 0.0, mechc::TOLERANCE, &Cancel::default());
+    let started =
+        analysis::start(determined, program, Horizon::of_analysis(None), mechc::TOLERANCE, &Cancel::default());
     started.unwrap_or_else(|why| panic!("{}", why.message)).solver().expect("operations").operations()
 }
 

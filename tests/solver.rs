@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::analysis;
+use mechc::rooms::analysis::{self, Horizon};
 use mechc::rooms::program::Stage;
 use mechc::rooms::solver::{Batch, Bend, Lanes};
 use mechc::{Cancel, Compiled, TOLERANCE, Times};
@@ -81,8 +81,13 @@ fn every_case_is_solved_for_in_lanes() {
         seen += 1;
         let wanted = rows(&compiled, &times);
         let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
-        let started =
-            analysis::start(Arc::clone(&determined), Arc::clone(&program), times.from(), TOLERANCE, &Cancel::default());
+        let started = analysis::start(
+            Arc::clone(&determined),
+            Arc::clone(&program),
+            Horizon::of(&times),
+            TOLERANCE,
+            &Cancel::default(),
+        );
         let started = started.expect("it assembles");
         let solver = started.solver().expect("it is small");
         let layout = solver.layout();

@@ -9,6 +9,7 @@ use super::kinematics::{Fault, Kinematics, State};
 use super::open_loop;
 use super::search::{Noise, levenberg_marquardt};
 use super::singular;
+use super::times::Horizon;
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, WatchKind};
 use crate::tolerances::assembly::newton::{
@@ -54,7 +55,7 @@ pub(super) fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Mo
 
 /// At a switch the later side counts.
 fn set_start(kinematics: &mut Kinematics, t: f64) {
-    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
+    let span = kinematics.span();
     kinematics.settle_time(behind_start(t, span));
     kinematics.freeze(true, false);
     kinematics.set_time(t);
@@ -243,7 +244,12 @@ fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(),
     let vectors = kinematics.worst();
     let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t)
         .or_else(|| independent_without(kinematics, q, singular::driver_in(system, &vectors.left)?, &vectors.right, t));
-    Err(Box::new(singular::name_start(system, (&vectors.left, &vectors.right), elsewhere, t)))
+    Err(Box::new(singular::name_start(
+        system,
+        (&vectors.left, &vectors.right),
+        elsewhere,
+        Horizon { from: t, span: kinematics.span() },
+    )))
 }
 
 /// Whether the equations are independent in a position nearby; none if there is no other one.
@@ -285,7 +291,7 @@ fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Ve
 
 /// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
 fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
-    let span = kinematics.system().analysis.map_or(1.0, |[from, to, _]| to - from);
+    let span = kinematics.span();
     NEARBY.into_iter().find_map(|part| {
         kinematics.set_time(t + part * span);
         independent_at(kinematics, q, q.to_vec())

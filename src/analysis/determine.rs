@@ -7,6 +7,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
+use super::times::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::ir::{Check, ConstraintSystem, DeclarationKind};
 use crate::structure::{self, Determined, Part, Refused};
@@ -16,12 +17,16 @@ use crate::tolerances::determinacy::determine::LARGEST;
 ///
 /// # Errors
 /// Why it is not: too few equations, too many, or some that conflict. Redundant ones are refused unless they are allowed.
-pub fn determine(system: ConstraintSystem, allow_redundant: bool) -> Result<(Determined, Diagnostics), Diagnostics> {
+pub fn determine(
+    system: ConstraintSystem,
+    allow_redundant: bool,
+    horizon: Horizon,
+) -> Result<(Determined, Diagnostics), Diagnostics> {
     let refused = match structure::prove(system) {
         Ok(determined) => return Ok((determined, Diagnostics::default())),
         Err(refused) => *refused,
     };
-    let anatomy = Anatomy::of(&refused.system, &refused.too_many);
+    let anatomy = Anatomy::of(&refused.system, &refused.too_many, horizon);
     let is_enough = anatomy.dependents.len().cast_signed() == -refused.system.ndof();
     let holds = anatomy.dependents.iter().all(|dependent| dependent.open.is_none());
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
@@ -56,8 +61,8 @@ fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
 
 /// A system whose equations depend on each other wherever it is, though they are as many as the coordinates; none where
 /// that cannot be told.
-pub(super) fn explain_dependent(system: &ConstraintSystem) -> Option<Diagnostic> {
-    let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system));
+pub(super) fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<Diagnostic> {
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system), horizon);
     let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
     (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
 }
@@ -65,16 +70,15 @@ pub(super) fn explain_dependent(system: &ConstraintSystem) -> Option<Diagnostic>
 /// The motions that a system leaves free that is not determined, where it is drawn; where it is drawn in a position in which it
 /// can move otherwise than elsewhere, those where it is assembled.
 #[must_use]
-pub fn free_motions(system: &ConstraintSystem) -> Vec<FreeMotion> {
+pub fn free_motions(system: &ConstraintSystem, horizon: Horizon) -> Vec<FreeMotion> {
     let rows = everything(system);
     if usize::max(rows.rows.len(), rows.columns.len()) > LARGEST {
         return Vec::new();
     }
-    let Anatomy { dependents, freedom } = Anatomy::of(system, &rows);
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &rows, horizon);
     let mut kept = rows;
     kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
-    let t = system.analysis.map_or(0.0, |[from, ..]| from);
-    let drawn = motions_as_drawn(system, &kept, t);
+    let drawn = motions_as_drawn(system, &kept, horizon.from);
     match (drawn, freedom) {
         (Some(drawn), Some(freedom)) if drawn.len() != freedom.degrees() => freedom.motions_of_bodies(system),
         (Some(drawn), _) => drawn,
@@ -91,8 +95,8 @@ struct Anatomy {
 
 impl Anatomy {
     /// Of a system of which a part has too many equations.
-    fn of(system: &ConstraintSystem, too_many: &Part) -> Anatomy {
-        let (t, span) = system.analysis.map_or((0.0, 1.0), |[from, to, _]| (from, to - from));
+    fn of(system: &ConstraintSystem, too_many: &Part, horizon: Horizon) -> Anatomy {
+        let Horizon { from: t, span } = horizon;
         let mut evaluator = Evaluator::new(system);
         let mut found = Vec::new();
         if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {

@@ -75,6 +75,7 @@ pub(super) struct Kinematics {
     program: Arc<Program>,
     registers: Registers,
     linear: BlockLu,
+    span: f64,
     tolerance: f64,
     cancel: Cancel,
     /// Rows whose slope may vanish though nothing about the mechanism does, as that of `sin(angle(b))`.
@@ -136,7 +137,14 @@ impl Doubt {
 }
 
 impl Kinematics {
-    pub fn new(determined: Arc<Determined>, program: Arc<Program>, tolerance: f64, cancel: Cancel) -> Kinematics {
+    /// Of a mechanism that is looked at for so long (s).
+    pub fn new(
+        determined: Arc<Determined>,
+        program: Arc<Program>,
+        span: f64,
+        tolerance: f64,
+        cancel: Cancel,
+    ) -> Kinematics {
         let system = determined.system();
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let (registers, linear) = (program.start(&params), BlockLu::new(system, determined.blocks()));
@@ -150,6 +158,7 @@ impl Kinematics {
             program,
             registers,
             linear,
+            span,
             tolerance,
             cancel,
             bent,
@@ -227,6 +236,11 @@ impl Kinematics {
 
     pub fn system(&self) -> &ConstraintSystem {
         self.determined.system()
+    }
+
+    /// For how long the mechanism is looked at (s).
+    pub fn span(&self) -> f64 {
+        self.span
     }
 
     /// Whether nobody waits for the result any more.

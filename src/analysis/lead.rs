@@ -2,7 +2,7 @@
 //! where others do, along the branch.
 
 use super::errors;
-use super::{Started, Times, start_from};
+use super::{Horizon, Started, Times, start_from};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::ConstraintSystem;
@@ -10,6 +10,9 @@ use crate::program::Program;
 use crate::structure::Determined;
 use crate::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
 use std::sync::Arc;
+
+/// The way as a time.
+const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
 
 /// How a mechanism is led.
 #[derive(Clone, Debug)]
@@ -50,9 +53,9 @@ pub fn lead(
 ) -> Result<Way, Box<Diagnostic>> {
     let LeadOptions { tolerance, cancel, .. } = options;
     let again = |part: f64, from: &[f64]| {
-        start_from(Arc::clone(determined), Arc::clone(program), part, Some(from), *tolerance, cancel)
+        start_from(Arc::clone(determined), Arc::clone(program), WAY.beginning(part), Some(from), *tolerance, cancel)
     };
-    let mut started = start_from(Arc::clone(determined), Arc::clone(program), 0.0, from, *tolerance, cancel)?;
+    let mut started = start_from(Arc::clone(determined), Arc::clone(program), WAY, from, *tolerance, cancel)?;
     let remarks = started.far_estimates_at(options.t);
     let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
     let mut from = (0.0, started.q().to_vec());

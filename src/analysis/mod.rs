@@ -53,7 +53,7 @@ pub use lead::{LeadOptions, Way, lead};
 pub use march::Motion;
 pub use parts::{Request, with_parts};
 pub use results::{Answers, Asked};
-pub use times::Times;
+pub use times::{Horizon, Times};
 
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -100,18 +100,18 @@ pub struct Started {
     solver: Option<Arc<Solver>>,
 }
 
-/// Assembles a mechanism at time `t` (s).
+/// Assembles a mechanism at the first time of a horizon.
 ///
 /// # Errors
 /// It cannot be assembled, starts in a singular position, or a formula has no value there.
 pub fn start(
     determined: Arc<Determined>,
     program: Arc<Program>,
-    t: f64,
+    horizon: Horizon,
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
-    start_from(determined, program, t, None, tolerance, cancel)
+    start_from(determined, program, horizon, None, tolerance, cancel)
 }
 
 /// As [`start`], from other estimates [m, rad] than those of the file, if there are any.
@@ -121,12 +121,12 @@ pub fn start(
 pub fn start_from(
     determined: Arc<Determined>,
     program: Arc<Program>,
-    t: f64,
+    horizon: Horizon,
     estimates: Option<&[f64]>,
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), t, estimates, (tolerance, cancel), Kinematics::solver)
+    started((determined, program), horizon, estimates, (tolerance, cancel), Kinematics::solver)
 }
 
 /// As [`start_from`], without what solves for rows, which takes longer than all else: for who only asks for the position.
@@ -136,43 +136,43 @@ pub fn start_from(
 pub fn assemble_from(
     determined: Arc<Determined>,
     program: Arc<Program>,
-    t: f64,
+    horizon: Horizon,
     estimates: Option<&[f64]>,
     tolerance: f64,
     cancel: &Cancel,
 ) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), t, estimates, (tolerance, cancel), |_| None)
+    started((determined, program), horizon, estimates, (tolerance, cancel), |_| None)
 }
 
-/// Where the bodies of a mechanism that cannot be assembled at time `t` (s) come nearest to that, from the file's estimates or
+/// Where the bodies of a mechanism that cannot be assembled at the first time of a horizon come nearest to that, from the file's estimates or
 /// from others: all is closed but what is told to be open. None where that is not known, or hopeless [m, rad].
 #[must_use]
 pub fn nearest(
     determined: Arc<Determined>,
     program: Arc<Program>,
-    t: f64,
+    horizon: Horizon,
     estimates: Option<&[f64]>,
     cancel: &Cancel,
 ) -> Option<Vec<f64>> {
-    let mut kinematics = Kinematics::new(determined, program, TOLERANCE, cancel.clone());
+    let mut kinematics = Kinematics::new(determined, program, horizon.span, TOLERANCE, cancel.clone());
     if let Some(estimates) = estimates {
         kinematics.begin_from(estimates);
     }
-    assembly::nearest(&mut kinematics, t)
+    assembly::nearest(&mut kinematics, horizon.from)
 }
 
 fn started(
     (determined, program): (Arc<Determined>, Arc<Program>),
-    t: f64,
+    horizon: Horizon,
     estimates: Option<&[f64]>,
     (tolerance, cancel): (f64, &Cancel),
     solver: impl FnOnce(&Kinematics) -> Option<Solver>,
 ) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = Kinematics::new(determined, program, tolerance, cancel.clone());
+    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
     if let Some(estimates) = estimates {
         kinematics.begin_from(estimates);
     }
-    let (state, moved) = assembly::assemble(&mut kinematics, t)?;
+    let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
     let solver = solver(&kinematics).map(Arc::new);

@@ -6,6 +6,7 @@
 
 use super::kinematics::Kinematics;
 use super::search::levenberg_marquardt;
+use super::times::Horizon;
 use crate::cancel::Cancel;
 use crate::expr::{ExprId, Symbol};
 use crate::ir::PartStart;
@@ -31,13 +32,14 @@ pub type Leader<'l> = dyn FnMut(&[Request]) -> Vec<Option<Vec<f64>>> + 'l;
 pub fn with_parts(
     determined: &Arc<Determined>,
     program: &Arc<Program>,
-    t: f64,
+    horizon: Horizon,
     estimates: Vec<f64>,
     leader: &mut Leader<'_>,
     cancel: &Cancel,
 ) -> Vec<f64> {
-    let kinematics = Kinematics::new(Arc::clone(determined), Arc::clone(program), f64::INFINITY, cancel.clone());
-    let mut placing = Placing::new(kinematics, determined, t, estimates);
+    let kinematics =
+        Kinematics::new(Arc::clone(determined), Arc::clone(program), horizon.span, f64::INFINITY, cancel.clone());
+    let mut placing = Placing::new(kinematics, determined, horizon.from, estimates);
     while !placing.open.is_empty() && !cancel.is_cancelled() {
         let (known, open): (Vec<usize>, Vec<usize>) = placing.open.iter().partition(|&&part| placing.is_known(part));
         if !known.is_empty() {

@@ -3,6 +3,7 @@
 use super::determine::explain_dependent;
 use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
+use super::times::Horizon;
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
 use crate::program::Rim;
@@ -52,7 +53,7 @@ pub(super) fn explain_fold(
         let named = if let Some((t, row)) = fold.zip(heaviest_driver(system, &singular.left)) {
             errors::lock_up(system, row, &joints_in(system, &singular.left), &columns_in(&singular.right), t)
         } else {
-            let t = time_of_fold(system, state, &singular.right);
+            let t = time_of_fold(kinematics.span(), state, &singular.right);
             name_singular(system, &singular.left, &singular.right, t)
         };
         match flat_contact(kinematics) {
@@ -71,8 +72,7 @@ pub(super) fn explain_fold(
 
 /// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
 /// as near as steps could come; where it is not, its own time is told.
-fn time_of_fold(system: &ConstraintSystem, state: &State, right: &[f64]) -> f64 {
-    let span = span(system);
+fn time_of_fold(span: f64, state: &State, right: &[f64]) -> f64 {
     let fastest = (0..right.len()).max_by(|&a, &b| right[a].abs().total_cmp(&right[b].abs()));
     let left = fastest.map_or(0.0, |k| 0.5 * state.qd[k] / state.qdd[k]);
     if left > 0.0 && left < NEAR_FOLD * span { state.t + left } else { state.t }
@@ -118,7 +118,7 @@ pub(super) fn explain_haste(kinematics: &mut Kinematics, state: &State, steps: u
 /// The rim that a state has come to, or so near to it that no step leads on.
 fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic> {
     kinematics.restore(state);
-    let span = span(kinematics.system());
+    let span = kinematics.span();
     let rims = kinematics.rims().to_vec();
     let mut left = |rim: &Rim| {
         let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
@@ -157,10 +157,6 @@ fn gauge_at(kinematics: &mut Kinematics, rim: &Rim, state: &State, after: f64) -
     kinematics.gauge(rim)
 }
 
-fn span(system: &ConstraintSystem) -> f64 {
-    system.analysis.map_or(1.0, |[from, to, _]| to - from)
-}
-
 /// Why a formula has no value at a time, the position being as it is.
 fn without_value(kinematics: &mut Kinematics, state: &State, t: f64) -> Option<Fault> {
     kinematics.set_time(t);
@@ -188,8 +184,9 @@ pub(super) fn name_start(
     system: &ConstraintSystem,
     (left, right): (&[f64], &[f64]),
     elsewhere: Option<bool>,
-    t: f64,
+    horizon: Horizon,
 ) -> Diagnostic {
+    let t = horizon.from;
     let declarations = declarations_in(system, left);
     let verdict = match (elsewhere, driver_in(system, left)) {
         (Some(false), _) => StartVerdict::Always,
@@ -198,7 +195,7 @@ pub(super) fn name_start(
         (None, _) => StartVerdict::Unknown,
     };
     if verdict == StartVerdict::Always
-        && let Some(diagnostic) = explain_dependent(system)
+        && let Some(diagnostic) = explain_dependent(system, horizon)
     {
         return diagnostic;
     }

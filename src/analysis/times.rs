@@ -1,5 +1,7 @@
 //! Which times are printed.
 
+use crate::tolerances::UNTOLD_SPAN;
+
 /// Output times, ascending.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Times {
@@ -110,6 +112,37 @@ impl Times {
     /// In order.
     pub fn iter(&self) -> impl Iterator<Item = f64> {
         (0..self.len()).map(|number| self.at(number))
+    }
+}
+
+/// When a mechanism is assembled, and how far it is looked at from there on.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub struct Horizon {
+    /// The first time (s).
+    pub from: f64,
+    /// To the last one (s): what is near in time is near beside this.
+    pub span: f64,
+}
+
+impl Horizon {
+    /// That of output times.
+    #[must_use]
+    pub fn of(times: &Times) -> Horizon {
+        let span = times.span();
+        Horizon { from: times.from(), span: if span > 0.0 { span } else { UNTOLD_SPAN } }
+    }
+
+    /// That of an analysis: first time, last time, step (s); else from 0 on.
+    #[must_use]
+    pub fn of_analysis(analysis: Option<[f64; 3]>) -> Horizon {
+        let [from, to, _] = analysis.unwrap_or([0.0, UNTOLD_SPAN, 0.0]);
+        Horizon { from, span: to - from }
+    }
+
+    /// As far from another time on (s).
+    #[must_use]
+    pub fn beginning(self, from: f64) -> Horizon {
+        Horizon { from, ..self }
     }
 }
 

@@ -28,7 +28,7 @@ pub(super) const LOOKED_AT: usize = 400;
 /// Places on a profile.
 const PLACES_ON_PROFILE: u32 = 360;
 /// What the cubic between two samples may be off the profile (m), and how often a way is halved to keep to that.
-const CUBIC_OFF: f64 = 0.1e-6;
+const CUBIC_OFF: f64 = 1e-9;
 const DEEPEST: u32 = 8;
 /// A profile is closed if its ends are no farther apart than this part of its size.
 const CLOSED: f64 = 1e-6;

@@ -9,7 +9,7 @@ use super::guides::height;
 use super::plane::{Contour, Path, Segment, direction, dot, minus, plus, polar};
 use super::symbols::Symbols;
 use super::teeth::{DEDENDUM, Rack, Wheel, offset, to_whole};
-use super::{Look, Outline, Shape};
+use super::{Edge, Look, Outline, Shape};
 use crate::math;
 use crate::model::{AxisId, CircleId, JointKind};
 use std::f64::consts::{PI, TAU};
@@ -270,7 +270,7 @@ impl Trains {
         };
         let layer = if line.frame == 0 { Layer::Ground } else { Layer::Slots };
         let path = Path::Lines(vec![outline]);
-        drawing.fine.push(Outline { declaration, frame: line.frame, path: path.clone() });
+        drawing.fine.push(Outline { declaration, frame: line.frame, edge: Edge::Path(path.clone()) });
         drawing.add_fixed(layer, declaration, line.frame, vec![shape(Look::Rack, path)]);
         drawing.outlines[line.frame].is_shown = true;
     }
@@ -314,11 +314,11 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
             let wheel = Wheel { at, radius, teeth: teeth.count, phase: teeth.phase };
             if toothed.is_ring {
                 let rim = radius + DEDENDUM * wheel.module() + (1.2 * wheel.module()).max(0.6 * unit).min(0.2 * radius);
-                fine.push(Path::Lines(vec![wheel.fine_inner_outline()]));
-                fine.push(Path::Circle { at, radius: rim });
+                fine.push(Edge::Gaps(wheel));
+                fine.push(Edge::Path(Path::Circle { at, radius: rim }));
                 vec![Symbols::ring(wheel.inner_outline(), at, rim, Look::Gear)]
             } else {
-                fine.push(Path::Lines(vec![wheel.fine_outline()]));
+                fine.push(Edge::Teeth(wheel));
                 vec![shape(Look::Gear, Path::Lines(vec![wheel.outline()]))]
             }
         }
@@ -334,9 +334,9 @@ fn wheel(drawing: &mut Drawing, toothed: &Toothed, disc: &Disc, teeth: Option<&T
         }
     };
     if teeth.is_none() {
-        fine.push(Path::Circle { at, radius });
+        fine.push(Edge::Path(Path::Circle { at, radius }));
     }
-    let own = |path| Outline { declaration: toothed.frame, frame: toothed.frame, path };
+    let own = |edge| Outline { declaration: toothed.frame, frame: toothed.frame, edge };
     drawing.fine.extend(fine.into_iter().map(own));
     let layer = match toothed.frame {
         0 => Layer::Ground,

@@ -40,6 +40,7 @@ pub use plane::{
 
 use crate::model::Mechanism;
 use crate::source::Span;
+use teeth::Wheel;
 
 /// All that there is to draw.
 #[derive(Clone, Debug)]
@@ -113,6 +114,12 @@ impl Scene {
         let (traces, named, remarks) = (Vec::new(), Vec::new(), Vec::new());
         let scene = Scene { points, nodes, traces, profiles, outlines, extent, named, remarks, ..self.clone() };
         (scene, Motion::still(vec![Pose::default(); self.frames.len()]))
+    }
+
+    /// Takes away what shows what messages name.
+    pub fn name_nothing(&mut self) {
+        self.named.clear();
+        self.nodes.retain(|node| node.shapes.iter().any(|shape| shape.look != Look::Named));
     }
 
     /// The point of a path such as `crank.pin`.
@@ -426,7 +433,7 @@ impl Trace {
     }
 }
 
-/// The outline of a wheel, ring or rack, within a quarter of a micrometre where that is less than a millionth of its size.
+/// The outline of a wheel, ring or rack.
 #[derive(Clone, PartialEq, Debug)]
 pub struct Outline {
     /// Whose it is.
@@ -434,7 +441,30 @@ pub struct Outline {
     /// The number of its frame.
     pub frame: usize,
     /// In the frame (m).
-    pub path: Path,
+    edge: Edge,
+}
+
+/// What an outline is.
+#[derive(Clone, PartialEq, Debug)]
+enum Edge {
+    /// A path.
+    Path(Path),
+    /// The teeth of a wheel.
+    Teeth(Wheel),
+    /// The teeth of a ring, whose gaps are those of a wheel.
+    Gaps(Wheel),
+}
+
+impl Outline {
+    /// In the frame (m): its chords are off by so much (m) at the most, or by a ten-millionth of the radius.
+    #[must_use]
+    pub fn path(&self, off: f64) -> Path {
+        match &self.edge {
+            Edge::Path(path) => path.clone(),
+            Edge::Teeth(wheel) => Path::Lines(vec![wheel.fine_outline(off)]),
+            Edge::Gaps(wheel) => Path::Lines(vec![wheel.fine_inner_outline(off)]),
+        }
+    }
 }
 
 /// A line that contacts run along.

@@ -11,14 +11,13 @@ pub(super) const ADDENDUM: f64 = 0.8;
 pub(super) const DEDENDUM: f64 = 1.0;
 /// The part of a pitch by which a tooth is thinner than a gap.
 const BACKLASH: f64 = 0.03;
-/// What a chord of a fine flank may be off (m), and as a part of the wheel's radius.
-const FINE: f64 = 0.25e-6;
+/// What a chord of a fine flank may be off, as a part of the wheel's radius.
 const FINE_PART: f64 = 1e-7;
 /// Places on a flank.
 const ON_FLANK: u32 = 4;
 
 /// A wheel with its teeth.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, PartialEq, Debug)]
 pub(super) struct Wheel {
     pub at: Vector,
     /// Of the pitch circle (m).
@@ -54,14 +53,14 @@ impl Wheel {
         self.bumps(&self.gaps_of_ring())
     }
 
-    /// Its teeth as they are, with arcs at tips and feet.
-    pub fn fine_outline(&self) -> Contour {
-        self.fine_bumps(&self.teeth_of_wheel())
+    /// Its teeth as they are, with arcs at tips and feet; chords may be so much off (m).
+    pub fn fine_outline(&self, off: f64) -> Contour {
+        self.fine_bumps(&self.teeth_of_wheel(), off)
     }
 
     /// The same of a ring's inner side.
-    pub fn fine_inner_outline(&self) -> Contour {
-        self.fine_bumps(&self.gaps_of_ring())
+    pub fn fine_inner_outline(&self, off: f64) -> Contour {
+        self.fine_bumps(&self.gaps_of_ring(), off)
     }
 
     fn teeth_of_wheel(&self) -> Bumps {
@@ -76,14 +75,14 @@ impl Wheel {
         Bumps { radii, thickness: 1.0 + 2.0 * BACKLASH, phase: self.phase + PI / f64::from(self.teeth) }
     }
 
-    fn fine_bumps(&self, bumps: &Bumps) -> Contour {
+    fn fine_bumps(&self, bumps: &Bumps, off: f64) -> Contour {
         let Bumps { radii: [low, high], thickness, phase } = *bumps;
         let base = self.radius * math::cos(PRESSURE);
         // by the angle that the thread of an involute has unrolled; a chord's height is that radius of curvature times its square / 8
         let unrolled = |radius: f64| (radius * radius / (base * base) - 1.0).max(0.0).sqrt();
         let involute = |rolled: f64| rolled - math::atan2(rolled, 1.0);
         let [from, to] = [low.max(base), high].map(unrolled);
-        let off = FINE.max(FINE_PART * self.radius);
+        let off = off.max(FINE_PART * self.radius);
         let wanted = (to - from) * (base * to / (8.0 * off)).sqrt();
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
         let count = math::floor(wanted.clamp(1.0, 5000.0)) as u32 + 1;
@@ -238,6 +237,8 @@ mod tests {
     use super::*;
     use crate::scene::plane::{Path, Pose};
 
+    const FINE: f64 = 0.25e-6;
+
     fn corners(contour: Contour, pose: &Pose) -> Vec<Vector> {
         Path::Lines(vec![contour]).moved(pose).places()
     }
@@ -249,7 +250,7 @@ mod tests {
         let pitch = TAU / f64::from(wheel.teeth);
         let involute = |radius: f64| math::tan(math::acos(base / radius)) - math::acos(base / radius);
         let half = (1.0 - 2.0 * BACKLASH) * 0.25 * pitch + involute(wheel.radius);
-        let fine = wheel.fine_outline();
+        let fine = wheel.fine_outline(FINE);
         let (mut from, mut flanks) = (fine.start, 0);
         for segment in &fine.segments {
             let middle = times(0.5, plus(from, segment.end()));

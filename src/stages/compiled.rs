@@ -3,7 +3,7 @@
 use super::lead::Leading;
 use super::signals::WithSignals;
 use super::used_at::UsedAt;
-use crate::analysis::{self, ColumnUnit, Times};
+use crate::analysis::{self, ColumnUnit, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::emit;
@@ -65,7 +65,8 @@ impl Compiled {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
-        match analysis::determine(system, redundant == Redundant::LeftOut) {
+        let horizon = Horizon::of_analysis(system.analysis);
+        match analysis::determine(system, redundant == Redundant::LeftOut, horizon) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
             Err(why) => (None, used_at.told(why)),
             Ok((determined, said)) => {

@@ -1,7 +1,7 @@
 //! A compiled mechanism as code for others.
 
 use super::{Compiled, RunOptions};
-use crate::analysis::{self, Times};
+use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
@@ -144,12 +144,12 @@ impl Compiled {
         options: &RustOptions,
         said: &mut Diagnostics,
     ) -> Result<Motion, Box<Diagnostic>> {
-        let from = self.analysis().map_or(0.0, |[from, ..]| from);
+        let horizon = Horizon::of_analysis(self.analysis());
         let mut started = if begin.is_some() {
             let (determined, own) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-            analysis::start_from(determined, own, from, begin, analysis::TOLERANCE, &Cancel::default())?
+            analysis::start_from(determined, own, horizon, begin, analysis::TOLERANCE, &Cancel::default())?
         } else {
-            let (started, remarks) = self.start(from, &RunOptions::default());
+            let (started, remarks) = self.start(horizon, &RunOptions::default());
             said.extend(remarks);
             started?
         };
@@ -164,7 +164,7 @@ impl Compiled {
             blocks: BlockTables::new(self.determined()),
             q: started.q().to_vec(),
             bounds: started.bounds(),
-            from,
+            from: horizon.from,
             to: self.times().map(|times| times.at(times.len().saturating_sub(1))),
             tolerance: analysis::TOLERANCE,
         })

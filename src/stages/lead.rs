@@ -2,7 +2,7 @@
 //! inputs are; the whole where the inputs that it is told lead it, from where it is with its own.
 
 use super::lines::{Line, Target, lines};
-use crate::analysis::{self, LeadOptions, Request};
+use crate::analysis::{self, Horizon, LeadOptions, Request};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::expr::Symbol;
@@ -38,7 +38,7 @@ impl Leading {
     pub fn begin(
         &self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
-        t: f64,
+        horizon: Horizon,
         leave_out_redundant: bool,
         options: &LeadOptions,
     ) -> (Option<Vec<f64>>, Diagnostics) {
@@ -51,12 +51,15 @@ impl Leading {
             led: FxHashMap::default(),
             said: Diagnostics::default(),
         };
-        let led =
-            if self.is_told { starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], t) } else { None };
+        let led = if self.is_told {
+            starts.led_to_what_it_is_told(&self.read.tree.mechanisms[self.number], horizon.from)
+        } else {
+            None
+        };
         let system = determined.system();
         let begin = led.or_else(|| {
             let settings = &self.surroundings.settings;
-            (!system.parts.is_empty()).then(|| starts.with_parts((determined, program), t, settings))
+            (!system.parts.is_empty()).then(|| starts.with_parts((determined, program), horizon, settings))
         });
         (begin, starts.said)
     }
@@ -146,7 +149,8 @@ impl<'s> Starts<'s> {
         let (model, _) = check::check(tree, surroundings, self.sources);
         let model = model?;
         let system = lower::lower(&model);
-        let (determined, _) = analysis::determine(system, self.leave_out_redundant).ok()?;
+        let horizon = Horizon::of_analysis(system.analysis);
+        let (determined, _) = analysis::determine(system, self.leave_out_redundant, horizon).ok()?;
         let program = Arc::new(Program::new(determined.system()));
         Some(((Arc::new(determined), program), model.led, model.declared.span))
     }
@@ -155,14 +159,14 @@ impl<'s> Starts<'s> {
     fn with_parts(
         &mut self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
-        t: f64,
+        horizon: Horizon,
         settings: &[Setting],
     ) -> Vec<f64> {
         let system = determined.system();
         let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
         let cancel = self.options.cancel.clone();
-        let mut leader = |asked: &[Request]| self.parts(system, asked, t, settings);
-        analysis::with_parts(determined, program, t, estimates, &mut leader, &cancel)
+        let mut leader = |asked: &[Request]| self.parts(system, asked, horizon.from, settings);
+        analysis::with_parts(determined, program, horizon, estimates, &mut leader, &cancel)
     }
 
     /// Where parts are alone, with their inputs led to what is asked.
@@ -308,14 +312,17 @@ impl<'s> Starts<'s> {
         let estimates = drawn(&system);
         let remarks = Diagnostics::default();
         let mut alone = Alone { surroundings, t, inputs, q: estimates, is_assembled: false, remarks };
-        let Ok((determined, _)) = analysis::determine(system, self.leave_out_redundant) else { return Some(alone) };
+        let horizon = Horizon::of_analysis(system.analysis).beginning(t);
+        let Ok((determined, _)) = analysis::determine(system, self.leave_out_redundant, horizon) else {
+            return Some(alone);
+        };
         let program = Arc::new(Program::new(determined.system()));
         let determined = Arc::new(determined);
         if !determined.system().parts.is_empty() {
-            alone.q = self.with_parts((&determined, &program), t, &alone.surroundings.settings);
+            alone.q = self.with_parts((&determined, &program), horizon, &alone.surroundings.settings);
         }
         let LeadOptions { tolerance, cancel, .. } = self.options;
-        let started = analysis::start_from(determined, program, t, Some(&alone.q), *tolerance, cancel);
+        let started = analysis::start_from(determined, program, horizon, Some(&alone.q), *tolerance, cancel);
         if let Ok(started) = started {
             alone.remarks = started.remarks();
             alone.q = started.q().to_vec();

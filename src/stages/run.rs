@@ -2,7 +2,7 @@
 
 use super::Compiled;
 use super::used_at::UsedAt;
-use crate::analysis::{self, Answers, Asked, ColumnUnit, LeadOptions, Motion, Started, Times};
+use crate::analysis::{self, Answers, Asked, ColumnUnit, Horizon, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::program::Program;
@@ -76,7 +76,8 @@ pub struct Run {
 }
 
 /// One of the ways to assemble a mechanism.
-type Start = fn(Arc<Determined>, Arc<Program>, f64, Option<&[f64]>, f64, &Cancel) -> Result<Started, Box<Diagnostic>>;
+type Start =
+    fn(Arc<Determined>, Arc<Program>, Horizon, Option<&[f64]>, f64, &Cancel) -> Result<Started, Box<Diagnostic>>;
 
 impl Compiled {
     /// Assembles it at the first of some times, and gives what follows it; with what is to be said of that. Nothing where it cannot
@@ -109,7 +110,8 @@ impl Compiled {
     /// ```
     #[must_use]
     pub fn assembled(&self, t: f64, options: &RunOptions) -> (Option<Assembly>, Diagnostics) {
-        let (started, mut said) = self.started(t, options, analysis::assemble_from);
+        let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
+        let (started, mut said) = self.started(horizon, options, analysis::assemble_from);
         match started {
             _ if options.cancel.is_cancelled() => (None, Diagnostics::default()),
             Ok(mut started) => {
@@ -123,34 +125,44 @@ impl Compiled {
         }
     }
 
-    /// Assembles it at a time (s), from the file's estimates, or from where the inputs that it is told lead it; with what is to be
+    /// Assembles it at the first time of a horizon, from the file's estimates, or from where the inputs that it is told lead it; with what is to be
     /// said of the way.
-    pub(super) fn start(&self, t: f64, options: &RunOptions) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        self.started(t, options, analysis::start_from)
+    pub(super) fn start(
+        &self,
+        horizon: Horizon,
+        options: &RunOptions,
+    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        self.started(horizon, options, analysis::start_from)
     }
 
-    fn started(&self, t: f64, options: &RunOptions, start: Start) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
-        let (from, said) = self.led(t, options);
+    fn started(
+        &self,
+        horizon: Horizon,
+        options: &RunOptions,
+        start: Start,
+    ) -> (Result<Started, Box<Diagnostic>>, Diagnostics) {
+        let (from, said) = self.led(horizon, options);
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        (start(determined, program, t, from.as_deref(), options.tolerance, &options.cancel), said)
+        (start(determined, program, horizon, from.as_deref(), options.tolerance, &options.cancel), said)
     }
 
     /// Where it comes nearest to being assembled at a time (s), if it cannot be assembled there: its coordinates [m, rad].
     pub(super) fn nearest(&self, t: f64, options: &RunOptions) -> Option<Vec<f64>> {
-        let (from, _) = self.led(t, options);
+        let horizon = Horizon::of_analysis(self.analysis()).beginning(t);
+        let (from, _) = self.led(horizon, options);
         let (determined, program) = (Arc::clone(self.determined()), Arc::clone(self.program()));
-        analysis::nearest(determined, program, t, from.as_deref(), &options.cancel)
+        analysis::nearest(determined, program, horizon, from.as_deref(), &options.cancel)
     }
 
     /// Where the inputs that it is told lead it, and its parts; with what is to be said of the way.
-    fn led(&self, t: f64, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
+    fn led(&self, horizon: Horizon, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
         let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
         match self.leading() {
             None => (None, Diagnostics::default()),
             Some((leading, leave_out)) => {
                 let own = self.analysis().map_or(0.0, |[from, ..]| from);
                 let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
-                leading.begin((self.determined(), self.program()), t, leave_out, &options)
+                leading.begin((self.determined(), self.program()), horizon, leave_out, &options)
             }
         }
     }
@@ -162,7 +174,7 @@ impl Run {
         if let Some(refused) = refused.filter(Diagnostics::has_errors) {
             return (None, refused);
         }
-        let (started, mut said) = compiled.start(times.from(), options);
+        let (started, mut said) = compiled.start(Horizon::of(times), options);
         let mut started = match started {
             _ if options.cancel.is_cancelled() => return (None, Diagnostics::default()),
             Ok(started) => started,

@@ -2,7 +2,7 @@
 
 use super::run::{Run, RunOptions};
 use super::{Checked, Compiled};
-use crate::analysis::{self, ColumnUnit, FreeMotion, Times};
+use crate::analysis::{self, ColumnUnit, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};
 use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
 use crate::lower;
@@ -113,7 +113,11 @@ impl Checked {
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
         let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
-        let free = if is_left_free { analysis::free_motions(system) } else { Vec::new() };
+        let free = if is_left_free {
+            analysis::free_motions(system, Horizon::of_analysis(system.analysis))
+        } else {
+            Vec::new()
+        };
         let free = free.iter().map(of_frames).collect();
         let lengths = if joints == Joints::Open { lengths(&scene, said) } else { Vec::new() };
         let mut named = named(&scene, said.iter());

@@ -17,6 +17,9 @@ pub mod steps;
 /// Bounds each row of Φ unless told otherwise, scaled.
 pub const TOLERANCE: f64 = 1e-12;
 
+/// For how long a mechanism is looked at where nobody says it (s).
+pub const UNTOLD_SPAN: f64 = 1.0;
+
 /// What jumps, where both sides of a time differ.
 pub mod jumps {
     /// A position that changes by more than this, scaled, jumps.

@@ -11,7 +11,7 @@ use crate::scene::{
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
-/// What a polyline may be off from the line that it stands for (m).
+/// What a polyline may be off from the line that it stands for, as it is cut (m).
 const OFF: f64 = 0.25e-6;
 /// How often a piece is halved at most, to keep to that.
 const DEEPEST: u32 = 14;
@@ -46,14 +46,16 @@ pub fn written(
     traces: &[(String, Anchor)],
     scale: f64,
 ) -> Option<String> {
-    let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, layers: Vec::new(), entities: Vec::new() };
+    // what is cut larger than it is has to be finer
+    let off = OFF / scale.max(1.0);
+    let mut sheet = Sheet { scene, poses, scale: 1000.0 * scale, off, layers: Vec::new(), entities: Vec::new() };
     sheet.add_profiles();
     sheet.add_outlines();
     sheet.add_traces(motion);
     for (name, anchor) in traces {
         let declaration = scene.point_named(name).map_or(anchor.frame, |point| point.declaration);
         if scene.traces.iter().all(|trace| trace.pen != Pen::Point(*anchor)) {
-            sheet.add_stretches(declaration, &path(anchor, motion));
+            sheet.add_stretches(declaration, &path(anchor, motion, off));
         }
     }
     sheet.add_pins();
@@ -65,6 +67,8 @@ struct Sheet<'s> {
     poses: &'s [Pose],
     /// Millimetres in a metre.
     scale: f64,
+    /// What a polyline may be off, as it is (m).
+    off: f64,
     /// The declaration of each layer, and its name.
     layers: Vec<(usize, String)>,
     entities: Vec<Entity>,
@@ -109,7 +113,7 @@ impl Sheet<'_> {
             let pose = self.poses[profile.frame];
             let mut places: Vec<Vector> = profile.samples.first().map(|sample| sample.at).into_iter().collect();
             for pair in profile.samples.windows(2) {
-                flatten(&mut |part| pair[0].between(&pair[1], part), &mut places);
+                flatten(&mut |part| pair[0].between(&pair[1], part), self.off, &mut places);
             }
             if profile.is_closed {
                 places.pop();
@@ -123,7 +127,7 @@ impl Sheet<'_> {
         let scene = self.scene;
         for outline in &scene.outlines {
             let pose = self.poses[outline.frame];
-            for (places, is_closed) in polylines(&outline.path) {
+            for (places, is_closed) in polylines(&outline.path(self.off), self.off) {
                 let places: Vec<Vector> = places.into_iter().map(|place| pose.placed(place)).collect();
                 self.add(outline.declaration, &places, if is_closed { Kind::Closed } else { Kind::Open });
             }
@@ -134,7 +138,7 @@ impl Sheet<'_> {
         let scene = self.scene;
         for trace in &scene.traces {
             let places = match &trace.pen {
-                Pen::Point(anchor) => path(anchor, motion),
+                Pen::Point(anchor) => path(anchor, motion, self.off),
                 Pen::Columns { .. } => trace.path(motion),
             };
             self.add_stretches(trace.declaration, &places);
@@ -203,35 +207,40 @@ fn placed([x, y]: Vector) -> String {
     format!("10\n{}\n20\n{}\n30\n0.0\n", written(x), written(y))
 }
 
-/// The path of a point along the motion.
-fn path(anchor: &Anchor, motion: &Motion) -> Vec<Vector> {
+/// The path of a point along the motion, which may be so much off (m).
+fn path(anchor: &Anchor, motion: &Motion, off: f64) -> Vec<Vector> {
     let (mut poses, mut places) = (Vec::new(), vec![anchor.placed(motion.poses(0))]);
     for ends in motion.times.windows(2) {
         let mut at = |part: f64| {
             motion.write_poses(ends[0] + part * (ends[1] - ends[0]), &mut poses);
             anchor.placed(&poses)
         };
-        flatten(&mut at, &mut places);
+        flatten(&mut at, off, &mut places);
     }
     places
 }
 
 /// The places that a line from part 0 to part 1 takes as a polyline, without the first.
-fn flatten(of: &mut dyn FnMut(f64) -> Vector, places: &mut Vec<Vector>) {
+fn flatten(of: &mut dyn FnMut(f64) -> Vector, off: f64, places: &mut Vec<Vector>) {
     let (start, end) = (of(0.0), of(1.0));
-    halve(of, [(0.0, start), (1.0, end)], 0, places);
+    halve(of, [(0.0, start), (1.0, end)], (off, 0), places);
 }
 
-fn halve(of: &mut dyn FnMut(f64) -> Vector, ends: [(f64, Vector); 2], depth: u32, places: &mut Vec<Vector>) {
+fn halve(
+    of: &mut dyn FnMut(f64) -> Vector,
+    ends: [(f64, Vector); 2],
+    (off, depth): (f64, u32),
+    places: &mut Vec<Vector>,
+) {
     let [(from, start), (to, end)] = ends;
     let at = [0.25, 0.5, 0.75].map(|part| (from + part * (to - from), of(from + part * (to - from))));
-    let is_straight = at.iter().all(|(_, place)| from_chord(*place, [start, end]) <= 0.8 * OFF);
+    let is_straight = at.iter().all(|(_, place)| from_chord(*place, [start, end]) <= 0.8 * off);
     if is_straight || depth >= DEEPEST || !is_finite(start) || !is_finite(end) {
         places.push(end);
         return;
     }
-    halve(of, [ends[0], at[1]], depth + 1, places);
-    halve(of, [at[1], ends[1]], depth + 1, places);
+    halve(of, [ends[0], at[1]], (off, depth + 1), places);
+    halve(of, [at[1], ends[1]], (off, depth + 1), places);
 }
 
 /// How far a place is from a chord.
@@ -243,11 +252,11 @@ fn from_chord(place: Vector, [start, end]: [Vector; 2]) -> f64 {
     distance(along, times(part, way))
 }
 
-/// A path as polylines, and which of them are closed.
-fn polylines(path: &Path) -> Vec<(Vec<Vector>, bool)> {
+/// A path as polylines that may be so much off (m), and which of them are closed.
+fn polylines(path: &Path, off: f64) -> Vec<(Vec<Vector>, bool)> {
     match path {
         Path::Circle { at, radius } => {
-            let count = steps(*radius, TAU);
+            let count = steps(*radius, TAU, off);
             let place = |k: u32| plus(*at, polar(*radius, TAU * f64::from(k) / f64::from(count)));
             vec![((0..count).map(place).collect(), true)]
         }
@@ -258,14 +267,14 @@ fn polylines(path: &Path) -> Vec<(Vec<Vector>, bool)> {
                 let mut from = contour.start;
                 for segment in &contour.segments {
                     if let Segment::Arc { to, radius, is_left } = *segment {
-                        add_arc(&mut places, [from, to], radius, is_left);
+                        add_arc(&mut places, [from, to], (radius, is_left), off);
                     } else {
                         places.push(segment.end());
                     }
                     from = segment.end();
                 }
                 // a closed one says that it is
-                if contour.is_closed && places.len() > 1 && distance(contour.start, from) < OFF {
+                if contour.is_closed && places.len() > 1 && distance(contour.start, from) < off {
                     places.pop();
                 }
                 (places, contour.is_closed)
@@ -275,7 +284,7 @@ fn polylines(path: &Path) -> Vec<(Vec<Vector>, bool)> {
 }
 
 /// The places of an arc behind its first, no more than half a circle.
-fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_left: bool) {
+fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], (radius, is_left): (f64, bool), off: f64) {
     let (half, sign) = (0.5 * distance(from, to), if is_left { 1.0 } else { -1.0 });
     let way = minus(to, from);
     let middle = times(0.5, plus(from, to));
@@ -284,7 +293,7 @@ fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_le
     let center = plus(middle, across);
     let (first, last) = (direction(minus(from, center)), direction(minus(to, center)));
     let turn = (sign * (last - first)).rem_euclid(TAU);
-    let count = steps(radius, turn);
+    let count = steps(radius, turn, off);
     for k in 1..count {
         places.push(plus(center, polar(radius, first + sign * turn * f64::from(k) / f64::from(count))));
     }
@@ -292,8 +301,8 @@ fn add_arc(places: &mut Vec<Vector>, [from, to]: [Vector; 2], radius: f64, is_le
 }
 
 /// How many chords a turn takes.
-fn steps(radius: f64, turn: f64) -> u32 {
-    let each = (8.0 * OFF / radius.max(OFF)).sqrt().min(0.5);
+fn steps(radius: f64, turn: f64, off: f64) -> u32 {
+    let each = (8.0 * off / radius.max(off)).sqrt().min(0.5);
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss)] // clamped
     let count = crate::math::floor((turn / each).clamp(1.0, 1e5)) as u32 + 1;
     count.max(3)
@@ -309,7 +318,7 @@ mod tests {
         let circle = Path::Circle { at: [1.0, 2.0], radius: 0.05 };
         let arc = Path::arc([1.0, 2.0], 0.05, 0.3, 3.9);
         for (path, wanted) in [(circle, true), (arc, false)] {
-            let found = polylines(&path);
+            let found = polylines(&path, OFF);
             let [(places, is_closed)] = &found[..] else { panic!("{found:?}") };
             assert_eq!(*is_closed, wanted);
             for pair in places.windows(2) {
@@ -323,7 +332,7 @@ mod tests {
     #[test]
     fn curves_take_as_many_pieces_as_they_need() {
         let mut places = vec![[0.1, 0.0]];
-        flatten(&mut |part| polar(0.1, 1.5 * part), &mut places);
+        flatten(&mut |part| polar(0.1, 1.5 * part), OFF, &mut places);
         assert!((20..=1000).contains(&places.len()), "{}", places.len());
         for k in 0..=1000 {
             let place = polar(0.1, 1.5 * f64::from(k) / 1000.0);
@@ -331,7 +340,7 @@ mod tests {
             assert!(nearest <= OFF, "{nearest} off");
         }
         let mut straight = vec![[0.0, 0.0]];
-        flatten(&mut |part| [part, 2.0 * part], &mut straight);
+        flatten(&mut |part| [part, 2.0 * part], OFF, &mut straight);
         assert_eq!(straight.len(), 2);
     }
 }

@@ -1,5 +1,7 @@
 //! A film: a picture of each row, each with its number in its name.
 
+use crate::cli::failure::{Failure, unusable};
+
 /// The names of a film's pictures: what stands before and behind the number, which has so many digits at least.
 pub(super) struct Frames {
     before: String,
@@ -9,7 +11,22 @@ pub(super) struct Frames {
 
 impl Frames {
     /// Of a file's name with one `%d`, or `%04d`, in it.
-    pub fn of(output: &str) -> Option<Frames> {
+    ///
+    /// # Errors
+    /// There are two.
+    pub fn of(output: &str) -> Result<Option<Frames>, Failure> {
+        match Frames::last_of(output) {
+            Some(frames)
+                if frames.before.split(std::path::is_separator).any(|part| Frames::last_of(part).is_some()) =>
+            {
+                let said = format!("`{output}` has more than one number in it");
+                Err(unusable(said).help("one is counted, as in `frames/%04d.svg`").into())
+            }
+            frames => Ok(frames),
+        }
+    }
+
+    fn last_of(output: &str) -> Option<Frames> {
         let (before, rest) = output.rsplit_once('%')?;
         let (digits, behind) = rest.split_once('d')?;
         let has_digits = digits.is_empty() || (digits.starts_with('0') && digits.bytes().all(|c| c.is_ascii_digit()));
@@ -43,8 +60,13 @@ mod tests {
             ("%02d/a.svg", None),
             ("a.svg", None),
         ] {
-            assert_eq!(Frames::of(output).map(|frames| frames.name(7)).as_deref(), wanted, "{output}");
+            let frames = Frames::of(output).expect("one at most");
+            assert_eq!(frames.map(|frames| frames.name(7)).as_deref(), wanted, "{output}");
         }
-        assert_eq!(Frames::of("%02d.svg").map(|frames| frames.name(12_345)).as_deref(), Some("12345.svg"));
+        let frames = Frames::of("%02d.svg").expect("one");
+        assert_eq!(frames.map(|frames| frames.name(12_345)).as_deref(), Some("12345.svg"));
+        for twice in ["%d_%d.svg", "f%03d/%02d.svg", "%d%d.svg"] {
+            assert!(Frames::of(twice).is_err(), "{twice}");
+        }
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     if !arguments.vary.is_empty() {
         return variants::view(arguments, output, reporter);
     }
-    let frames = Frames::of(output).filter(|_| form == Form::Picture);
+    let frames = Frames::of(output)?.filter(|_| form == Form::Picture);
     let given = &arguments.input;
     let parsed = input::parsed(given, reporter)?;
     // see `run`: nothing is taken apart before the process ends
@@ -67,7 +67,6 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
         (seen, said) => reporter.settle(seen, said)?,
     };
     let is_alone = target.leave_alone(&mut seen)?;
-    let pictured = wanted::pictured(arguments, &seen)?;
     let (moments, stopped) = match listed.filter(|_| !is_alone && form != Form::Page) {
         None => (None, seen.stopped.clone()),
         Some(times) => {
@@ -75,6 +74,11 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
             (Some(motion), stopped)
         }
     };
+    if stopped.is_none() && seen.stopped.take().is_some() {
+        // what was asked for is all there, and nothing is wrong with it
+        seen.scene.name_nothing();
+    }
+    let pictured = wanted::pictured(arguments, &seen)?;
     let drawn = Drawn { seen: &seen, moments: moments.as_ref(), pictured: &pictured };
     target.write(file, &drawn, reporter)?;
     let is_without_arrows = arguments.vectors && !svg::has_vectors(&seen.scene, &pictured.traces, &seen.motion);
@@ -227,5 +231,13 @@ fn moments(
     let (found, said) = checked.moments(compiled, times, options);
     let Some((motion, stopped)) = found else { return Err(said.into()) };
     let last = seen.motion.len().saturating_sub(1);
-    Ok(if motion.is_empty() { (seen.motion.moment(last), stopped) } else { (motion, stopped) })
+    match seen.motion.times.get(last) {
+        // it is shown up to where it stops
+        Some(last) if stopped.is_some() && motion.times.last().is_none_or(|shown| shown < last) => {
+            let shown = motion.times.iter().copied().chain([*last]).collect();
+            let (found, _) = checked.moments(compiled, &Times::listed(times.from(), shown), options);
+            Ok((found.map_or(motion, |(motion, _)| motion), stopped))
+        }
+        _ => Ok((motion, stopped)),
+    }
 }

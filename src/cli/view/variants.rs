@@ -38,7 +38,12 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
     match &variants[first].stopped {
         Some((sources, why)) => {
             reporter.sources = sources.clone();
-            Err(why.clone().into())
+            let with = solver.settings(first).join(", ");
+            let told =
+                why.iter().cloned().map(|why| if is_error(&why) { why.note(format!("with {with}")) } else { why });
+            let mut said = Diagnostics::default();
+            said.extend(told);
+            Err(said.into())
         }
         None => Ok(()),
     }

@@ -1,6 +1,5 @@
 //! Traces: smooth curves through the rows, by places and velocities.
 
-use super::nodes::PIXELS;
 use super::picture::Picture;
 use super::style::TRACE_COLORS;
 use crate::scene::{Anchor, Motion, Pen, Vector, distance, is_finite, minus, plus, times};
@@ -53,7 +52,7 @@ impl Picture<'_> {
         };
         let places: Vec<Vector> = (0..motion.len()).map(place).collect();
         let velocities: Vec<Vector> = (0..motion.len()).map(velocity).collect();
-        curve(&places, &velocities, &motion.times)
+        curve(&places, &velocities, &motion.times, self.pixels)
     }
 
     /// A path of which nothing but places is known; with gaps where there is none.
@@ -69,7 +68,7 @@ impl Picture<'_> {
             if is_down && distance(at, last) < 2.0 * OFF {
                 continue;
             }
-            text += &format!("{}{}", if is_down { "L" } else { "M" }, pair(at));
+            text += &format!("{}{}", if is_down { "L" } else { "M" }, pair(at, self.pixels));
             (is_down, last) = (true, at);
         }
         text
@@ -77,7 +76,8 @@ impl Picture<'_> {
 }
 
 /// A smooth curve through places (px) with velocities (px/s) at times (s), in as few pieces as it takes.
-fn curve(places: &[Vector], velocities: &[Vector], times_of: &[f64]) -> String {
+fn curve(places: &[Vector], velocities: &[Vector], times_of: &[f64], decimals: usize) -> String {
+    let pair = |place| pair(place, decimals);
     let Some(first) = places.first() else { return String::new() };
     let handles = |from: usize, to: usize| {
         let third = (times_of[to] - times_of[from]) / 3.0;
@@ -111,8 +111,8 @@ fn curve(places: &[Vector], velocities: &[Vector], times_of: &[f64]) -> String {
     if has_moved { text } else { String::new() }
 }
 
-fn pair([x, y]: Vector) -> String {
-    format!("{} {}", number(x, PIXELS), number(y, PIXELS))
+fn pair([x, y]: Vector, decimals: usize) -> String {
+    format!("{} {}", number(x, decimals), number(y, decimals))
 }
 
 #[cfg(test)]
@@ -126,9 +126,9 @@ mod tests {
         let places: Vec<[f64; 2]> = rows.iter().map(|t| crate::scene::polar(100.0, turn(t))).collect();
         let velocities: Vec<[f64; 2]> =
             rows.iter().map(|t| crate::scene::polar(200.0 * std::f64::consts::PI, turn(t) + turn(&0.25))).collect();
-        let d = curve(&places, &velocities, &rows);
+        let d = curve(&places, &velocities, &rows, 2);
         let pieces = d.matches('C').count();
         assert!((4..=10).contains(&pieces), "{pieces} pieces: {d}");
-        assert!(curve(&[[1.0, 1.0]; 5], &[[0.0; 2]; 5], &rows[..5]).is_empty(), "what rests has no path");
+        assert!(curve(&[[1.0, 1.0]; 5], &[[0.0; 2]; 5], &rows[..5], 2).is_empty(), "what rests has no path");
     }
 }

@@ -1,8 +1,9 @@
 //! The motion as keyframes: each frame that moves has a track, with no more keys than it takes to keep all its places where they belong,
 //! between the keys too.
 
-use super::nodes::{DEGREES, PIXELS, degrees};
+use super::nodes::degrees;
 use super::picture::Picture;
+use super::picture::{DEGREES, PIXELS};
 use crate::scene::{Held, Motion, Node, Place, Pose, Vector, distance, times};
 use crate::view::text::number;
 use rustc_hash::FxHashMap;

@@ -2,7 +2,7 @@
 //! shown, and on lines only where there is no room beside them. One that finds no place is left out; bodies tell their names as titles too.
 
 use super::letters::{COLUMN, columns, letters};
-use super::nodes::PIXELS;
+use super::picture::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Held, Look, Node, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};

@@ -6,10 +6,6 @@ use crate::scene::{Held, Look, Motion, Node, Path, Place, Pose, Shape, Vector};
 use crate::view::path::written;
 use crate::view::text::{escaped, number};
 
-/// Decimals of pixels, and of degrees.
-pub(super) const PIXELS: usize = 2;
-pub(super) const DEGREES: usize = 3;
-
 impl Picture<'_> {
     /// A moment; with ids and the ground if it is the one that stands out. The ground, which all share, is above the pale ones.
     pub fn add_moment(&mut self, moments: &Motion, row: usize, stands_out: bool) {
@@ -32,7 +28,7 @@ impl Picture<'_> {
         let mut transform = String::new();
         if node.place != Place::Fixed(0) {
             let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
-            let stretched = || format!(" scale({} 1)", number(stretch * self.scale, PIXELS));
+            let stretched = || format!(" scale({} 1)", number(stretch * self.scale, self.pixels));
             let scale = if is_stretched { stretched() } else { String::new() };
             transform = format!(" transform=\"{}{scale}\"", self.transform(&pose));
         }
@@ -42,9 +38,9 @@ impl Picture<'_> {
     /// The attribute that puts what is drawn around a frame's origin in its place.
     pub fn transform(&self, pose: &Pose) -> String {
         let [x, y] = self.placed(pose.at);
-        let turn = number(degrees(pose.phi), DEGREES);
+        let turn = number(degrees(pose.phi), self.degrees);
         let turn = if turn == "0" { String::new() } else { format!(" rotate({turn})") };
-        format!("translate({} {}){turn}", number(x, PIXELS), number(y, PIXELS))
+        format!("translate({} {}){turn}", number(x, self.pixels), number(y, self.pixels))
     }
 
     /// A node's shapes in a group, which is where `attributes` say; `origin` (m) is where the group's own origin is among them.
@@ -123,12 +119,12 @@ impl Picture<'_> {
         };
         let text = match &shape.path {
             Path::Circle { at, radius } => {
-                let [x, y] = placed(*at).map(|part| number(part, PIXELS));
+                let [x, y] = placed(*at).map(|part| number(part, self.pixels));
                 let center = if x == "0" && y == "0" { String::new() } else { format!(" cx=\"{x}\" cy=\"{y}\"") };
-                format!("<circle class=\"{class}\"{point}{center} r=\"{}\"/>", number(scale * radius, PIXELS))
+                format!("<circle class=\"{class}\"{point}{center} r=\"{}\"/>", number(scale * radius, self.pixels))
             }
             path @ Path::Lines(_) => {
-                let d = written(path, &placed, scale, PIXELS);
+                let d = written(path, &placed, scale, self.pixels);
                 format!("<path class=\"{class}\"{point} d=\"{d}\"/>")
             }
         };

@@ -21,6 +21,11 @@ const LARGEST_UNIT: f64 = 30.0;
 /// Pixels in a metre of paper, and millimetres of paper in a pixel.
 const PER_METER: f64 = 96.0 / 0.0254;
 const MILLIMETERS: f64 = 25.4 / 96.0;
+/// Decimals of pixels, and of degrees.
+pub(super) const PIXELS: usize = 2;
+pub(super) const DEGREES: usize = 3;
+/// Decimals of pixels where paper is cut: 1e-4 px are 0.03 µm.
+const PIXELS_TO_CUT: usize = 4;
 
 pub(super) struct Picture<'s> {
     pub scene: &'s Scene,
@@ -32,6 +37,9 @@ pub(super) struct Picture<'s> {
     pub said: Lines,
     /// Pixels in a metre.
     pub scale: f64,
+    /// Decimals of pixels and of degrees: of what is cut, as many as are a thirtieth of a micrometre of paper.
+    pub pixels: usize,
+    pub degrees: usize,
     /// Which place (m) is in the middle.
     middle: Vector,
     pub used: Used,
@@ -40,6 +48,20 @@ pub(super) struct Picture<'s> {
     /// How many tracks there are.
     pub tracks: usize,
     pub ids: rustc_hash::FxHashSet<String>,
+}
+
+/// Decimals of degrees by which what is as large as a picture (px) is turned to the last decimal of its pixels.
+fn degrees_to_cut([width, height]: [f64; 2]) -> usize {
+    let mut decimals = DEGREES;
+    let mut off = (width * width + height * height).sqrt().to_radians();
+    for _ in 0..DEGREES {
+        off *= 0.1;
+    }
+    while off > 1e-4 {
+        off *= 0.1;
+        decimals += 1;
+    }
+    decimals
 }
 
 impl<'s> Picture<'s> {
@@ -83,6 +105,8 @@ impl<'s> Picture<'s> {
             margin,
             said,
             scale,
+            pixels: if options.scale.is_some() { PIXELS_TO_CUT } else { PIXELS },
+            degrees: if options.scale.is_some() { degrees_to_cut(size) } else { DEGREES },
             middle,
             used,
             rules,
@@ -147,8 +171,8 @@ impl<'s> Picture<'s> {
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}{word}\" height=\"{height}{word}\" viewBox=\"0 0 {width} {height}\" role=\"img\" \
              aria-labelledby=\"title\" data-scale=\"{}\" data-origin=\"{} {}\">\n<title id=\"title\">{}</title>\n",
             if self.options.scale.is_some() { each * self.scale } else { self.scale },
-            number(origin[0], 3),
-            number(origin[1], 3),
+            number(origin[0], self.pixels + 1),
+            number(origin[1], self.pixels + 1),
             escaped(&self.scene.name)
         );
         let mut told = self.scene.docs.join("\n").trim().to_owned();

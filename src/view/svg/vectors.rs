@@ -1,7 +1,7 @@
 //! Velocities and accelerations at pins and traced points, as arrows.
 
 use super::keyframes::{Key, Track};
-use super::nodes::PIXELS;
+use super::picture::PIXELS;
 use super::picture::Picture;
 use crate::scene::{Anchor, Motion, Pen, Point, Scene, Vector, direction, distance, length, minus, plus, times};
 use crate::view::text::{escaped, number};
