@@ -119,6 +119,7 @@ impl Scene {
     /// Takes away what shows what messages name.
     pub fn name_nothing(&mut self) {
         self.named.clear();
+        self.remarks.clear();
         self.nodes.retain(|node| node.shapes.iter().any(|shape| shape.look != Look::Named));
     }
 
