@@ -121,7 +121,8 @@ fn what_is_ignored_stays_ignored() {
     assert!(hung_up.success());
     sleep(Duration::from_millis(200));
     assert!(child.try_wait().expect("a state").is_none(), "a hang-up was to be ignored");
-    assert_eq!(interrupt(&mut child, 2).code(), Some(130));
+    // who runs the tests may ignore what a keyboard sends
+    assert_eq!(interrupt(&mut child, 15).code(), Some(143));
     assert!(inside(folder.path()) == before);
 }
 
