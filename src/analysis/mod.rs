@@ -154,11 +154,22 @@ pub fn nearest(
     estimates: Option<&[f64]>,
     cancel: &Cancel,
 ) -> Option<Vec<f64>> {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, TOLERANCE, cancel.clone());
+    let mut kinematics = kinematics((determined, program), horizon, estimates, (TOLERANCE, cancel));
+    assembly::nearest(&mut kinematics, horizon.from)
+}
+
+/// A mechanism before it is assembled, which begins at estimates.
+fn kinematics(
+    (determined, program): (Arc<Determined>, Arc<Program>),
+    horizon: Horizon,
+    estimates: Option<&[f64]>,
+    (tolerance, cancel): (f64, &Cancel),
+) -> Kinematics {
+    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
     if let Some(estimates) = estimates {
         kinematics.begin_from(estimates);
     }
-    assembly::nearest(&mut kinematics, horizon.from)
+    kinematics
 }
 
 fn started(
@@ -168,10 +179,7 @@ fn started(
     (tolerance, cancel): (f64, &Cancel),
     solver: impl FnOnce(&Kinematics) -> Option<Solver>,
 ) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
-    if let Some(estimates) = estimates {
-        kinematics.begin_from(estimates);
-    }
+    let mut kinematics = kinematics((determined, program), horizon, estimates, (tolerance, cancel));
     let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();
@@ -296,11 +304,10 @@ pub enum ColumnKind {
 pub(crate) fn kinds(system: &ConstraintSystem) -> Vec<ColumnKind> {
     let mut kinds = vec![ColumnKind::Time];
     let of_bodies = 3 * system.bodies.len();
-    let is_there = |order: usize, of: &Measure| [true, of.first.is_some(), of.second.is_some()][order];
     for order in 0..3 {
         let kind = |k: usize| if k < of_bodies { ColumnKind::Body } else { ColumnKind::Joint };
         kinds.extend((0..system.coordinates.len()).map(kind));
-        let measures = system.measures.iter().filter(|of| is_there(order, of));
+        let measures = system.measures.iter().filter(|of| of.has(order));
         kinds.extend(measures.map(|_| if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate }));
     }
     kinds.extend(system.appended().iter().map(|_| ColumnKind::Variation));
@@ -316,8 +323,7 @@ pub(crate) fn units(system: &ConstraintSystem) -> Vec<ColumnUnit> {
             unit => unit,
         });
         units.extend(coordinates.map(|unit| ColumnUnit::si(unit.to_owned() + per)));
-        let is_there = |measure: &&Measure| [true, measure.first.is_some(), measure.second.is_some()][order];
-        let measures = system.measures.iter().filter(is_there);
+        let measures = system.measures.iter().filter(|of| of.has(order));
         let unit = |of: &Measure| ColumnUnit { text: of.units.printed[order].clone(), scale: of.units.scale };
         units.extend(measures.map(unit));
     }

@@ -282,6 +282,14 @@ pub struct Measure {
     pub units: Units,
 }
 
+impl Measure {
+    /// Whether it has a value (0), a first time derivative (1), a second one (2).
+    #[must_use]
+    pub fn has(&self, order: usize) -> bool {
+        [true, self.first.is_some(), self.second.is_some()][order]
+    }
+}
+
 /// The units of a measure and of its derivatives.
 #[derive(Clone, Debug)]
 pub struct Units {
