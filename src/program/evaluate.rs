@@ -109,10 +109,11 @@ impl Program {
             _ => registers.frozen.motion,
         };
         let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
-        for op in self.stage(stage) {
-            if !(frozen && op.switched().is_some()) {
-                op.run(&mut numbers);
-            }
+        if frozen {
+            let moving = self.stage(stage).iter().filter(|op| op.switched().is_none());
+            moving.for_each(|op| op.run(&mut numbers));
+        } else {
+            self.stage(stage).iter().for_each(|op| op.run(&mut numbers));
         }
     }
 }

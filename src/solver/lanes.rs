@@ -151,55 +151,49 @@ impl<const W: usize> Run<'_, W> {
     }
 
     fn instructions(&mut self, range: Range<usize>) {
+        let Lanes { values, multiplier, residual, .. } = &mut *self.lanes;
+        let (batch, stride) = (self.batch, self.solver.layout.stride);
+        let mut numbers = Numbers { v: values.as_mut_slice(), program: self.program, scalars: self.scalars };
         for instruction in &self.solver.instructions[range] {
             match *instruction {
-                Instruction::Compute(op) => {
-                    let v = self.lanes.values.as_mut_slice();
-                    op.run(&mut Numbers { v, program: self.program, scalars: self.scalars });
+                Instruction::Compute(op) => op.run(&mut numbers),
+                Instruction::Number { to, bits } => numbers.write(to, [from_bits(bits); W]),
+                Instruction::Load { to, from } => numbers.write(to, [self.scalars.get(from); W]),
+                Instruction::Time { to } => numbers.write(to, batch.times),
+                Instruction::Column { to, column } => {
+                    let rows = self.rows.chunks_exact(stride);
+                    for (value, row) in numbers.v[to as usize].0.iter_mut().zip(rows) {
+                        *value = row[column as usize];
+                    }
                 }
-                Instruction::Number { to, bits } => self.lanes.values[to as usize] = Vector([from_bits(bits); W]),
-                Instruction::Load { to, from } => self.lanes.values[to as usize] = Vector([self.scalars.get(from); W]),
-                Instruction::Time { to } => self.lanes.values[to as usize] = Vector(self.batch.times),
-                Instruction::Column { to, column } => self.read_column(to, column),
-                Instruction::Store { column, a } => self.store(column, a),
-                Instruction::Curve { to, tear } => self.guess(to, tear),
+                Instruction::Store { column, a } => {
+                    let rows = self.rows.chunks_exact_mut(stride);
+                    for (value, row) in numbers.v[a as usize].0.iter().zip(rows) {
+                        // −0 would surprise a reader
+                        row[column as usize] = value + 0.0;
+                    }
+                }
+                Instruction::Curve { to, tear } => numbers.write(to, batch.on_curve(self.solver, tear)),
                 Instruction::Multiplier { to, a, b, weight } => {
-                    let v = self.lanes.values.as_mut_slice();
-                    Op::Mul { to, a, b }.run(&mut Numbers { v, program: self.program, scalars: self.scalars });
-                    let weight = self.solver.weights[weight as usize];
-                    keep_largest(&mut self.lanes.multiplier, &self.lanes.values[to as usize].0, weight);
+                    Op::Mul { to, a, b }.run(&mut numbers);
+                    keep_largest(multiplier, &numbers.v[to as usize].0, self.solver.weights[weight as usize]);
                 }
                 Instruction::Residual { a, row } => {
-                    let bound = self.batch.bounds[row as usize];
-                    keep_largest(&mut self.lanes.residual, &self.lanes.values[a as usize].0, bound);
+                    keep_largest(residual, &numbers.v[a as usize].0, batch.bounds[row as usize]);
                 }
                 Instruction::Pivot { .. } => {}
             }
         }
     }
+}
 
-    fn read_column(&mut self, to: Register, column: u32) {
-        let rows = self.rows.chunks_exact(self.solver.layout.stride);
-        for (value, row) in self.lanes.values[to as usize].0.iter_mut().zip(rows) {
-            *value = row[column as usize];
-        }
-    }
-
-    fn store(&mut self, column: u32, a: Register) {
-        let rows = self.rows.chunks_exact_mut(self.solver.layout.stride);
-        for (value, row) in self.lanes.values[a as usize].0.iter().zip(rows) {
-            // −0 would surprise a reader
-            row[column as usize] = value + 0.0;
-        }
-    }
-
+impl<const W: usize> Batch<'_, W> {
     /// Where Newton begins with a tear: on the curve of the step.
-    fn guess(&mut self, to: Register, tear: u32) {
-        let curve = &self.batch.curve[self.solver.tears[tear as usize] as usize];
-        let bend = self.batch.bends.get(tear as usize).unwrap_or(&Bend::NONE);
-        let (from, per_second) = (self.batch.from, 1.0 / self.batch.length);
-        let on_curve = self.batch.times.map(|t| bend.on_curve(curve, (t - from) * per_second));
-        self.lanes.values[to as usize] = Vector(on_curve);
+    fn on_curve(&self, solver: &Solver, tear: u32) -> [f64; W] {
+        let curve = &self.curve[solver.tears[tear as usize] as usize];
+        let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
+        let per_second = 1.0 / self.length;
+        self.times.map(|t| bend.on_curve(curve, (t - self.from) * per_second))
     }
 }
 
