@@ -141,6 +141,24 @@ pub trait Machine {
     fn sub(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
     fn mul(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
     fn div(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// `a b + c`, each rounded.
+    #[inline]
+    fn mul_add(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.add(product, c)
+    }
+    /// `a b − c`, each rounded.
+    #[inline]
+    fn mul_less(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(product, c)
+    }
+    /// `c − a b`, each rounded.
+    #[inline]
+    fn less_mul(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(c, product)
+    }
     fn neg(&mut self, a: Self::Value) -> Self::Value;
     fn recip(&mut self, a: Self::Value) -> Self::Value;
     /// Sine and cosine.
@@ -179,24 +197,9 @@ impl Op {
             Op::Sub { to, a, b } => of!(to = sub(a, b)),
             Op::Mul { to, a, b } => of!(to = mul(a, b)),
             Op::Div { to, a, b } => of!(to = div(a, b)),
-            Op::MulAdd { to, a, b, c } => {
-                let [a, b, c] = [a, b, c].map(|register| m.read(register));
-                let product = m.mul(a, b);
-                let value = m.add(product, c);
-                m.write(to, value);
-            }
-            Op::MulLess { to, a, b, c } => {
-                let [a, b, c] = [a, b, c].map(|register| m.read(register));
-                let product = m.mul(a, b);
-                let value = m.sub(product, c);
-                m.write(to, value);
-            }
-            Op::LessMul { to, a, b, c } => {
-                let [a, b, c] = [a, b, c].map(|register| m.read(register));
-                let product = m.mul(a, b);
-                let value = m.sub(c, product);
-                m.write(to, value);
-            }
+            Op::MulAdd { to, a, b, c } => of!(to = mul_add(a, b, c)),
+            Op::MulLess { to, a, b, c } => of!(to = mul_less(a, b, c)),
+            Op::LessMul { to, a, b, c } => of!(to = less_mul(a, b, c)),
             Op::Neg { to, a } => of!(to = neg(a)),
             Op::Recip { to, a } => of!(to = recip(a)),
             Op::SinCos { sin, cos, a } => {

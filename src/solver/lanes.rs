@@ -238,6 +238,23 @@ impl<const W: usize> Machine for Numbers<'_, W> {
         from_fn(|k| a[k] / b[k])
     }
 
+    // in one go, so that no lane's product is put away
+
+    #[inline(always)]
+    fn mul_add(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] * b[k] + c[k])
+    }
+
+    #[inline(always)]
+    fn mul_less(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] * b[k] - c[k])
+    }
+
+    #[inline(always)]
+    fn less_mul(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| c[k] - a[k] * b[k])
+    }
+
     #[inline(always)]
     fn neg(&mut self, a: [f64; W]) -> [f64; W] {
         a.map(|a| -a)
