@@ -11,7 +11,7 @@ use super::kinematics::Fault;
 use super::march::Motion;
 use super::singular;
 use crate::diag::Diagnostic;
-use crate::ir::CoordinateKind;
+use crate::ir::{CoordinateKind, DeclarationId};
 use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use crate::tolerances::steps::edges::{
     AHEAD, AT_REST, FARTHEST_AHEAD, FINEST, FINEST_BETWEEN, ITERATIONS, LAST_DIGITS, LONGEST_AHEAD, LONGEST_REST,
@@ -470,7 +470,7 @@ impl Motion {
     }
 
     /// The declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
-    fn declarations_behind(&self, jump: Jump) -> Vec<usize> {
+    fn declarations_behind(&self, jump: Jump) -> Vec<DeclarationId> {
         let system = self.kinematics.system();
         let open = |row: usize| {
             let (velocity, acceleration) = self.kinematics.left_open(row, &self.before);
@@ -483,7 +483,7 @@ impl Motion {
         };
         let open: Vec<f64> = (0..system.rows.len()).map(open).collect();
         let widest = open.iter().copied().fold(0.0, f64::max);
-        let mut behind: Vec<usize> = (0..open.len())
+        let mut behind: Vec<DeclarationId> = (0..open.len())
             .filter(|&row| open[row] > TAKES_PART * widest)
             .map(|row| system.rows[row].declaration)
             .collect();

@@ -57,7 +57,7 @@ pub use times::{Horizon, Times};
 
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, Measure, Outcome, ReductionKind};
+use crate::ir::{ConstraintSystem, Measure, Outcome, Owner, ReductionKind};
 use crate::program::Program;
 use crate::solver::Solver;
 use crate::structure::Determined;
@@ -303,10 +303,11 @@ pub enum ColumnKind {
 /// What a result's columns hold, in the order of [`columns`].
 pub(crate) fn kinds(system: &ConstraintSystem) -> Vec<ColumnKind> {
     let mut kinds = vec![ColumnKind::Time];
-    let of_bodies = 3 * system.bodies.len();
     for order in 0..3 {
-        let kind = |k: usize| if k < of_bodies { ColumnKind::Body } else { ColumnKind::Joint };
-        kinds.extend((0..system.coordinates.len()).map(kind));
+        kinds.extend(system.coordinates.iter().map(|coordinate| match coordinate.owner {
+            Owner::Body(_) => ColumnKind::Body,
+            Owner::Joint(_) => ColumnKind::Joint,
+        }));
         let measures = system.measures.iter().filter(|of| of.has(order));
         kinds.extend(measures.map(|_| if order == 0 { ColumnKind::Measure } else { ColumnKind::Rate }));
     }

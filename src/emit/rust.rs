@@ -11,7 +11,7 @@ use super::solution::Solution;
 use super::tables::{Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
-use crate::ir::{Measure, Owner, Units};
+use crate::ir::{Measure, Units};
 use crate::program::{Column, Register, Rim, STAGES};
 use crate::solver::RowLayout;
 use crate::source::Span;
@@ -261,14 +261,10 @@ impl Writer<'_> {
         }
         let names = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str()));
         let (mut variants, mut arms) = (String::new(), String::new());
-        for (k, (body, name)) in system.bodies.iter().zip(&names).enumerate() {
+        for ((id, body), name) in system.bodies.pairs().zip(&names) {
             variants += &format!("    /// `{}`{}\n    {name},\n", body.name, self.line(body.span));
-            let first = system.coordinates.iter().position(|c| c.owner == Owner::Body(k)).unwrap_or(0);
-            arms += &format!(
-                "            Body::{name} => Self {{ x: q[{first}], y: q[{}], phi: q[{}] }},\n",
-                first + 1,
-                first + 2
-            );
+            let [x, y, phi] = system.pose_of(id);
+            arms += &format!("            Body::{name} => Self {{ x: q[{x}], y: q[{y}], phi: q[{phi}] }},\n");
         }
         format!(
             "/// The bodies.\n#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum Body {{\n{variants}}}\n\n\

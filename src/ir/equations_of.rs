@@ -8,7 +8,7 @@ impl ConstraintSystem {
     /// each. Nothing where no declaration of that name wrote any.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let declaration = self.declarations.iter().position(|declaration| declaration.name == name)?;
+        let declaration = self.declarations.find(|declaration| declaration.name == name)?;
         let rows: Vec<usize> = (0..self.rows.len()).filter(|&row| self.rows[row].declaration == declaration).collect();
         let of = |list: &[ExprId]| rows.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
         let phi: Vec<ExprId> = rows.iter().map(|&row| self.rows[row].phi).collect();

@@ -21,6 +21,7 @@
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 
 mod equations_of;
+mod ids;
 mod print;
 mod results;
 mod rims;
@@ -28,6 +29,8 @@ mod scopes;
 mod signals;
 mod variations;
 
+pub use crate::vocabulary::JointKind;
+pub use ids::{BodyId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use rims::Rim;
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
@@ -60,13 +63,13 @@ pub struct ConstraintSystem {
     /// How equations that were left out change, where one of the two is there.
     pub check_slopes: CheckSlopes,
     /// The bodies, each with three coordinates; those of the joints come after them.
-    pub bodies: Vec<Body>,
+    pub bodies: IdVec<BodyId, Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
-    pub points: Vec<Point>,
+    pub points: IdVec<PointId, Point>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
-    pub declarations: Vec<Declaration>,
+    pub declarations: IdVec<DeclarationId, Declaration>,
     /// The entries of `Φ`.
     pub rows: Vec<Row>,
     /// `Φ_q`, by rows.
@@ -150,13 +153,15 @@ pub struct Body {
     pub span: Span,
     /// Where its pose is written, if it is.
     pub pose_span: Option<Span>,
+    /// Its coordinates: x, y, phi.
+    pub pose: [usize; 3],
 }
 
 /// A point fixed in a body or in the ground.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Index of its body; none for the ground.
-    pub body: Option<usize>,
+    /// Its body; none for the ground.
+    pub body: Option<BodyId>,
     /// Its name; a literal point has none.
     pub name: Option<String>,
     /// In the frame of its body (m); holds parameters only.
@@ -187,12 +192,12 @@ impl CoordinateKind {
 }
 
 /// Whose a coordinate is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Owner {
-    /// A body, by its index.
-    Body(usize),
-    /// A joint, by the index of its declaration.
-    Joint(usize),
+    /// A body.
+    Body(BodyId),
+    /// A joint, by its declaration.
+    Joint(DeclarationId),
 }
 
 /// A generalized coordinate.
@@ -213,8 +218,8 @@ pub struct Coordinate {
 /// What kind of declaration wrote a row.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum DeclarationKind {
-    /// A joint, by its word.
-    Joint(&'static str),
+    /// A joint.
+    Joint(JointKind),
     /// A constraint.
     Constraint,
     /// A driver.
@@ -244,10 +249,10 @@ pub struct Declaration {
     pub kind: DeclarationKind,
     /// How many rows it wrote.
     pub rows: usize,
-    /// Where it takes hold: indices of points, one for each of its two bodies where there is one.
-    pub points: Vec<usize>,
-    /// All points that its equations speak of, by their indices.
-    pub features: Vec<usize>,
+    /// Where it takes hold: one point for each of its two bodies where there is one.
+    pub points: Vec<PointId>,
+    /// All points that its equations speak of.
+    pub features: Vec<PointId>,
     /// The axes that it joins, as they are written.
     pub axes: Vec<String>,
     /// Where the two sides of an equation are written.
@@ -259,8 +264,8 @@ pub struct Declaration {
 /// An equation.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Index of the declaration that wrote it.
-    pub declaration: usize,
+    /// The declaration that wrote it.
+    pub declaration: DeclarationId,
     /// The entry of `Φ` [m, m² or rad].
     pub phi: ExprId,
 }
@@ -319,8 +324,8 @@ pub struct Condition {
 pub struct Check {
     /// The entry of `Φ` [m, m² or rad].
     pub phi: ExprId,
-    /// Index of the declaration that wrote it.
-    pub declaration: usize,
+    /// The declaration that wrote it.
+    pub declaration: DeclarationId,
     /// Its norm in the scaled `Φ_q` at the start.
     pub scale: f64,
 }
@@ -334,8 +339,8 @@ pub struct Watch {
     pub kind: WatchKind,
     /// What it is judged against.
     pub scale: f64,
-    /// Index of the joint's declaration.
-    pub declaration: usize,
+    /// The joint's declaration.
+    pub declaration: DeclarationId,
 }
 
 /// What a [`Watch`] looks at.
@@ -367,7 +372,9 @@ pub struct PartStart {
     /// Whether its text is mirrored.
     pub is_mirrored: bool,
     /// Its bodies.
-    pub bodies: Range<usize>,
+    pub bodies: Vec<BodyId>,
+    /// The coordinates of these.
+    pub poses: Range<usize>,
     /// The coordinates that its joints bring along.
     pub own: Range<usize>,
 }
@@ -381,8 +388,8 @@ pub struct Fit {
     pub wanted: ExprId,
     /// The larger radius (m).
     pub radius: ExprId,
-    /// Index of the joint's declaration.
-    pub declaration: usize,
+    /// The joint's declaration.
+    pub declaration: DeclarationId,
 }
 
 /// What a condition is about.
@@ -528,16 +535,29 @@ impl ConstraintSystem {
 
     /// The body that a coordinate is of, if it is of a body.
     #[must_use]
-    pub fn body_of(&self, coordinate: usize) -> Option<usize> {
+    pub fn body_of(&self, coordinate: usize) -> Option<BodyId> {
         match self.coordinates[coordinate].owner {
             Owner::Body(body) => Some(body),
             Owner::Joint(_) => None,
         }
     }
 
+    /// The coordinates of a body: x, y, phi.
+    #[must_use]
+    pub fn pose_of(&self, body: BodyId) -> [usize; 3] {
+        self.bodies[body].pose
+    }
+
+    /// The size of a body (m): what a change of its place is judged against.
+    #[must_use]
+    pub fn size_of(&self, body: BodyId) -> f64 {
+        let [x, ..] = self.pose_of(body);
+        self.coordinates[x].scale
+    }
+
     /// How a point is written, `rod.pin`; a literal one has no name.
     #[must_use]
-    pub fn point_name(&self, point: usize) -> Option<String> {
+    pub fn point_name(&self, point: PointId) -> Option<String> {
         let point = &self.points[point];
         let owner = point.body.map_or("ground", |body| self.bodies[body].name.as_str());
         point.name.as_ref().map(|name| format!("{owner}.{name}"))

@@ -81,7 +81,7 @@ impl ConstraintSystem {
         writeln!(f, "\nwritten by")?;
         for declaration in &self.declarations {
             let kind = match declaration.kind {
-                DeclarationKind::Joint(word) => format!("joint, {word}"),
+                DeclarationKind::Joint(joint) => format!("joint, {}", joint.word()),
                 other => other.noun().to_owned(),
             };
             writeln!(f, "  {}: {kind}", declaration.name)?;

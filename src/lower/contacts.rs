@@ -21,7 +21,7 @@ impl Lowering<'_> {
         let index = self.coordinates.len() as u32;
         self.coordinates.push(Coordinate {
             name: format!("{}.{}", joint.declared.name, joint.kind.own_coordinates()[k]),
-            owner: Owner::Joint(self.declarations.len()),
+            owner: Owner::Joint(self.declarations.next_id()),
             kind,
             estimate,
             scale: 1.0,
@@ -31,7 +31,7 @@ impl Lowering<'_> {
 
     /// Something that keeps its sign along a branch, of the joint that is being lowered.
     pub(super) fn watch(&mut self, value: ExprId, kind: WatchKind, scale: f64) {
-        self.watches.push(Watch { value, kind, scale, declaration: self.declarations.len() });
+        self.watches.push(Watch { value, kind, scale, declaration: self.declarations.next_id() });
     }
 
     /// `r_j + A_j k(u) − r_i^P`

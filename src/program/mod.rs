@@ -10,6 +10,7 @@
 //! What depends on parameters alone is computed once, in the prologue; what depends on time alone, once per time and
 //! not once per iteration.
 
+#[allow(missing_docs)] // each is the number of the operation whose name it has
 pub mod codes;
 mod compile;
 mod enclose;

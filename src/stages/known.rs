@@ -154,12 +154,12 @@ impl Compiled {
     #[must_use]
     pub fn place_of(&self, point: &str, assembly: &Assembly) -> Option<[f64; 2]> {
         let system = self.system();
-        let k = (0..system.points.len()).find(|&k| system.point_name(k).as_deref() == Some(point))?;
+        let k = system.points.ids().find(|&k| system.point_name(k).as_deref() == Some(point))?;
         let q: Vec<f64> = assembly.coordinates.iter().map(|(_, value, _)| *value).collect();
         let [x, y] = system.points[k].at.map(|formula| system.value_at(formula, &q));
         let Some(body) = system.points[k].body else { return Some([x, y]) };
-        // the three coordinates of the bodies come first
-        let [origin_x, origin_y, phi] = [*q.get(3 * body)?, *q.get(3 * body + 1)?, *q.get(3 * body + 2)?];
+        let [origin_x, origin_y, phi] = system.pose_of(body).map(|k| q.get(k).copied());
+        let (origin_x, origin_y, phi) = (origin_x?, origin_y?, phi?);
         let (sin, cos) = (crate::math::sin(phi), crate::math::cos(phi));
         Some([origin_x + x * cos - y * sin, origin_y + x * sin + y * cos])
     }

@@ -5,6 +5,7 @@ use super::{Checked, Compiled};
 use crate::analysis::{self, ColumnKind, ColumnUnit, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};
 use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::ir::BodyId;
 use crate::lower;
 use crate::model::Mechanism;
 use crate::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
@@ -234,7 +235,7 @@ fn poses(model: &Mechanism, q: &[f64]) -> Vec<Pose> {
 
 /// A free motion as one of frames, of which the ground is the first.
 fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
-    let of_body = |&(body, [x, y, phi]): &(usize, [f64; 3])| (body + 1, Pose { at: [x, y], phi });
+    let of_body = |&(body, [x, y, phi]): &(BodyId, [f64; 3])| (body.index() + 1, Pose { at: [x, y], phi });
     motion.bodies.iter().map(of_body).collect()
 }
 

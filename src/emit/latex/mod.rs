@@ -8,7 +8,7 @@ mod formula;
 mod letters;
 
 use crate::expr::{ExprId, Node, Table};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec};
 use formula::{Formulas, coordinate, param};
 use letters::{Set, Style, numeral, symbol, words};
 
@@ -199,22 +199,20 @@ impl Writer<'_> {
     /// Element by element, in the order of declaration.
     fn equations(&mut self) {
         self.section("Equations");
-        let mut rows = vec![Vec::new(); self.system.declarations.len()];
+        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations.map(|_| Vec::new());
         for (k, row) in self.system.rows.iter().enumerate() {
-            if let Some(list) = rows.get_mut(row.declaration) {
-                list.push(k);
-            }
+            rows[row.declaration].push(k);
         }
-        for (declaration, rows) in self.system.declarations.iter().zip(rows) {
+        for (declaration, rows) in self.system.declarations.iter().zip(&rows) {
             if !rows.is_empty() {
-                self.element(declaration, &rows);
+                self.element(declaration, rows);
             }
         }
     }
 
     fn element(&mut self, declaration: &Declaration, rows: &[usize]) {
         let kind = match declaration.kind {
-            DeclarationKind::Joint(word) => format!("joint, {}", words(word)),
+            DeclarationKind::Joint(kind) => format!("joint, {}", words(kind.word())),
             other => other.noun().to_owned(),
         };
         self.text += &format!("\n\\element{{{}}}{{{kind}}}\n", words(&declaration.name));
