@@ -58,8 +58,8 @@ fn points(features: &Features, declaration: usize) -> Vec<PointId> {
     let (joints, equations) = whole::first_of_joints_and_equations(model);
     if let Some(equation) = declaration.checked_sub(equations).and_then(|number| model.equations.get(number)) {
         return match equation.form {
-            EquationForm::SquaredDistance(p, q, _) => vec![p, q],
-            EquationForm::Difference(..) => Vec::new(),
+            EquationForm::Distance(p, q, _) => vec![p, q],
+            EquationForm::Equality(..) => Vec::new(),
         };
     }
     let joint = declaration.checked_sub(joints).and_then(|number| model.joints.get(number));
