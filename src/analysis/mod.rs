@@ -154,11 +154,22 @@ pub fn nearest(
     estimates: Option<&[f64]>,
     cancel: &Cancel,
 ) -> Option<Vec<f64>> {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, TOLERANCE, cancel.clone());
+    let mut kinematics = kinematics((determined, program), horizon, estimates, (TOLERANCE, cancel));
+    assembly::nearest(&mut kinematics, horizon.from)
+}
+
+/// A mechanism before it is assembled, which begins at estimates.
+fn kinematics(
+    (determined, program): (Arc<Determined>, Arc<Program>),
+    horizon: Horizon,
+    estimates: Option<&[f64]>,
+    (tolerance, cancel): (f64, &Cancel),
+) -> Kinematics {
+    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
     if let Some(estimates) = estimates {
         kinematics.begin_from(estimates);
     }
-    assembly::nearest(&mut kinematics, horizon.from)
+    kinematics
 }
 
 fn started(
@@ -168,10 +179,7 @@ fn started(
     (tolerance, cancel): (f64, &Cancel),
     solver: impl FnOnce(&Kinematics) -> Option<Solver>,
 ) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
-    if let Some(estimates) = estimates {
-        kinematics.begin_from(estimates);
-    }
+    let mut kinematics = kinematics((determined, program), horizon, estimates, (tolerance, cancel));
     let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
     // by the position at the start, which is what was factored last
     kinematics.choose_orders();

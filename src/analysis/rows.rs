@@ -176,7 +176,7 @@ impl Output {
 /// How many threads a solver is worth.
 #[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
-    if solver.operations() < WORTH_A_THREAD {
+    if solver.instructions().len() < WORTH_A_THREAD {
         // asking for the processors takes as long as a hundred steps of a four-bar
         return 1;
     }

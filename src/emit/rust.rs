@@ -3,18 +3,17 @@
 mod following;
 
 use super::Unit;
-use super::code::{MODULE, column_of};
+use super::code::MODULE;
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Case, Names};
 use super::params::{Of, Params};
 use super::solution::Solution;
-use super::tables::{COLUMNS, Tables, numbers};
+use super::tables::{Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
 use crate::ir::{Measure, Units};
 use crate::layout::RowLayout;
 use crate::program::{Column, Register, Rim, STAGES};
-use crate::solver::Op;
 use crate::source::Span;
 use crate::tolerances::checks;
 use std::cell::RefCell;
@@ -88,11 +87,11 @@ pub(super) fn run(equations: &Equations<'_>) -> String {
 #[must_use]
 pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).operations();
+    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
     let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
-        |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
+        |table: u32| Column::ALL.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
     of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
@@ -313,7 +312,7 @@ impl Writer<'_> {
     pub fn tables(&self) -> String {
         let (program, mut text) = (self.unit.program, String::new());
         for (number, table) in program.tables().iter().enumerate() {
-            for column in COLUMNS {
+            for column in Column::ALL {
                 let number = number as u32;
                 // how a table varies has the pieces of that table
                 let is_left_out = table.name.ends_with(VARIED_TABLE) && !self.is_looked_into(number, column);
@@ -341,7 +340,7 @@ impl Writer<'_> {
     /// Whether some operation looks into a column of a table, or may by its number.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
         let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
-        self.equations.book.is_some() || all().any(|&op| column_of(Op::Other(op)) == Some((table, column)))
+        self.equations.book.is_some() || all().any(|&op| op.column() == Some((table, column)))
     }
 
     pub fn has_sides(&self) -> bool {

@@ -298,6 +298,12 @@ impl Measure {
     pub fn derivative(&self, order: usize) -> Option<ExprId> {
         [Some(self.value), self.first, self.second][order]
     }
+
+    /// Whether it has a value (0), a first time derivative (1), a second one (2).
+    #[must_use]
+    pub fn has(&self, order: usize) -> bool {
+        self.derivative(order).is_some()
+    }
 }
 
 /// The units of a measure and of its derivatives.

@@ -65,7 +65,7 @@ pub fn holds(system: &ConstraintSystem) -> Vec<Holds> {
 
 /// The measures that have a time derivative of some order.
 fn measures_with(system: &ConstraintSystem, order: usize) -> impl Iterator<Item = usize> {
-    (0..system.measures.len()).filter(move |&index| system.measures[index].derivative(order).is_some())
+    (0..system.measures.len()).filter(move |&index| system.measures[index].has(order))
 }
 
 impl Stretch {

@@ -72,6 +72,16 @@ impl Motion {
         }
     }
 
+    /// Adds the last row of another motion of the same frames and columns.
+    pub fn append_last(&mut self, other: &Motion) {
+        let Some(last) = other.len().checked_sub(1) else { return };
+        self.times.push(other.times[last]);
+        self.poses.extend_from_slice(other.poses(last));
+        self.rates.extend_from_slice(other.rates(last));
+        self.accelerations.extend_from_slice(other.accelerations(last));
+        self.rows.extend(other.rows.get(last).cloned());
+    }
+
     /// How many rows there are.
     #[must_use]
     pub fn len(&self) -> usize {

@@ -15,21 +15,28 @@
 //!
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
+mod age;
 mod build;
 mod curve;
+mod elimination;
 mod finish;
+mod folding;
+mod groups;
+mod instruction;
 mod lanes;
 mod order;
 mod pivoting;
+mod rates;
 mod tape;
 mod tear;
+mod terms;
 
 use crate::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use curve::Bend;
+pub use instruction::{Instruction, from_bits};
 pub use lanes::{Batch, Lanes};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
-pub use tape::Op;
 
 use crate::layout::RowLayout;
 use crate::program::{Program, Register};
@@ -40,7 +47,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct Solver {
     /// Those of all components one behind the other: they are read in a row, time and again.
-    operations: Vec<Op>,
+    instructions: Vec<Instruction>,
     /// What there is to run, component by component, and last the measures that join components, from what these have stored.
     segments: Vec<Segment>,
     registers: usize,
@@ -74,36 +81,61 @@ pub struct Turn {
 /// Blocks that depend on each other, in an order of solution, as operations.
 #[derive(Clone, Debug, Default)]
 struct Component {
-    operations: Vec<Op>,
+    instructions: Vec<Instruction>,
     segments: Vec<Segment>,
+    registers: usize,
 }
 
-/// Operations that are run once, or until their tears have settled.
+/// Instructions that are run once, or until their tears have settled.
 #[derive(Clone, Debug)]
 pub enum Segment {
-    /// Operations that are run once.
+    /// Instructions that are run once.
     Once(Range<usize>),
-    /// Operations that are run until the tears stay where they are.
+    /// Instructions that are run until the tears stay where they are.
     Newton {
-        /// The loop's operations.
-        operations: Range<usize>,
+        /// The loop's instructions.
+        instructions: Range<usize>,
         /// What it solves for.
         tears: Vec<Tear>,
     },
 }
 
 impl Segment {
-    /// The same, of operations that stand so many places further on.
+    /// Its instructions.
+    #[must_use]
+    pub fn range(&self) -> Range<usize> {
+        match self {
+            Segment::Once(range) | Segment::Newton { instructions: range, .. } => range.clone(),
+        }
+    }
+
+    /// What it solves for.
+    #[must_use]
+    pub fn tears(&self) -> &[Tear] {
+        match self {
+            Segment::Once(_) => &[],
+            Segment::Newton { tears, .. } => tears,
+        }
+    }
+
+    /// Whether it is run until its tears have settled.
+    #[must_use]
+    pub fn is_loop(&self) -> bool {
+        matches!(self, Segment::Newton { .. })
+    }
+
+    /// The same, of instructions that stand so many places further on.
     fn behind(self, places: usize) -> Segment {
         let moved = |range: Range<usize>| range.start + places..range.end + places;
         match self {
             Segment::Once(range) => Segment::Once(moved(range)),
-            Segment::Newton { operations, tears } => Segment::Newton { operations: moved(operations), tears },
+            Segment::Newton { instructions, tears } => Segment::Newton { instructions: moved(instructions), tears },
         }
     }
 
     /// The same with other registers.
-    fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
+    #[must_use]
+    pub fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
         if let Segment::Newton { tears, .. } = &mut self {
             for tear in tears {
                 (tear.x, tear.delta) = (own(tear.x), own(tear.delta));
@@ -126,6 +158,15 @@ pub struct Tear {
     pub cell: f64,
 }
 
+/// What a solver is laid out for.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Purpose {
+    /// To be run here: registers are used again and again.
+    Lanes,
+    /// To be written as code: with notes of the pivots, which tell branches apart, and a register of its own for every value.
+    Code,
+}
+
 /// What is known of `Φ_q` where the orders of elimination are chosen.
 pub trait Values {
     /// An entry by its position in the pattern, in scaled terms.
@@ -138,14 +179,14 @@ impl Solver {
     /// Lays the solution of a system out; none where that takes too many operations.
     #[must_use]
     pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, false)
+        build::build(determined, program, values, Purpose::Lanes)
     }
 
     /// As [`Solver::new`] to be written as code: with notes of the pivots, which tell branches apart, and with a register of its own
     /// for every value.
     #[must_use]
     pub fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, true)
+        build::build(determined, program, values, Purpose::Code)
     }
 
     /// What there is to run, in order.
@@ -184,21 +225,15 @@ impl Solver {
         &self.tears
     }
 
-    /// All operations.
+    /// All instructions.
     #[must_use]
-    pub fn all_operations(&self) -> &[Op] {
-        &self.operations
+    pub fn instructions(&self) -> &[Instruction] {
+        &self.instructions
     }
 
     /// How many registers they need.
     #[must_use]
     pub fn registers(&self) -> usize {
         self.registers
-    }
-
-    /// How many operations it has.
-    #[must_use]
-    pub fn operations(&self) -> usize {
-        self.operations.len()
     }
 }

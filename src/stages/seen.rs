@@ -5,7 +5,7 @@ use super::run::{Run, RunOptions};
 use super::{Checked, Compiled};
 use crate::analysis::{self, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
+use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::ir::{BodyId, ConstraintSystem};
 use crate::layout::{self, Column, ColumnKind, ColumnUnit};
 use crate::model::Mechanism;
@@ -283,7 +283,7 @@ fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
 /// The declarations that errors name: those that they call redundant, else those that their places are in.
 fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
     let mut named: Vec<usize> = Vec::new();
-    for error in said.filter(|said| said.severity() == Severity::Error) {
+    for error in said.filter(|said| said.is_error()) {
         let redundant =
             error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
         match redundant {
