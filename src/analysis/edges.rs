@@ -12,6 +12,7 @@ use super::march::Motion;
 use super::singular;
 use crate::diag::Diagnostic;
 use crate::ir::{CoordinateKind, DeclarationId};
+use crate::layout::{self, ColumnKind};
 use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use crate::tolerances::steps::edges::{
     AHEAD, AT_REST, FARTHEST_AHEAD, FINEST, FINEST_BETWEEN, ITERATIONS, LAST_DIGITS, LONGEST_AHEAD, LONGEST_REST,
@@ -509,10 +510,10 @@ impl Motion {
             (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (self.span * self.span))
         };
         // what is varied jumps with what it is a derivative of
-        let mut names = super::columns(self.kinematics.system());
-        names.truncate(names.len() - self.kinematics.system().appended().len());
+        let columns = layout::columns(self.kinematics.system());
+        let own = columns.into_iter().filter(|column| column.kind != ColumnKind::Variation);
         let sides = self.row_before.iter().zip(&self.row);
-        names.into_iter().zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(name, _)| name).collect()
+        own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
     }
 }
 

@@ -38,8 +38,8 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.list("terms", terms);
     object.list("rows", writer.rows());
     object.list("phi_q", writer.phi_q());
-    object.list("nu", writer.texts(&system.nu));
-    object.list("gamma", writer.texts(&system.gamma));
+    object.list("nu", writer.texts(system.nu()));
+    object.list("gamma", writer.texts(system.gamma()));
     object.list("measures", writer.measures());
     object.list("conditions", writer.conditions());
     object.list("watches", writer.watches());
@@ -51,7 +51,7 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
-    roots.extend(system.nu.iter().chain(&system.gamma));
+    roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.coordinates.iter().map(|coordinate| coordinate.estimate));
     roots.extend(system.inputs.iter().flat_map(|input| input.formulas));
     roots.extend(system.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));

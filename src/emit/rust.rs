@@ -12,8 +12,8 @@ use super::tables::{Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
 use crate::ir::{Measure, Units};
+use crate::layout::RowLayout;
 use crate::program::{Column, Register, Rim, STAGES};
-use crate::solver::RowLayout;
 use crate::source::Span;
 use crate::tolerances::checks;
 use std::cell::RefCell;
@@ -480,7 +480,7 @@ impl Writer<'_> {
         }
         let all: Vec<Register> =
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
-        let orders = if system.jerk.is_some() { 4 } else { 3 };
+        let orders = if system.jerk().is_some() { 4 } else { 3 };
         let wanted = Wanted {
             name: "all_measures",
             docs: "The measures, their rates and their accelerations, one behind the other.",
@@ -594,7 +594,7 @@ impl Writer<'_> {
             ("newton", solution.has_newton()),
             ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
             ("pivots", solve.contains("at.pivot(") && self.equations.book.is_none()),
-            ("jerk", system.jerk.is_some()),
+            ("jerk", system.jerk().is_some()),
             ("params", !system.params.is_empty()),
             ("known", !solution.known.is_empty()),
             ("large", self.equations.book.is_some()),
@@ -637,7 +637,7 @@ impl Writer<'_> {
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
-        let qddd = if self.unit.system.jerk.is_some() { ", &qddd" } else { "" };
+        let qddd = if self.unit.system.jerk().is_some() { ", &qddd" } else { "" };
         text.replace("$from", if solution.motion.blocks.is_some() { "from" } else { "_from" })
             .replace("$sides_argument", argument)
             .replace("$sides", sides)

@@ -3,7 +3,6 @@
 //! 1989).
 
 mod contacts;
-mod estimates;
 mod frames;
 mod gears;
 mod inputs;
@@ -21,7 +20,7 @@ mod velocities;
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, Owner, Param, Row, SparseRows, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, SparseRows, Units, Variations, Watch,
 };
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
@@ -49,7 +48,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         part_sizes: size::of_parts(model, &sizes),
         largest_size: sizes.iter().copied().fold(0.0, f64::max),
         sizes,
-        numbers: estimates::Numbers::default(),
+        open_contacts: Vec::new(),
         coordinates: Vec::new(),
         rows: Vec::new(),
         declarations: IdVec::default(),
@@ -84,8 +83,6 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         params: params(model),
         inputs: Vec::new(),
         has_signals: model.has_signals,
-        by_signal: Vec::new(),
-        by_param: Vec::new(),
         check_slopes: ir::CheckSlopes::default(),
         bodies: lowering.bodies(),
         points,
@@ -94,9 +91,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         rows: std::mem::take(&mut lowering.rows),
         graph: std::mem::take(&mut lowering.graph),
         phi_q: SparseRows::new(),
-        nu: Vec::new(),
-        gamma: Vec::new(),
-        jerk: None,
+        right_sides: Vec::new(),
         variations: lowering.variations.take().map(Box::new),
         measures,
         conditions: std::mem::take(&mut lowering.conditions),
@@ -104,6 +99,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         checks: Vec::new(),
         watches: std::mem::take(&mut lowering.watches),
         rims: Vec::new(),
+        open_contacts: std::mem::take(&mut lowering.open_contacts),
         fits: std::mem::take(&mut lowering.fits),
         parts,
         asking_parts,
@@ -124,6 +120,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         system.graph = lowering.graph;
         system.derive_variations_of_results();
     }
+    debug_assert_eq!(system.validate(), Ok(()));
     system
 }
 
@@ -175,8 +172,8 @@ struct Lowering<'m> {
     sizes: Vec<f64>,
     part_sizes: Vec<f64>,
     largest_size: f64,
-    /// What the search for contacts knows already.
-    numbers: estimates::Numbers,
+    /// Contacts that begin where nobody said.
+    open_contacts: Vec<OpenContact>,
     coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
     declarations: IdVec<DeclarationId, Declaration>,
@@ -374,21 +371,30 @@ impl Lowering<'_> {
         let model = self.model;
         for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
             for (number, equation) in model.equations.iter().enumerate().filter(|(_, one)| one.driver == drivers) {
-                let (phi, points) = match equation.form {
-                    EquationForm::Difference(left, right) => {
-                        let (left, right) = (self.formula(left), self.formula(right));
-                        (self.graph.sub(left, right), Vec::new())
-                    }
-                    EquationForm::SquaredDistance(p, q, distance) => {
-                        let distance = self.formula(distance);
-                        (self.squared_distance_row(p, q, distance), vec![p, q])
-                    }
+                let points = match equation.form {
+                    EquationForm::Equality(..) => Vec::new(),
+                    EquationForm::Distance(p, q, _) => vec![p, q],
                 };
+                let phi = self.equation_row(equation.form);
                 self.declare(&equation.declared, kind, &[phi], &points, &[]);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
                     declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();
                 }
+            }
+        }
+    }
+
+    /// The row of an equation: left minus right, but of a distance the squares (H 3.2).
+    fn equation_row(&mut self, form: EquationForm) -> ExprId {
+        match form {
+            EquationForm::Equality(left, right) => {
+                let (left, right) = (self.formula(left), self.formula(right));
+                self.graph.sub(left, right)
+            }
+            EquationForm::Distance(p, q, distance) => {
+                let distance = self.formula(distance);
+                self.squared_distance_row(p, q, distance)
             }
         }
     }

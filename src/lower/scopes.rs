@@ -3,7 +3,7 @@
 use super::Lowering;
 use crate::expr::{ExprId, Graph};
 use crate::ir::{AskingPart, ConstraintSystem, DeclarationId, LEAF_ORDERS, Leaf, Scope, SparseRows, leaf};
-use crate::model::{EquationForm, Mechanism, Named, PartId};
+use crate::model::{Mechanism, Named, PartId};
 use rustc_hash::FxHashMap;
 
 /// Formulas in which the inputs that parts may hold are leaves.
@@ -118,16 +118,7 @@ impl Lowering<'_> {
             model.equations.iter().filter(|one| !one.driver).chain(model.equations.iter().filter(|e| e.driver));
         let Some(equation) = in_order.into_iter().nth(number) else { return self.graph.constant(0.0) };
         self.named_over_leaves_up_to(model.named_before_results);
-        self.over_leaves(|l| match equation.form {
-            EquationForm::Difference(left, right) => {
-                let (left, right) = (l.formula(left), l.formula(right));
-                l.graph.sub(left, right)
-            }
-            EquationForm::SquaredDistance(p, q, distance) => {
-                let distance = l.formula(distance);
-                l.squared_distance_row(p, q, distance)
-            }
-        })
+        self.over_leaves(|l| l.equation_row(equation.form))
     }
 
     fn named_over_leaves_up_to(&mut self, end: usize) {

@@ -684,13 +684,13 @@ pub struct Equation {
     pub written: Span,
 }
 
-/// The two ways an equation becomes a row of Φ.
+/// What an equation says.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EquationForm {
-    /// Left minus right.
-    Difference(ExprId, ExprId),
-    /// The squared distance of two points, minus the square of a formula without kinematic quantities (m).
-    SquaredDistance(PointId, PointId, ExprId),
+    /// Two formulas are equal.
+    Equality(ExprId, ExprId),
+    /// Two points have a distance, which is a formula without kinematic quantities (m).
+    Distance(PointId, PointId, ExprId),
 }
 
 /// A number to tabulate.

@@ -38,7 +38,7 @@ pub use lanes::{Batch, Lanes};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
 
-use crate::ir::ConstraintSystem;
+use crate::layout::RowLayout;
 use crate::program::{Program, Register};
 use crate::structure::Determined;
 use std::ops::Range;
@@ -156,52 +156,6 @@ pub struct Tear {
     pub scale: f64,
     /// The width of a cell of its grid.
     pub cell: f64,
-}
-
-/// Where a result row holds what. Rows are in the order of the table, with what only measures need behind.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct RowLayout {
-    /// First column of `q`, `q̇`, `q̈`, `q⃛`.
-    pub coordinates: [u32; 4],
-    /// First column of the measures, and of their first and second derivatives.
-    pub measures: [u32; 3],
-    /// First of the derivatives that stand behind all other columns of the table.
-    pub appended: u32,
-    /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
-    pub varied: u32,
-    /// Whether there are columns for `q⃛`.
-    pub has_jerk: bool,
-    /// First column of the derivatives of `q` by each signal and parameter, which are behind all others.
-    pub by_signal: u32,
-    /// Columns that the table has.
-    pub printed: usize,
-    /// All columns.
-    pub stride: usize,
-}
-
-impl RowLayout {
-    /// The layout of a system's rows.
-    #[must_use]
-    pub fn new(system: &ConstraintSystem) -> RowLayout {
-        let n = system.coordinates.len() as u32;
-        let count = |having: fn(&crate::ir::Measure) -> bool| {
-            system.measures.iter().filter(|measure| having(measure)).count() as u32
-        };
-        let counts = [count(|_| true), count(|m| m.first.is_some()), count(|m| m.second.is_some())];
-        let (mut next, mut coordinates, mut measures) = (1, [0; 4], [0; 3]);
-        for order in 0..3 {
-            coordinates[order] = next;
-            measures[order] = next + n;
-            next += n + counts[order];
-        }
-        let appended = next;
-        coordinates[3] = next + system.appended().len() as u32;
-        let (printed, has_jerk) = (coordinates[3] as usize, system.jerk.is_some());
-        let by_signal = coordinates[3] + if has_jerk { n } else { 0 };
-        let varied = by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32;
-        let stride = varied as usize + 3 * system.variations().len() * n as usize;
-        RowLayout { coordinates, measures, appended, varied, has_jerk, by_signal, printed, stride }
-    }
 }
 
 /// What a solver is laid out for.

@@ -1,9 +1,9 @@
 //! What an editor asks of a mechanism that was checked, or compiled, one declaration at a time.
 
+use super::lowered::lowered;
 use super::{Assembly, Checked, Compiled};
 use crate::check::{self, Known, NameKind};
 use crate::expr::Symbol;
-use crate::lower;
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
@@ -78,7 +78,7 @@ impl Checked {
     /// sound.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let lowered = self.asked.lowered.get_or_init(|| self.model.as_ref().map(|model| lower::lower(model)));
+        let lowered = self.asked.lowered.get_or_init(|| self.model.as_ref().map(|model| lowered(model)));
         lowered.as_ref()?.equations_of(name)
     }
 

@@ -74,7 +74,7 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
-    roots.extend(system.nu.iter().chain(&system.gamma));
+    roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs.iter().map(|input| input.formulas[0]));
     roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
     roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
@@ -222,8 +222,8 @@ impl Writer<'_> {
         }
         self.terms();
         self.matrix(rows);
-        self.right_sides(r"\nu", rows, &self.system.nu);
-        self.right_sides(r"\gamma", rows, &self.system.gamma);
+        self.right_sides(r"\nu", rows, self.system.nu());
+        self.right_sides(r"\gamma", rows, self.system.gamma());
         self.terms();
     }
 
