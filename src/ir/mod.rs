@@ -78,7 +78,7 @@ pub struct ConstraintSystem {
     /// `Φ_q`, by rows.
     pub phi_q: SparseRows,
     /// The right sides of the equations that follow from `Φ = 0`.
-    pub right_sides: Vec<RightSide>,
+    right_sides: Vec<RightSide>,
     /// Derivatives by inputs and parameters, where there are any.
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
@@ -430,6 +430,40 @@ pub enum ConditionKind {
 }
 
 impl ConstraintSystem {
+    /// One with nothing in it, of a name and its place.
+    #[must_use]
+    pub fn empty(name: String, span: Span) -> ConstraintSystem {
+        ConstraintSystem {
+            name,
+            span,
+            graph: Graph::new(),
+            params: Vec::new(),
+            inputs: Vec::new(),
+            has_signals: false,
+            check_slopes: CheckSlopes::default(),
+            bodies: IdVec::default(),
+            points: IdVec::default(),
+            coordinates: Vec::new(),
+            declarations: IdVec::default(),
+            rows: Vec::new(),
+            phi_q: SparseRows::new(),
+            right_sides: Vec::new(),
+            variations: None,
+            measures: Vec::new(),
+            results: Results::default(),
+            conditions: Vec::new(),
+            checks: Vec::new(),
+            watches: Vec::new(),
+            rims: Vec::new(),
+            open_contacts: Vec::new(),
+            fits: Vec::new(),
+            parts: Vec::new(),
+            asking_parts: Vec::new(),
+            length: 0.0,
+            analysis: None,
+        }
+    }
+
     /// The total time derivative of expressions: `t ↦ 1`, `q ↦ q̇` and so on, up to the given order of `q`, the
     /// derivatives above which are taken to be zero.
     pub fn time_derivatives(graph: &mut Graph, roots: &[ExprId], highest: u8) -> Vec<ExprId> {
