@@ -6,6 +6,7 @@
 
 /// Linear equations in blocks, with partial pivoting.
 pub mod blocks;
+mod search;
 mod sin_cos;
 mod sin_cos_of_each;
 mod without_branches {
@@ -13,6 +14,7 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
+pub use search::GOLDEN;
 pub use sin_cos::sin_cos;
 pub use sin_cos_of_each::sin_cos_of_each;
 

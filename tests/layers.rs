@@ -48,14 +48,14 @@ const COMMAND_LINE: &[&str] = &[
 
 /// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
 const CIRCLES: &[(&str, &str)] = &[
-    ("analysis/determine", "analysis/freedom"),
-    ("analysis/edges", "analysis/march"),
-    ("analysis/finer", "analysis/bridge"),
-    ("analysis/march", "analysis/bridge"),
-    ("analysis/march", "analysis/rims"),
-    ("analysis/march", "analysis/signals"),
-    ("analysis/march", "analysis/touch"),
-    ("analysis/rows", "analysis/march"),
+    ("analysis/explain/determine", "analysis/explain/freedom"),
+    ("analysis/follow/edges", "analysis/follow/march"),
+    ("analysis/follow/finer", "analysis/follow/bridge"),
+    ("analysis/follow/march", "analysis/follow/bridge"),
+    ("analysis/follow/march", "analysis/follow/rims"),
+    ("analysis/follow/march", "analysis/follow/signals"),
+    ("analysis/follow/march", "analysis/follow/touch"),
+    ("analysis/follow/rows", "analysis/follow/march"),
     ("check/errors", "check/names"),
     ("emit/tape", "emit/equations"),
     ("import/errors", "import/json"),
@@ -182,7 +182,7 @@ fn a_circle_is_found() {
 }
 
 /// What a file may use of the platform: threads, which are gone without their feature.
-const PLATFORM: &[(&str, &str)] = &[("analysis/rows.rs", "std::thread")];
+const PLATFORM: &[(&str, &str)] = &[("analysis/follow/rows.rs", "std::thread")];
 
 #[test]
 fn rooms_know_no_files_threads_clock_or_environment() {

@@ -1,10 +1,8 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::kinematics::{Kinematics, State};
-use crate::analysis::march::{along, quintic};
-use crate::analysis::rows::state_of_row;
-use crate::analysis::stretches::Stretch;
+use crate::analysis::follow::{Stretch, along, quintic, state_of_row};
+use crate::analysis::state::{Kinematics, State};
 use crate::program::{Ranges, Register, Stage};
 use crate::solver::{Batch, Lanes, Solver};
 use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};

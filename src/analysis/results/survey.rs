@@ -2,8 +2,8 @@
 
 use super::formulas::{Cell, Formula, Point};
 use super::places::Places;
-use crate::analysis::kinematics::State;
-use crate::analysis::stretches::Stretch;
+use crate::analysis::follow::Stretch;
+use crate::analysis::state::State;
 use crate::program::Range;
 use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, OPAQUE, ROUNDING, SHORTEST, SOLVED};
 
