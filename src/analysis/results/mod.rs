@@ -110,7 +110,7 @@ impl Asked {
 
     /// A motion of its own to some times.
     fn motion(&self, times: Times) -> Motion {
-        let mut motion = Motion::new(self.kinematics.clone(), self.state.clone(), self.solver.clone(), times);
+        let mut motion = Motion::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
             motion.pass_bifurcations();
         }

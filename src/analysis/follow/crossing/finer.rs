@@ -4,9 +4,8 @@
 //! What it is worth shows between the outer states and the ends of the bridge, where the motion can be solved for: it is as far
 //! off there as on the bridge.
 
-use super::bridge::Bridge;
-use super::march::Motion;
-use crate::analysis::state::State;
+use crate::analysis::follow::step::Step;
+use crate::analysis::state::{Kinematics, State};
 use crate::tolerances::singular::finer::{EXACT, OUTWARD, STEPS};
 
 /// Conditions: value, slope and curvature at four times.
@@ -80,45 +79,41 @@ fn divided_differences(at: impl Fn(usize) -> [f64; 3]) -> [f64; CONDITIONS] {
     coefficients
 }
 
-impl Motion {
-    /// A finer curve over a bridge, if there is one that is exact.
-    pub fn finer_curve(&mut self, bridge: &Bridge) -> Option<Finer> {
-        let way = OUTWARD * (bridge.to.t - bridge.from.t);
-        let before = self.walk(&bridge.from, -way)?;
-        let behind = self.walk(&bridge.to, way)?;
-        let finer = Finer::through([&before, &bridge.from, &bridge.to, &behind]);
-        let places = [0.5 * (before.t + bridge.from.t), 0.5 * (bridge.to.t + behind.t)];
-        places.into_iter().all(|t| self.is_exact(&finer, t)).then_some(finer)
+impl Finer {
+    /// A finer curve than that between two states, if there is one that is exact.
+    pub fn between(kinematics: &mut Kinematics, step: &mut Step, [from, to]: [&State; 2]) -> Option<Finer> {
+        let way = OUTWARD * (to.t - from.t);
+        let before = walk(kinematics, step, from, -way)?;
+        let behind = walk(kinematics, step, to, way)?;
+        let finer = Finer::through([&before, from, to, &behind]);
+        let places = [0.5 * (before.t + from.t), 0.5 * (to.t + behind.t)];
+        places.into_iter().all(|t| finer.is_exact(kinematics, step, t)).then_some(finer)
     }
 
-    /// The state that a motion without edges leads to in a time from another one, either way.
-    fn walk(&mut self, from: &State, way: f64) -> Option<State> {
-        let mut state = from.clone();
-        let h = way / STEPS as f64;
-        for step in 1..=STEPS {
-            self.trial.t = from.t + h * step as f64;
-            for k in 0..state.q.len() {
-                self.trial.q[k] = state.q[k] + h * (state.qd[k] + 0.5 * h * state.qdd[k]);
-            }
-            self.correct().ok()?;
-            self.kinematics.derivatives(&mut self.trial).ok()?;
-            state.copy_from(&self.trial);
-        }
-        Some(state)
-    }
-
-    /// Whether a curve has the velocities and accelerations that are solved for at a time.
-    fn is_exact(&mut self, finer: &Finer, t: f64) -> bool {
-        let state = finer.state_at(t);
-        self.trial.copy_from(&state);
-        if self.correct().is_err() || self.kinematics.derivatives(&mut self.trial).is_err() {
+    /// Whether it has the velocities and accelerations that are solved for at a time.
+    fn is_exact(&self, kinematics: &mut Kinematics, step: &mut Step, t: f64) -> bool {
+        let state = self.state_at(t);
+        step.try_state(&state);
+        if step.solve(kinematics).is_err() {
             return false;
         }
-        let linear = self.kinematics.linear();
+        let (linear, solved) = (kinematics.linear(), step.trial());
         let agree = |a: &[f64], b: &[f64]| {
             let off = (0..a.len()).map(|k| (a[k] - b[k]).abs() / linear.column_scale(k)).fold(0.0, f64::max);
             off <= EXACT * (1.0 + linear.largest(b))
         };
-        agree(&state.q, &self.trial.q) && agree(&state.qd, &self.trial.qd) && agree(&state.qdd, &self.trial.qdd)
+        agree(&state.q, &solved.q) && agree(&state.qd, &solved.qd) && agree(&state.qdd, &solved.qdd)
     }
+}
+
+/// The state that a motion without edges leads to in a time from another one, either way.
+fn walk(kinematics: &mut Kinematics, step: &mut Step, from: &State, way: f64) -> Option<State> {
+    let mut state = from.clone();
+    let h = way / STEPS as f64;
+    for number in 1..=STEPS {
+        step.predict_from(&state, h, from.t + h * number as f64);
+        step.solve(kinematics).ok()?;
+        state.copy_from(step.trial());
+    }
+    Some(state)
 }

@@ -881,22 +881,6 @@ impl Kinematics {
         registers.set_all(qddd, &state.qddd);
     }
 
-    /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
-    /// columns of derivatives by them.
-    pub fn measure_of_column(&self, column: usize) -> usize {
-        let system = self.system();
-        let n = system.coordinates.len();
-        let having = |has: fn(&Measure) -> bool| (0..system.measures.len()).filter(move |&k| has(&system.measures[k]));
-        let columns = std::iter::repeat_n(0, 1 + n)
-            .chain(having(|_| true))
-            .chain(std::iter::repeat_n(0, n))
-            .chain(having(|measure| measure.first.is_some()))
-            .chain(std::iter::repeat_n(0, n))
-            .chain(having(|measure| measure.second.is_some()))
-            .chain(system.appended().iter().map(|column| system.measures.len() + column.variable as usize));
-        columns.clone().nth(column).unwrap_or(0)
-    }
-
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
         RowLayout::new(self.system()).printed

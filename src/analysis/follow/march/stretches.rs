@@ -2,8 +2,8 @@
 //!
 //! They do not depend on which rows are asked for, and end at the edges of the equations.
 
-use super::bridge::Bridge;
-use super::march::Motion;
+use super::Motion;
+use crate::analysis::follow::crossing::Bridge;
 use crate::analysis::state::State;
 use crate::diag::Diagnostic;
 use std::rc::Rc;
@@ -30,55 +30,46 @@ impl Motion {
     /// # Errors
     /// Why and where the motion cannot go on.
     pub fn next_stretch(&mut self) -> Result<Option<Stretch>, Box<Diagnostic>> {
-        let mut begins_at_edge = !self.begun;
-        if !self.begun {
-            self.begin()?;
-        }
+        let mut begins_at_edge = !self.begin()?;
         let last = self.last;
-        let mut from = self.state.clone();
-        self.output.forget_steps();
+        let mut from = self.step.state().clone();
+        self.rows.forget_steps();
         loop {
-            if let Some(edge) = self.output.take_edge() {
-                self.cross(edge)?;
+            if self.cross_edge()? {
                 begins_at_edge = true;
-                from.copy_from(&self.state);
+                from.copy_from(self.step.state());
             }
-            if self.state.t >= last {
+            if self.step.t() >= last {
                 return Ok(None);
             }
             self.count_step(last)?;
             if self.may_leap() {
                 self.leap()?;
             } else {
-                let edge = self.step_to_edge(last)?;
-                self.output.end_at(edge);
+                self.edge = self.step_to_edge(last)?;
             }
-            if self.state.t > from.t {
+            if self.step.t() > from.t {
                 return Ok(Some(self.stretch(from, begins_at_edge)));
             }
         }
     }
 
     fn stretch(&mut self, from: State, begins_at_edge: bool) -> Stretch {
-        let bridge = self.bridge.clone().filter(|bridge| bridge.to.t.total_cmp(&self.state.t).is_eq());
+        let to = self.step.state().clone();
+        let bridge = self.crossing.bridge_to(to.t).cloned();
         let middle = if bridge.is_some() { None } else { self.middle_of_leap() };
-        let switches = self.switches();
-        let ends_at_edge = self.output.is_at_edge() || self.state.t >= self.last;
-        Stretch { from, middle, to: self.state.clone(), switches, bridge, begins_at_edge, ends_at_edge }
+        let ends_at_edge = self.edge.is_some() || to.t >= self.last;
+        Stretch { from, middle, to, switches: self.switches(), bridge, begins_at_edge, ends_at_edge }
+    }
+
+    /// The state in the middle of the step that was accepted last, if that was a leap and can be solved for there.
+    fn middle_of_leap(&mut self) -> Option<State> {
+        let (leap, _) = self.rows.leap()?;
+        leap.middle(&self.kinematics, &self.step)
     }
 
     /// The results that the equations' switches have now.
     pub fn switches(&self) -> Rc<[f64]> {
         self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect()
-    }
-
-    /// Whether the step to where the motion is has ended clear of singular positions.
-    pub fn was_clear_here(&self) -> bool {
-        self.clear.t.total_cmp(&self.state.t).is_eq()
-    }
-
-    /// Where the motion is.
-    pub fn here(&self) -> &State {
-        &self.state
     }
 }

@@ -11,7 +11,7 @@ use crate::tolerances::steps::limits::{FEWEST, GROWTH, MISPLACED, MOST, NEAREST,
 
 /// What two sides are like.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub enum Verdict {
+pub(super) enum Verdict {
     /// The motion goes on.
     Smooth,
     Acceleration,
@@ -30,7 +30,7 @@ pub enum Verdict {
 }
 
 /// Whether states still nearer are wanted.
-pub enum Nearer {
+pub(super) enum Nearer {
     Wanted,
     Enough,
 }
@@ -56,9 +56,9 @@ struct Pair {
 }
 
 /// Pairs of states, from far to near.
-pub struct Limits {
-    pub before: State,
-    pub after: State,
+pub(super) struct Limits {
+    before: State,
+    after: State,
     pairs: [Option<Pair>; MOST],
     count: usize,
     /// How often there was a state before, and one after.
@@ -93,6 +93,21 @@ impl Limits {
         }
         (self.pairs, self.gaps) = ([None; MOST], [None; MOST]);
         (self.count, self.found, self.span) = (0, [0; 2], span);
+    }
+
+    /// The nearest states before and after the time.
+    pub fn sides(&self) -> [&State; 2] {
+        [&self.before, &self.after]
+    }
+
+    /// Takes the state at a distance before the time.
+    pub fn take_before(&mut self, state: &State) {
+        self.before.copy_from(state);
+    }
+
+    /// Takes the state at a distance after it.
+    pub fn take_after(&mut self, state: &State) {
+        self.after.copy_from(state);
     }
 
     /// Whether states at a distance (s) from a time are wanted.

@@ -1,0 +1,48 @@
+/// The quintic with value, slope and curvature of both ends of a step of length `h`, by its coefficients in the part of the step. An
+/// end is value, first and second derivative.
+#[must_use]
+pub fn quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f64) -> [f64; 6] {
+    let (way, slope, bend) = (q_end - q, h * qd, 0.5 * h * h * qdd);
+    // what is left of value, slope and half the curvature at the end
+    let (value, first, second) = (way - slope - bend, h * qd_end - slope - 2.0 * bend, 0.5 * h * h * qdd_end - bend);
+    let cubic = 10.0 * value - 4.0 * first + second;
+    let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
+    let quintic = 6.0 * value - 3.0 * first + second;
+    [q, slope, bend, cubic, quartic, quintic]
+}
+
+/// The parabola that value, slope and curvature at the start of a step of length `h` lead along, as such a curve.
+#[must_use]
+pub fn parabola([q, qd, qdd]: [f64; 3], h: f64) -> [f64; 6] {
+    [q, h * qd, 0.5 * h * h * qdd, 0.0, 0.0, 0.0]
+}
+
+/// A curve's value at a part of its step.
+#[must_use]
+pub fn along(curve: &[f64; 6], x: f64) -> f64 {
+    curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
+/// Where value, first and second derivative lead in a time `h`.
+#[must_use]
+pub fn predicted([q, qd, qdd]: [f64; 3], h: f64) -> f64 {
+    q + h * (qd + 0.5 * h * qdd)
+}
+
+/// The coefficients of a curve about another place.
+#[must_use]
+pub fn about(curve: &[f64; 6], place: f64) -> [f64; 6] {
+    let mut taylor = *curve;
+    for order in 0..taylor.len() {
+        for j in (order..taylor.len() - 1).rev() {
+            taylor[j] += place * taylor[j + 1];
+        }
+    }
+    taylor
+}
+
+/// How far a polynomial without its constant, by its coefficients, comes within `reach` of 0 at most.
+#[must_use]
+pub fn farthest(higher: &[f64], reach: f64) -> f64 {
+    higher.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * reach)
+}
