@@ -54,7 +54,6 @@ const COMMAND_LINE: &[&str] = &[
 
 /// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
 const CIRCLES: &[(&str, &str)] = &[
-    ("analysis/explain/determine", "analysis/explain/freedom"),
     ("check/errors", "check/names"),
     ("emit/tape", "emit/equations"),
     ("import/errors", "import/json"),

@@ -2,8 +2,8 @@
 
 use super::errors;
 use super::evaluator::Evaluator;
+use super::free_motion::motion_in_words;
 use super::redundancy::{Basis, orthogonal};
-use super::singular;
 use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
 use crate::math;
 use crate::structure::Part;
@@ -97,7 +97,7 @@ impl Freedom {
         for motion in &self.motions {
             let moves = |k: &usize| motion[*k].abs() > MOVES;
             if !(0..motion.len()).filter(moves).all(is_loose) {
-                sentences.push(singular::motion_in_words(system, motion));
+                sentences.push(motion_in_words(system, motion));
             }
         }
         let left_out = sentences.len().saturating_sub(TOLD);

@@ -3,6 +3,7 @@
 mod determine;
 pub mod errors;
 mod evaluator;
+mod free_motion;
 mod freedom;
 pub mod open_loop;
 mod redundancy;

@@ -32,7 +32,7 @@ impl Scale {
 
 /// Why there is no number.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(in crate::analysis) enum Trouble {
+pub enum Trouble {
     /// The formula has no value at a time (s).
     Missing(f64),
     /// It could not be found out around a time (s).

@@ -1,9 +1,21 @@
 //! Singular positions, at the start and on the way, and contacts that end.
 
 use super::{at, named, names, owners, with_places};
-use crate::analysis::explain::singular::StartVerdict;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, DeclarationKind, WatchKind};
+
+/// What kind of singular position a mechanism starts in.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum StartVerdict {
+    /// The equations depend on each other wherever the mechanism is.
+    Always,
+    /// A driver cannot move on; its row.
+    LockUp(usize),
+    /// Two branches meet.
+    Bifurcation,
+    /// Nothing moves that could tell.
+    Unknown,
+}
 
 /// A contact where a tangent vanishes, or gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
