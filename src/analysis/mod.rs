@@ -9,7 +9,6 @@
 //!
 //! | room | what it is for |
 //! | --- | --- |
-//! | `columns` | what the columns of a row hold |
 //! | `state` | everything that can be said of one state: residuals, factors, derivatives, nearness to a singular position |
 //! | `explain` | why a mechanism is not determined, not assembled, or does not go on: in words |
 //! | `assemble` | the position at the first time |
@@ -20,7 +19,6 @@
 //! a coordinate hold by that.
 
 mod assemble;
-mod columns;
 mod explain;
 mod follow;
 mod results;
@@ -28,8 +26,6 @@ mod state;
 
 pub use crate::tolerances::TOLERANCE;
 pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, with_parts};
-pub use columns::{ColumnKind, ColumnUnit};
-pub(crate) use columns::{columns, kinds, results, units};
 pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
 pub use follow::{LeadOptions, Motion, Way, lead};

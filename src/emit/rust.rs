@@ -3,17 +3,17 @@
 mod following;
 
 use super::Unit;
-use super::code::{MODULE, column_of};
+use super::code::MODULE;
 use super::equations::{Equations, Given, Wanted};
 use super::names::{Case, Names};
 use super::params::{Of, Params};
 use super::solution::Solution;
-use super::tables::{COLUMNS, Tables, numbers};
+use super::tables::{Tables, numbers};
 use super::text::{chosen, indented, is_called, lines, literal, one_line};
 use crate::expr::{ExprId, VARIED_TABLE};
-use crate::ir::{Measure, Owner, Units};
+use crate::ir::{Measure, Units};
+use crate::layout::RowLayout;
 use crate::program::{Column, Register, Rim, STAGES};
-use crate::solver::{Op, RowLayout};
 use crate::source::Span;
 use crate::tolerances::checks;
 use std::cell::RefCell;
@@ -87,11 +87,11 @@ pub(super) fn run(equations: &Equations<'_>) -> String {
 #[must_use]
 pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).operations();
+    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
     let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
-        |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
+        |table: u32| Column::ALL.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
     of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 
@@ -261,14 +261,10 @@ impl Writer<'_> {
         }
         let names = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str()));
         let (mut variants, mut arms) = (String::new(), String::new());
-        for (k, (body, name)) in system.bodies.iter().zip(&names).enumerate() {
+        for ((id, body), name) in system.bodies.pairs().zip(&names) {
             variants += &format!("    /// `{}`{}\n    {name},\n", body.name, self.line(body.span));
-            let first = system.coordinates.iter().position(|c| c.owner == Owner::Body(k)).unwrap_or(0);
-            arms += &format!(
-                "            Body::{name} => Self {{ x: q[{first}], y: q[{}], phi: q[{}] }},\n",
-                first + 1,
-                first + 2
-            );
+            let [x, y, phi] = system.pose_of(id);
+            arms += &format!("            Body::{name} => Self {{ x: q[{x}], y: q[{y}], phi: q[{phi}] }},\n");
         }
         format!(
             "/// The bodies.\n#[derive(Clone, Copy, Debug, PartialEq, Eq)]\npub enum Body {{\n{variants}}}\n\n\
@@ -316,7 +312,7 @@ impl Writer<'_> {
     pub fn tables(&self) -> String {
         let (program, mut text) = (self.unit.program, String::new());
         for (number, table) in program.tables().iter().enumerate() {
-            for column in COLUMNS {
+            for column in Column::ALL {
                 let number = number as u32;
                 // how a table varies has the pieces of that table
                 let is_left_out = table.name.ends_with(VARIED_TABLE) && !self.is_looked_into(number, column);
@@ -344,7 +340,7 @@ impl Writer<'_> {
     /// Whether some operation looks into a column of a table, or may by its number.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
         let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
-        self.equations.book.is_some() || all().any(|&op| column_of(Op::Other(op)) == Some((table, column)))
+        self.equations.book.is_some() || all().any(|&op| op.column() == Some((table, column)))
     }
 
     pub fn has_sides(&self) -> bool {
@@ -484,7 +480,7 @@ impl Writer<'_> {
         }
         let all: Vec<Register> =
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
-        let orders = if system.jerk.is_some() { 4 } else { 3 };
+        let orders = if system.jerk().is_some() { 4 } else { 3 };
         let wanted = Wanted {
             name: "all_measures",
             docs: "The measures, their rates and their accelerations, one behind the other.",
@@ -598,7 +594,7 @@ impl Writer<'_> {
             ("newton", solution.has_newton()),
             ("grid", solution.has_newton() || solution.motion.blocks.is_some()),
             ("pivots", solve.contains("at.pivot(") && self.equations.book.is_none()),
-            ("jerk", system.jerk.is_some()),
+            ("jerk", system.jerk().is_some()),
             ("params", !system.params.is_empty()),
             ("known", !solution.known.is_empty()),
             ("large", self.equations.book.is_some()),
@@ -641,7 +637,7 @@ impl Writer<'_> {
         }
         let sides = if self.has_sides() { ", sides" } else { "" };
         let argument = if self.has_sides() { ", sides: &Sides" } else { "" };
-        let qddd = if self.unit.system.jerk.is_some() { ", &qddd" } else { "" };
+        let qddd = if self.unit.system.jerk().is_some() { ", &qddd" } else { "" };
         text.replace("$from", if solution.motion.blocks.is_some() { "from" } else { "_from" })
             .replace("$sides_argument", argument)
             .replace("$sides", sides)

@@ -131,7 +131,7 @@ impl Marks<'_> {
         let of_joints = model.joints.iter().enumerate().map(|(number, _)| (self.joints + number, self.halves(number)));
         let of_lengths = model.equations.iter().enumerate().map(|(number, equation)| {
             let halves = match equation.form {
-                EquationForm::SquaredDistance(p, q, wanted) if !equation.driver => {
+                EquationForm::Distance(p, q, wanted) if !equation.driver => {
                     self.end_of_link([self.features.point(p), self.features.point(q)], self.features.value(wanted))
                 }
                 _ => None,

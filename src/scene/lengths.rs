@@ -56,8 +56,8 @@ impl Blamed<'_> {
         let model = self.features.model;
         if let Some(equation) = declaration.checked_sub(self.equations).and_then(|number| model.equations.get(number)) {
             return match equation.form {
-                EquationForm::SquaredDistance(p, q, _) => vec![p, q],
-                EquationForm::Difference(..) => Vec::new(),
+                EquationForm::Distance(p, q, _) => vec![p, q],
+                EquationForm::Equality(..) => Vec::new(),
             };
         }
         let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));

@@ -4,7 +4,7 @@ use super::assembly::Moved;
 use super::branches::{Doubt, Off};
 use crate::analysis::explain::errors::{at, degrees, length};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
-use crate::ir::{ConstraintSystem, DeclarationKind, Fit};
+use crate::ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
 use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
 
 /// A remark where the estimates leave in doubt that the position taken is the one meant.
@@ -44,17 +44,15 @@ pub fn far_estimates(
 /// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
 fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
     let mut edits = Vec::new();
-    for (k, body) in system.bodies.iter().enumerate() {
-        let own: Vec<usize> =
-            (0..system.coordinates.len()).filter(|&column| system.body_of(column) == Some(k)).collect();
+    for (id, body) in system.bodies.pairs() {
+        let pose @ [x, y, phi] = system.pose_of(id);
         let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates[column].scale;
-        let [x, y, phi] = own.as_slice() else { continue };
-        if !own.iter().any(has_moved) {
+        if !pose.iter().any(has_moved) {
             continue;
         }
         let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
-        let [x, y] = [x, y].map(|&column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
-        let phi = if to[*phi].abs() < 1e-12 { 0.0 } else { nine(to[*phi].to_degrees()) };
+        let [x, y] = [x, y].map(|column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[phi].abs() < 1e-12 { 0.0 } else { nine(to[phi].to_degrees()) };
         let pose = format!("({x} mm, {y} mm, {phi} deg)");
         let written = match body.pose_span {
             Some(span) => Fix::replace(span, pose, "", Applies::Probably),
@@ -84,8 +82,8 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         );
     }
     let (what, why, other) = match joint.kind {
-        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii", Some("internal_gear")),
-        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii", Some("gear")),
+        DeclarationKind::Joint(JointKind::Gear) => ("centres", "the sum of the radii", Some("internal_gear")),
+        DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
         _ => ("centre and axis", "the radius", None),
     };
     // the sum of the radii, of gears whose difference was asked for, and the other way round

@@ -45,7 +45,7 @@ fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -
     let Some(body) = sliding.first().and_then(|&k| system.body_of(k)) else {
         return "left free: the contacts can move".to_owned();
     };
-    let [x, y] = [right[3 * body], right[3 * body + 1]];
+    let [x, y, _] = system.pose_of(body).map(|k| right[k]);
     let largest = f64::max(x.abs(), y.abs());
     let [x, y] = [x, y].map(|way| errors::three_digits(if way.abs() > SEEN * largest { way / largest } else { 0.0 }));
     let mut names: Vec<String> = sliding.iter().map(|&k| format!("`{}`", system.owner_name(k))).collect();

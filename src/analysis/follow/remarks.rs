@@ -2,7 +2,7 @@
 
 use crate::analysis::explain::errors;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::ConstraintSystem;
+use crate::ir::{ConstraintSystem, DeclarationId, IdVec};
 
 /// Remarks of a motion so far.
 pub struct Remarks {
@@ -16,12 +16,12 @@ pub struct Remarks {
 pub struct Said {
     diagnostics: Diagnostics,
     /// Declarations of which it has been said that they make an acceleration jump.
-    warned: Vec<bool>,
+    warned: IdVec<DeclarationId, bool>,
 }
 
 impl Remarks {
     pub fn new(system: &ConstraintSystem) -> Remarks {
-        let warned = vec![false; system.declarations.len()];
+        let warned = system.declarations.map(|_| false);
         Remarks { said: Said { diagnostics: Diagnostics::default(), warned }, jumps: None }
     }
 
@@ -68,7 +68,7 @@ impl Remarks {
     pub fn warn_of_jump(
         &mut self,
         system: &ConstraintSystem,
-        behind: &[usize],
+        behind: &[DeclarationId],
         columns: impl FnOnce() -> Vec<String>,
         t: f64,
     ) {

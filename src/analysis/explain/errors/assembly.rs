@@ -3,7 +3,7 @@
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::explain::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind};
 use crate::math;
 use serde_json::{Value, json};
 
@@ -29,7 +29,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         .datum("t", t)
         .datum("residual", open.residual)
         .datum("lengths", open.links.iter().map(|link| link_as_data(system, link)).collect::<Vec<_>>());
-    let others: Vec<usize> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
+    let others: Vec<DeclarationId> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
     diagnostic = with_places(diagnostic, system, &others, ["beside this", "the loop goes through these"]);
     for (too_short, what) in [(true, "too short"), (false, "too long")] {
         let links = open.links.iter().filter(|link| link.too_short == too_short);

@@ -11,7 +11,7 @@ pub use motion::*;
 pub use singularity::*;
 
 use crate::diag::{Diagnostic, readable};
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId};
 
 /// Labels of one message at most.
 const LISTED: usize = 8;
@@ -66,7 +66,7 @@ pub fn named(system: &ConstraintSystem, row: usize) -> String {
 }
 
 /// `joint `contact``, `driver `motor` and `brake``.
-pub fn named_all(system: &ConstraintSystem, declarations: &[usize]) -> String {
+pub fn named_all(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String {
     let names: Vec<String> = declarations
         .iter()
         .take(LISTED)
@@ -85,7 +85,7 @@ pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
 pub fn with_places(
     mut diagnostic: Diagnostic,
     system: &ConstraintSystem,
-    declarations: &[usize],
+    declarations: &[DeclarationId],
     [of_one, of_all]: [&str; 2],
 ) -> Diagnostic {
     for (k, &declaration) in declarations.iter().take(LISTED).enumerate() {

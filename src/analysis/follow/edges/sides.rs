@@ -1,12 +1,12 @@
 //! Both sides of an edge, at the same time: what jumps there.
 
-use crate::analysis::columns::columns;
 use crate::analysis::explain::errors;
 use crate::analysis::follow::remarks::Remarks;
 use crate::analysis::follow::step::{Step, write_prediction};
 use crate::analysis::state::{Fault, Kinematics, State, shortly_after};
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId};
+use crate::layout::{ColumnKind, columns};
 use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use crate::tolerances::steps::edges::{AHEAD, FARTHEST_AHEAD, ITERATIONS, LAST_DIGITS, TAKES_PART, UNCERTAIN};
 
@@ -176,7 +176,7 @@ impl Sides {
     }
 
     /// The declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
-    fn declarations_behind(&self, kinematics: &Kinematics, jump: Jump) -> Vec<usize> {
+    fn declarations_behind(&self, kinematics: &Kinematics, jump: Jump) -> Vec<DeclarationId> {
         let system = kinematics.system();
         let open = |row: usize| {
             let (velocity, acceleration) = kinematics.left_open(row, &self.before);
@@ -189,7 +189,7 @@ impl Sides {
         };
         let open: Vec<f64> = (0..system.rows.len()).map(open).collect();
         let widest = open.iter().copied().fold(0.0, f64::max);
-        let mut behind: Vec<usize> = (0..open.len())
+        let mut behind: Vec<DeclarationId> = (0..open.len())
             .filter(|&row| open[row] > TAKES_PART * widest)
             .map(|row| system.rows[row].declaration)
             .collect();
@@ -218,10 +218,9 @@ pub(super) fn settle(kinematics: &mut Kinematics, state: &State, (span, after): 
 pub(super) fn columns_that_jump(system: &ConstraintSystem, span: f64, [before, after]: [&[f64]; 2]) -> Vec<String> {
     let jumps = |a: f64, b: f64| (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (span * span));
     // what is varied jumps with what it is a derivative of
-    let mut names = columns(system);
-    names.truncate(names.len() - system.appended().len());
+    let own = columns(system).into_iter().filter(|column| column.kind != ColumnKind::Variation);
     let sides = before.iter().zip(after);
-    names.into_iter().zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(name, _)| name).collect()
+    own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
 }
 
 /// Whether the position stays, and only the tangents of a contact do not agree: the last row of its joint.

@@ -3,7 +3,8 @@
 use crate::analysis::follow::bookmark::Bookmark;
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, State, Times};
-use crate::solver::{Batch, Bend, Lanes, Pivoting, RowLayout, Solver};
+use crate::layout::RowLayout;
+use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SHORT};
 #[cfg(feature = "threads")]
 use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
@@ -48,7 +49,7 @@ pub struct Leap {
 /// How many threads a solver is worth.
 #[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
-    if solver.operations() < WORTH_A_THREAD {
+    if solver.instructions().len() < WORTH_A_THREAD {
         // asking for the processors takes as long as a hundred steps of a four-bar
         return 1;
     }

@@ -2,7 +2,7 @@
 
 use crate::analysis::explain::errors;
 use crate::analysis::follow::remarks::Remarks;
-use crate::ir::{ConstraintSystem, Measure};
+use crate::ir::ConstraintSystem;
 
 /// The rows in which one measure has no value.
 #[derive(Clone, Copy)]
@@ -37,9 +37,9 @@ impl Missing {
         Missing(vec![Gap::NONE; system.measures.len() + variables])
     }
 
-    /// There is no number in a column of the row of a time (s).
-    pub fn take_note(&mut self, system: &ConstraintSystem, column: usize, t: f64) {
-        self.0[measure_of_column(system, column)].take_note(t);
+    /// There is no number in a cell of a measure, or of a derivative by a variable, in the row of a time (s).
+    pub fn take_note(&mut self, measure: usize, t: f64) {
+        self.0[measure].take_note(t);
     }
 
     /// A warning for each, once.
@@ -52,21 +52,4 @@ impl Missing {
             });
         }
     }
-}
-
-/// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
-/// columns of derivatives by them.
-fn measure_of_column(system: &ConstraintSystem, column: usize) -> usize {
-    let (n, measures) = (system.coordinates.len(), &system.measures);
-    let mut column = column.saturating_sub(1);
-    let orders: [fn(&Measure) -> bool; 3] = [|_| true, |of| of.first.is_some(), |of| of.second.is_some()];
-    for has in orders {
-        let having = measures.iter().enumerate().filter(|(_, of)| has(of)).map(|(measure, _)| measure);
-        match column.checked_sub(n) {
-            Some(place) if place < having.clone().count() => return having.clone().nth(place).unwrap_or(0),
-            Some(place) => column = place - having.count(),
-            None => return 0,
-        }
-    }
-    system.appended().get(column).map_or(0, |of| measures.len() + of.variable as usize)
 }

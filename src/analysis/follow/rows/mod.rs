@@ -206,7 +206,7 @@ impl Rows {
             let cell = &mut self.row_mut(place)[column];
             if !cell.is_finite() {
                 *cell = f64::NAN;
-                self.missing.take_note(kinematics.system(), column, t);
+                self.missing.take_note(kinematics.measure_of_column(column), t);
             }
         }
     }

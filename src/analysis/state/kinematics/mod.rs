@@ -11,6 +11,7 @@ use super::linear::{BlockLu, Factored, Singular};
 use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
 use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::layout::{self, Holds};
 use crate::program::{Program, Register, Registers, Stage};
 use crate::solver::{Equations, Solver, Values};
 use crate::structure::Determined;
@@ -69,6 +70,8 @@ pub struct Kinematics {
     /// Where assembly begins, if not where the file says.
     other_estimates: Option<Vec<f64>>,
     variations: Varied,
+    /// What the columns of a row hold.
+    holds: Vec<Holds>,
 }
 
 impl Kinematics {
@@ -87,7 +90,8 @@ impl Kinematics {
         let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
         let n = system.coordinates.len();
         let other_estimates = None;
-        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system));
+        let holds = layout::holds(system);
+        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
             program,
@@ -102,6 +106,7 @@ impl Kinematics {
             doubt,
             other_estimates,
             variations,
+            holds,
         }
     }
 

@@ -4,9 +4,10 @@ use super::derivatives::rates;
 use super::{Kinematics, State};
 use crate::analysis::state::scoped::ScopedLu;
 use crate::expr::ExprId;
-use crate::ir::{ConstraintSystem, Measure};
+use crate::ir::ConstraintSystem;
+use crate::layout::{self, Holds};
 use crate::program::{Program, Register, Registers, Stage};
-use crate::solver::{Pivoting, RowLayout};
+use crate::solver::Pivoting;
 use crate::structure::Determined;
 use crate::tolerances::scales::kinematics::TRUSTED;
 use std::sync::Arc;
@@ -23,21 +24,19 @@ pub(super) struct Varied {
 }
 
 impl Varied {
-    pub fn new(system: &ConstraintSystem) -> Varied {
+    pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
         let scoped = ScopedLu::new(system);
         if system.variations.is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
         let n = system.coordinates.len();
         let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
-        let mut columns = vec![false];
-        let derivatives: [fn(&Measure) -> Option<ExprId>; 3] = [|m| Some(m.value), |m| m.first, |m| m.second];
-        for derivative in derivatives {
-            columns.extend(std::iter::repeat_n(false, n));
-            columns.extend(system.measures.iter().filter_map(derivative).map(is_varied));
-        }
-        columns.extend(system.appended().iter().map(|_| true));
-        Varied { solution: vec![0.0; n], columns, scoped }
+        let is_varied_column = |holds: &Holds| match *holds {
+            Holds::Time | Holds::Coordinate { .. } => false,
+            Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_varied),
+            Holds::Appended(_) => true,
+        };
+        Varied { solution: vec![0.0; n], columns: holds.iter().map(is_varied_column).collect(), scoped }
     }
 }
 
@@ -58,8 +57,9 @@ impl Kinematics {
         let determined = Arc::new(self.determined.for_variations_of_results()?);
         let program = Arc::new(Program::new(determined.system()));
         let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
-        let (registers, variations) = (program.start(&params), Varied::new(determined.system()));
-        Some(Kinematics { determined, program, registers, variations, ..self.clone() })
+        let holds = layout::holds(determined.system());
+        let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
+        Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
     }
 
     /// Computes the variations of a state that was solved for, where they can be trusted.
@@ -167,9 +167,20 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
+    /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
+    /// columns of derivatives by them.
+    pub fn measure_of_column(&self, column: usize) -> usize {
+        let system = self.system();
+        match self.holds.get(column) {
+            Some(&Holds::Measure { index, .. }) => index,
+            Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
+            _ => 0,
+        }
+    }
+
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
-        RowLayout::new(self.system()).printed
+        self.holds.len()
     }
 }
 
