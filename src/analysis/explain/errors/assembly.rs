@@ -2,7 +2,7 @@
 
 use super::{at, cut_list, degrees, length, named, three_digits, with_places};
 use crate::analysis::explain::open_loop::{Link, LinkOf, OpenLoop};
-use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
+use crate::diag::{Code, Diagnostic};
 use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind};
 use crate::math;
 use serde_json::{Value, json};

@@ -24,12 +24,12 @@ impl Edges {
     /// Finds the edge of the motion that lies before a time; says whether it could.
     pub fn locate(&mut self, kinematics: &mut Kinematics, step: &mut Step, next: f64) -> bool {
         let from = step.t();
-        let mut look = |t: f64| {
+        let mut look = |t: f64| -> Result<bool, Fault> {
             step.predict(kinematics, t - from, t)?;
             step.correct(kinematics)?;
             Ok(self.switch_met(kinematics, from).is_some())
         };
-        let mut found = look(next).unwrap_or_else(|_: Fault| false);
+        let mut found = look(next).unwrap_or(false);
         if !found {
             return false;
         }

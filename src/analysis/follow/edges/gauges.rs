@@ -216,7 +216,8 @@ impl Gauges {
         }
         let sign = if at_a < 0.0 { -1.0 } else { 1.0 };
         let crosses = sign * at_b < 0.0;
-        if !crosses && !(sign * slope_a < 0.0 && sign * slope_b > 0.0) {
+        let comes_and_goes = sign * slope_a < 0.0 && sign * slope_b > 0.0;
+        if !crosses && !comes_and_goes {
             return None;
         }
         let [_, zero] = bisect([a, end], MOST_HALVINGS, |x| {

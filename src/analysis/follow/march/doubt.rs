@@ -5,8 +5,8 @@ use super::Motion;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};
 use crate::diag::Diagnostic;
-use crate::math::GOLDEN;
 use crate::layout::RowLayout;
+use crate::math::GOLDEN;
 use crate::tolerances::solving::doubt::{CELL, NEAREST_BRANCH, PLACES, RIGHT};
 use crate::tolerances::solving::rows::STEPS_AHEAD;
 

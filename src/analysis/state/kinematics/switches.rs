@@ -1,6 +1,6 @@
 //! What time and motion decide beside the equations: switches, rims, signals.
 
-use super::{Fault, Kinematics};
+use super::Kinematics;
 use crate::program::{Enclosure, Frozen, Op, Register, Rim, Signal, Stage, Switch};
 
 impl Kinematics {

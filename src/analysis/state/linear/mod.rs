@@ -90,6 +90,43 @@ struct Entry {
     place: Option<(u32, u32)>,
 }
 
+/// The entries of `Φ_q` by row in block order, and which of them are within their blocks.
+struct Pattern {
+    starts: Vec<usize>,
+    entries: Vec<Entry>,
+    inside: Vec<u32>,
+}
+
+impl Pattern {
+    /// Of some blocks, which take note of their own entries; `place_of` gives for a column its block and its place there.
+    fn new(
+        system: &ConstraintSystem,
+        parts: &mut [Part],
+        rows: &[u32],
+        place_of: impl Fn(usize) -> (u32, u32),
+    ) -> Pattern {
+        let (mut starts, mut entries, mut inside) = (vec![0], Vec::new(), Vec::new());
+        for (k, part) in parts.iter_mut().enumerate() {
+            part.inside.start = inside.len();
+            for (place, &row) in rows[part.at..part.at + part.size].iter().enumerate() {
+                let row = row as usize;
+                for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
+                    let (block, column_place) = place_of(column as usize);
+                    let is_inside = block == k as u32;
+                    if is_inside {
+                        inside.push(entries.len() as u32);
+                    }
+                    let place = is_inside.then_some((place as u32, column_place));
+                    entries.push(Entry { position: position as u32, column, place });
+                }
+                starts.push(entries.len());
+            }
+            part.inside.end = inside.len();
+        }
+        Pattern { starts, entries, inside }
+    }
+}
+
 /// The factors of `Φ_q`, and the workspace to compute and use them.
 #[derive(Clone)]
 pub struct BlockLu {
@@ -159,23 +196,8 @@ impl BlockLu {
             columns.extend_from_slice(&block.columns);
             matrix += if size <= LARGEST_DENSE { size * size } else { 0 };
         }
-        let (mut starts, mut entries, mut inside_blocks) = (vec![0], Vec::new(), Vec::new());
-        for (k, part) in parts.iter_mut().enumerate() {
-            part.inside.start = inside_blocks.len();
-            for place in 0..part.size {
-                let row = rows[part.at + place] as usize;
-                for (position, &(column, _)) in system.phi_q.range(row).zip(system.phi_q.row(row)) {
-                    let is_inside = part_of_column[column as usize] == k as u32;
-                    if is_inside {
-                        inside_blocks.push(entries.len() as u32);
-                    }
-                    let place = is_inside.then_some((place as u32, place_of_column[column as usize]));
-                    entries.push(Entry { position: position as u32, column, place });
-                }
-                starts.push(entries.len());
-            }
-            part.inside.end = inside_blocks.len();
-        }
+        let Pattern { starts, entries, inside } =
+            Pattern::new(system, &mut parts, &rows, |column| (part_of_column[column], place_of_column[column]));
         let column_scale = system.coordinates.iter().map(|coordinate| coordinate.scale).collect();
         let judged = judged_coordinates(system);
         let is_implicit = |column: &u32| !parts[part_of_column[*column as usize] as usize].explicit;
@@ -186,7 +208,7 @@ impl BlockLu {
             columns,
             starts,
             values: vec![0.0; entries.len()],
-            inside: inside_blocks,
+            inside,
             entries,
             column_scale,
             judged,
