@@ -1,6 +1,6 @@
 //! What assembly searches with: the position that is nearest to satisfying some equations, and starts at random.
 
-use crate::analysis::state::{Kinematics, Values, minimize};
+use crate::analysis::state::{Evaluated, Kinematics, minimize};
 
 /// Moves some coordinates to where some rows are as near to zero as they come from `q`.
 pub fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u32], columns: &[u32]) {
@@ -10,7 +10,7 @@ pub fn levenberg_marquardt(kinematics: &mut Kinematics, q: &mut [f64], rows: &[u
     let _ = minimize(system, columns, q, None, |q, weights| {
         kinematics.set_position(q).ok()?;
         let (phi, phi_q) = (|row| kinematics.phi(row), |position| kinematics.phi_q(position));
-        Values { system, phi, phi_q }.linear(rows, columns, weights)
+        Evaluated { system, phi, phi_q }.linear(rows, columns, weights)
     });
 }
 

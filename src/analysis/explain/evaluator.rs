@@ -2,7 +2,7 @@
 //! and not with the solver.
 
 use super::errors;
-use crate::analysis::state::{Linear, Values, aslant, minimize};
+use crate::analysis::state::{Evaluated, Linear, aslant, minimize};
 use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::program::{Program, Registers, Stage};
@@ -36,7 +36,7 @@ impl<'s> Evaluator<'s> {
         let (registers, outputs) = (&self.registers, &self.program.outputs);
         let phi = |row: usize| registers.get(outputs.phi[row]);
         let phi_q = |position: usize| registers.get(outputs.phi_q[position]);
-        Values { system: self.system, phi, phi_q }.linear(rows, columns, weights)
+        Evaluated { system: self.system, phi, phi_q }.linear(rows, columns, weights)
     }
 
     /// Brings some rows as near to zero as can be by moving some columns, and gives them there with the weights used.

@@ -17,7 +17,7 @@ pub struct Linear {
 }
 
 /// Where the values of `Φ` and `Φ_q` are to be had.
-pub struct Values<'s, P, J> {
+pub struct Evaluated<'s, P, J> {
     pub system: &'s ConstraintSystem,
     /// An entry of `Φ` by its row.
     pub phi: P,
@@ -25,7 +25,7 @@ pub struct Values<'s, P, J> {
     pub phi_q: J,
 }
 
-impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Values<'_, P, J> {
+impl<P: Fn(usize) -> f64, J: Fn(usize) -> f64> Evaluated<'_, P, J> {
     /// Some rows by some columns; none where they are not finite. Without weights the rows' norms become the weights.
     pub fn linear(&self, rows: &[u32], columns: &[u32], weights: Option<&[f64]>) -> Option<Linear> {
         let system = self.system;

@@ -16,6 +16,6 @@ mod yardstick;
 pub use aslant::aslant;
 pub use determinant::Determinant;
 pub use kinematics::{Fault, Kinematics, State};
-pub use least_squares::{Linear, Values, minimize};
+pub use least_squares::{Evaluated, Linear, minimize};
 pub use times::{Horizon, Times, behind_start, shortly_after};
 pub use trust::{Trust, are_small};

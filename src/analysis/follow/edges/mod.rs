@@ -22,7 +22,7 @@ use crate::diag::Diagnostic;
 use crate::program::Enclosure;
 use restless::Restless;
 use rims::Rims;
-use sides::{Jump, Sides};
+use sides::Sides;
 use signals::Signals;
 
 /// Where a switch changes.
@@ -165,22 +165,12 @@ impl Edges {
         self.settle(kinematics, step.state(), edge.after);
         match self.sides.take_later(kinematics, step) {
             Ok(None) => self.note_restless(kinematics, step.t()),
-            Ok(Some(jump)) => self.say(kinematics, step, jump, remarks)?,
+            Ok(Some(jump)) => self.sides.say(kinematics, step, jump, remarks)?,
             Err(fault) => {
                 return Err(Box::new(singular::explain(kinematics, self.sides.before(), fault, 0.0, step.t())));
             }
         }
         Ok(true)
-    }
-
-    fn say(
-        &self,
-        kinematics: &Kinematics,
-        step: &Step,
-        jump: Jump,
-        remarks: &mut Remarks,
-    ) -> Result<(), Box<Diagnostic>> {
-        self.sides.say(kinematics, step, jump, remarks)
     }
 
     /// Judges the rim that the state has come to.

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// What rounding makes of a state: by coordinate how far off its position, velocity and acceleration may be.
 #[derive(Clone, Default)]
-pub(super) struct Doubt {
+pub(super) struct Spread {
     position: Vec<f64>,
     velocity: Vec<f64>,
     acceleration: Vec<f64>,
@@ -14,10 +14,10 @@ pub(super) struct Doubt {
     right: Vec<f64>,
 }
 
-impl Doubt {
-    pub fn new(n: usize) -> Doubt {
+impl Spread {
+    pub fn new(n: usize) -> Spread {
         let zero = vec![0.0; n];
-        Doubt { position: zero.clone(), velocity: zero.clone(), acceleration: zero.clone(), right: zero }
+        Spread { position: zero.clone(), velocity: zero.clone(), acceleration: zero.clone(), right: zero }
     }
 }
 
@@ -71,7 +71,7 @@ impl Kinematics {
     }
 
     /// From the weights of the rows in their dependency to what their rounding, all adding up, makes of a state.
-    fn carry_rounding(&mut self, state: &State, doubt: &mut Doubt) {
+    fn carry_rounding(&mut self, state: &State, doubt: &mut Spread) {
         for (row, weight) in doubt.right.iter_mut().enumerate() {
             *weight = f64::EPSILON * self.largest_part(row).copysign(*weight) * f64::from(u8::from(*weight != 0.0));
         }

@@ -15,7 +15,7 @@ use crate::layout::{self, Holds};
 use crate::program::{Program, Register, Registers, Stage};
 use crate::solver::{Equations, Solver, Values};
 use crate::structure::Determined;
-use derivatives::Doubt;
+use derivatives::Spread;
 pub use fault::Fault;
 use row::Varied;
 use std::sync::Arc;
@@ -66,7 +66,7 @@ pub struct Kinematics {
     /// Rows whose slopes are looked at beside a position, these among them.
     looked_at_beside: Vec<usize>,
     beside: Vec<f64>,
-    doubt: Doubt,
+    doubt: Spread,
     /// Where assembly begins, if not where the file says.
     other_estimates: Option<Vec<f64>>,
     variations: Varied,
@@ -91,7 +91,7 @@ impl Kinematics {
         let n = system.coordinates.len();
         let other_estimates = None;
         let holds = layout::holds(system);
-        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system, &holds));
+        let (beside, doubt, variations) = (vec![0.0; n], Spread::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
             program,
