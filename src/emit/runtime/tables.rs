@@ -1,17 +1,43 @@
-/// Arrays that operations read: by number, parameters, what follows from these, the branches of
-/// formulas, the time, and the coordinates with their derivatives.
-type Inputs<'i> = [&'i [f64]; 8];
+//! Operations as numbers: what runs them, and what they leave behind.
+
+use super::either::either;
+use super::pick::pick;
+use super::piece::piece;
+use super::select::select;
+use super::sine_and_cosine::sin_cos;
+
+/// Arrays that operations read: by number, parameters, what follows from these, the branches of formulas, the time or signals, the
+/// coordinates with their derivatives, and derivatives by inputs and parameters.
+pub type Arrays<'a> = [&'a [f64]; 9];
+
+/// What operations name by numbers.
+pub trait Book {
+    /// A number.
+    fn number(number: usize) -> f64;
+
+    /// A function of one argument.
+    fn unary(number: usize, a: f64) -> f64;
+
+    /// A function of two arguments.
+    fn binary(number: usize, a: f64, b: f64) -> f64;
+
+    /// A column of a table.
+    fn column(number: usize) -> &'static [f64];
+}
 
 /// What operations leave behind.
-trait Results {
+pub trait Results {
     /// A result, by its column.
     fn store(&mut self, column: usize, value: f64);
+
     /// A result that has been stored.
     fn stored(&self, column: usize) -> f64;
+
     /// A value that must not be above its bound.
-    fn bounded(&mut self, size: f64, bound: f64);
+    fn bounded(&mut self, _size: f64, _bound: f64) {}
+
     /// One over a pivot, the turn that it counts for, and what makes it a pure number.
-    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64);
+    fn pivoted(&mut self, _turn: usize, _inverse: f64, _weight: f64) {}
 }
 
 /// Results in a list.
@@ -25,14 +51,10 @@ impl<const K: usize> Results for [f64; K] {
     fn stored(&self, column: usize) -> f64 {
         self.get(column).copied().unwrap_or(f64::NAN)
     }
-
-    fn bounded(&mut self, _: f64, _: f64) {}
-
-    fn pivot(&mut self, _: usize, _: f64, _: f64) {}
 }
 
 /// Runs operations on registers: what to do, where the result goes, and what it is done with.
-fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mut impl Results) {
+pub fn run<B: Book>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v: &mut [f64], out: &mut impl Results) {
     let mut rest = code;
     // every operation takes a word at least
     for _ in 0..code.len() {
@@ -41,7 +63,7 @@ fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mu
         };
         let word = |k: usize| operands.get(k).map_or(0, |word| *word as usize);
         let of = |v: &[f64], k: usize| v.get(word(k)).copied().unwrap_or(f64::NAN);
-        let number = |k: usize| NUMBERS.get(word(k)).copied().unwrap_or(f64::NAN);
+        let number = |k: usize| B::number(word(k));
         let truth = f64::from;
         let (value, length) = match what {
             0 => (number(1), 2),
@@ -67,8 +89,8 @@ fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mu
                 }
                 (sin, 3)
             }
-            18 => (unary_function(word(2), of(v, 1)), 3),
-            19 => (binary_function(word(3), of(v, 1), of(v, 2)), 4),
+            18 => (B::unary(word(2), of(v, 1)), 3),
+            19 => (B::binary(word(3), of(v, 1), of(v, 2)), 4),
             20 => (truth(of(v, 1) < of(v, 2)), 3),
             21 => (truth(of(v, 1) <= of(v, 2)), 3),
             22 => (truth(of(v, 1) == of(v, 2)), 3),
@@ -78,8 +100,8 @@ fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mu
             26 => (select(of(v, 1), of(v, 2), of(v, 3)), 4),
             27 => (either(of(v, 1), of(v, 2), of(v, 3)), 4),
             28 => (of(v, 1), 2),
-            29 => (piece(of(v, 1), column_of_table(word(2))), 3),
-            30 => (pick(column_of_table(word(2)), of(v, 1)), 3),
+            29 => (piece(of(v, 1), B::column(word(2))), 3),
+            30 => (pick(B::column(word(2)), of(v, 1)), 3),
             _ => {
                 let length = match what {
                     4 => {
@@ -95,7 +117,7 @@ fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mu
                         2
                     }
                     _ => {
-                        out.pivot(word(1), of(v, 0), number(2));
+                        out.pivoted(word(1), of(v, 0), number(2));
                         3
                     }
                 };
