@@ -218,7 +218,6 @@ impl<'s> Solution<'s> {
         });
         page.end_statement();
         page.text(&tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words));
-        page.blank();
     }
 
     /// The column of the first derivative by parameters.

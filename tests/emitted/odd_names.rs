@@ -1093,8 +1093,8 @@ pub trait Measured: Copy + Debug {
 
     /// What is not finite is no number.
     fn leave_out(&mut self) {
-        for value in self.lists_mut().into_iter().flatten() {
-            if !value.is_finite() {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
                 *value = f64::NAN;
             }
         }
@@ -1102,8 +1102,9 @@ pub trait Measured: Copy + Debug {
 
     /// Close to a singular position derivatives by inputs and parameters have no value.
     fn leave_varied_out(&mut self) {
-        for (value, is_varied) in self.lists_mut().into_iter().flatten().zip(Self::IS_VARIED) {
-            if *is_varied {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
                 *value = f64::NAN;
             }
         }
@@ -1272,10 +1273,9 @@ impl<M: Solved> Solution<M> {
 
     /// Whether all of it is numbers; measures may be none.
     pub fn is_finite(&self) -> bool {
-        let lists = [&self.q, &self.qd, &self.qdd];
-        let mut all = lists.into_iter().flat_map(|list| list.as_ref());
-        let mut slopes = self.along.slopes().iter().flat_map(|list| list.as_ref());
-        all.all(|value| value.is_finite()) && slopes.all(|value| value.is_finite())
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
     }
 }
 }
@@ -1419,6 +1419,8 @@ pub fn find<M: Solved>(
 }
 
 /// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
 fn find_with_pivoting<M: Solved>(
     from: &Solution<M>,
     t: f64,

@@ -18,8 +18,8 @@ pub trait Measured: Copy + Debug {
 
     /// What is not finite is no number.
     fn leave_out(&mut self) {
-        for value in self.lists_mut().into_iter().flatten() {
-            if !value.is_finite() {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
                 *value = f64::NAN;
             }
         }
@@ -27,8 +27,9 @@ pub trait Measured: Copy + Debug {
 
     /// Close to a singular position derivatives by inputs and parameters have no value.
     fn leave_varied_out(&mut self) {
-        for (value, is_varied) in self.lists_mut().into_iter().flatten().zip(Self::IS_VARIED) {
-            if *is_varied {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
                 *value = f64::NAN;
             }
         }

@@ -59,6 +59,8 @@ pub fn find<M: Solved>(
 }
 
 /// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
 fn find_with_pivoting<M: Solved>(
     from: &Solution<M>,
     t: f64,

@@ -145,9 +145,8 @@ impl<M: Solved> Solution<M> {
 
     /// Whether all of it is numbers; measures may be none.
     pub fn is_finite(&self) -> bool {
-        let lists = [&self.q, &self.qd, &self.qdd];
-        let mut all = lists.into_iter().flat_map(|list| list.as_ref());
-        let mut slopes = self.along.slopes().iter().flat_map(|list| list.as_ref());
-        all.all(|value| value.is_finite()) && slopes.all(|value| value.is_finite())
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
     }
 }
