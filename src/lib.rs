@@ -39,10 +39,12 @@ mod check;
 pub mod cli;
 mod diag;
 mod emit;
+mod estimates;
 mod expr;
 mod ide;
 mod import;
 mod ir;
+mod layout;
 mod lower;
 #[cfg(feature = "lsp")]
 mod lsp;
@@ -61,11 +63,12 @@ mod view;
 mod vocabulary;
 mod world;
 
-pub use analysis::{Answers, ColumnUnit, TOLERANCE, Times};
+pub use analysis::{Answers, TOLERANCE, Times};
 pub use cancel::Cancel;
 pub use check::{DeclaredName, Meaning, NameId, NameKind, Symbols, Use};
 pub use diag::{Applies, Code, Color, Diagnostic, Diagnostics, Edit, Fix, Format, Label, Severity, fixed, render};
 pub use emit::{File, LARGEST_STRAIGHT, MARK};
+pub use layout::ColumnUnit;
 pub use output::{TableFormat, TableWriter};
 pub use source::{Encoding, FileId, Source, Sources, Span};
 pub use stages::{
@@ -90,6 +93,7 @@ pub mod rooms {
     pub mod ide { pub use crate::ide::*; }
     pub mod import { pub use crate::import::*; }
     pub mod ir { pub use crate::ir::*; }
+    pub mod layout { pub use crate::layout::*; }
     pub mod lower { pub use crate::lower::*; }
     #[cfg(feature = "lsp")]
     pub mod lsp { pub use crate::lsp::*; }

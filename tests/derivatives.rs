@@ -321,12 +321,12 @@ fn jacobians_and_right_sides_of_every_element() {
                 let times = |v: &[f64]| -> f64 {
                     system.phi_q.row(row).iter().map(|&(column, slope)| now(slope) * v[column as usize]).sum()
                 };
-                near(times(&a) - now(system.nu[row]), first, 1e-8, 1, "ν");
+                near(times(&a) - now(system.nu()[row]), first, 1e-8, 1, "ν");
                 // Φ_q b − γ = d²Φ/dτ²
                 let second =
                     (-at(-2.0 * h) + 16.0 * at(-h) - 30.0 * at(0.0) + 16.0 * at(h) - at(2.0 * h)) / (12.0 * h * h);
-                near(times(&b) - now(system.gamma[row]), second, 1e-5, 2, "γ");
-                if let Some(jerk) = &system.jerk {
+                near(times(&b) - now(system.gamma()[row]), second, 1e-5, 2, "γ");
+                if let Some(jerk) = system.jerk() {
                     let third = (at(2.0 * h) - 2.0 * at(h) + 2.0 * at(-h) - at(-2.0 * h)) / (2.0 * h * h * h);
                     near(times(&c) - now(jerk[row]), third, 1e-2, 3, "jerk");
                 }

@@ -29,13 +29,12 @@ fn rooms() -> Vec<(String, Vec<String>)> {
 /// What the command line names of rooms behind the façade: all of a room, or single things of it.
 const COMMAND_LINE: &[&str] = &[
     "analysis::Answers",
-    "analysis::ColumnKind",
-    "analysis::ColumnUnit",
     "analysis::Times",
     "cancel",
     "diag",
     "emit::MARK",
     "expr::number",
+    "layout",
     "lsp",
     "output",
     "scene",

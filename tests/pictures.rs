@@ -329,8 +329,7 @@ fn arrows_are_at_what_moves() {
 #[test]
 fn the_pale_moments_of_a_strobe_lie_below_the_ground() {
     let seen = seen_text(CAM);
-    let rows = [0, 25, 50, 60].map(|row| seen.motion.rows()[row].clone()).to_vec();
-    let moments = Motion::of_rows(seen.motion.frames() - 1, &seen.columns, rows, Vec::new());
+    let moments = seen.motion.moments(&[0, 25, 50, 60]);
     let file = still(&seen.scene, &seen.motion, &moments, &Options::default());
     let ghosts: Vec<usize> = file.match_indices("<g class=\"ghost\"").map(|(at, _)| at).collect();
     let strong = file.find("<g data-t=").expect("the last one");
@@ -357,8 +356,7 @@ fn boxes(file: &str) -> Vec<(String, [Vector; 2])> {
 
 /// A single moment of a motion.
 fn one_row(seen: &Seen, row: usize) -> Motion {
-    let rows = vec![seen.motion.rows()[row].clone()];
-    Motion::of_rows(seen.motion.frames() - 1, &seen.columns, rows, Vec::new())
+    seen.motion.moment(row)
 }
 
 /// The corners of a shape at a moment, contour by contour; many for a circle of two arcs.

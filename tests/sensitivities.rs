@@ -8,7 +8,7 @@
 mod support;
 
 use mechc::rooms::analysis::{self, Horizon};
-use mechc::rooms::ir::{ConstraintSystem, Param};
+use mechc::rooms::ir::{BodyId, ConstraintSystem, Param};
 use mechc::{Cancel, Choice, Compiled, Parsed, Redundant, Times};
 use std::fmt::Write;
 use std::fs;
@@ -278,7 +278,7 @@ fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param
 /// The text with measures that are places and angles of its bodies, differentiated by a name.
 fn with_measures(text: &str, mechanism: &str, system: &ConstraintSystem, by: &str) -> String {
     let mut measures = String::new();
-    let mut known: Vec<usize> = Vec::new();
+    let mut known: Vec<BodyId> = Vec::new();
     for point in &system.points {
         let (Some(name), Some(body)) = (&point.name, point.body.filter(|body| !known.contains(body))) else { continue };
         let owner = &system.bodies[body].name;
@@ -286,7 +286,7 @@ fn with_measures(text: &str, mechanism: &str, system: &ConstraintSystem, by: &st
             .into_iter()
             .enumerate()
         {
-            let _ = writeln!(measures, " measure zz_{body}_{k} = der({quantity}, {by})");
+            let _ = writeln!(measures, " measure zz_{}_{k} = der({quantity}, {by})", body.index());
         }
         known.push(body);
         if known.len() == BODIES {

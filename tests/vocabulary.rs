@@ -100,14 +100,8 @@ fn joints_have_as_many_equations_and_coordinates_as_their_pages_say() {
     for joint in vocabulary::JOINTS {
         let (determined, _) = compiled(joint.word.name, &joint.word.example()).inside();
         let system = determined.system();
-        let (number, _) = system
-            .declarations
-            .iter()
-            .enumerate()
-            .find(
-                |(_, declaration)| matches!(declaration.kind, DeclarationKind::Joint(kind) if kind == joint.word.name),
-            )
-            .expect("the joint");
+        let is_it = |kind| matches!(kind, DeclarationKind::Joint(kind) if kind.word() == joint.word.name);
+        let number = system.declarations.find(|declaration| is_it(declaration.kind)).expect("the joint");
         let rows = system.rows.iter().filter(|row| row.declaration == number).count();
         assert_eq!(rows, joint.equations, "{}", joint.word.name);
         let name = &system.declarations[number].name;

@@ -314,8 +314,8 @@ fn formulas_of_the_json_are_those_of_the_system() {
         };
         for (k, row) in system.rows.iter().enumerate() {
             same(&json["rows"][k]["phi"], row.phi);
-            same(&json["nu"][k], system.nu[k]);
-            same(&json["gamma"][k], system.gamma[k]);
+            same(&json["nu"][k], system.nu()[k]);
+            same(&json["gamma"][k], system.gamma()[k]);
         }
         for (k, (_, id)) in system.phi_q.entries().iter().enumerate() {
             same(&json["phi_q"][k]["value"], *id);
@@ -506,8 +506,8 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
             }
         };
         of(r"\Phi", row.phi);
-        of(r"\nu", system.nu[k]);
-        of(r"\gamma", system.gamma[k]);
+        of(r"\nu", system.nu()[k]);
+        of(r"\gamma", system.gamma()[k]);
         let mut cells = cells(equations, k + 1);
         for &(column, id) in system.phi_q.row(k) {
             let symbol = column_symbol(&document, column as usize);

@@ -11,7 +11,7 @@ use super::search::{Noise, levenberg_marquardt};
 use super::singular;
 use super::times::Horizon;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind, WatchKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
 use crate::tolerances::assembly::newton::{
     BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY, PERTURBATIONS,
     SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
@@ -23,12 +23,12 @@ use std::f64::consts::PI;
 pub struct Moved {
     /// Largest move of a body's origin in x or y (m).
     pub length: f64,
-    /// Index of that body.
-    pub length_body: usize,
+    /// That body.
+    pub length_body: BodyId,
     /// Largest turn (rad).
     pub angle: f64,
-    /// Index of that body.
-    pub angle_body: usize,
+    /// That body.
+    pub angle_body: BodyId,
     /// Whether the estimates led nowhere, and others near them had to be tried.
     pub perturbed: bool,
 }

@@ -6,7 +6,7 @@
 
 use super::kinematics::{Kinematics, State};
 use super::search::{Noise, levenberg_marquardt};
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind};
 use crate::structure::Determined;
 use crate::tolerances::assembly::branches::{
     AS_NEAR, LARGEST_LOOP, LARGEST_SYSTEM, MOST_LOOPS, RANDOM_STARTS, SAME, TURNED_OVER,
@@ -16,8 +16,8 @@ use std::f64::consts::{PI, TAU};
 /// Why the position taken may not be the one meant.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Doubt {
-    /// Index of the body whose estimate is off.
-    pub body: usize,
+    /// The body whose estimate is off.
+    pub body: BodyId,
     /// How far.
     pub off: Off,
 }

@@ -9,7 +9,7 @@ use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
 use super::times::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem, DeclarationKind};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind};
 use crate::structure::{self, Determined, Part, Refused};
 use crate::tolerances::determinacy::determine::LARGEST;
 
@@ -157,7 +157,7 @@ fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<u
 /// How likely it is that a row is wrong rather than one before it: a length that is prescribed is more often than a pin.
 fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
     match system.declaration_of(row).kind {
-        DeclarationKind::Joint("revolute_revolute") => 2,
+        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
         DeclarationKind::Joint(_) | DeclarationKind::Driver => 0,
         DeclarationKind::Constraint => 1,
     }

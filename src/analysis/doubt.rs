@@ -10,7 +10,7 @@ use crate::tolerances::steps::march::FEWEST_STEPS_NEAR;
 
 use super::trust::{Trust, are_small};
 use crate::diag::Diagnostic;
-use crate::solver::RowLayout;
+use crate::layout::RowLayout;
 
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];

@@ -11,7 +11,8 @@ use super::kinematics::Fault;
 use super::march::Motion;
 use super::singular;
 use crate::diag::Diagnostic;
-use crate::ir::CoordinateKind;
+use crate::ir::{CoordinateKind, DeclarationId};
+use crate::layout::{self, ColumnKind};
 use crate::tolerances::jumps::{ACCELERATION_JUMP, POSITION_JUMP, REST, VELOCITY_JUMP};
 use crate::tolerances::steps::edges::{
     AHEAD, AT_REST, FARTHEST_AHEAD, FINEST, FINEST_BETWEEN, ITERATIONS, LAST_DIGITS, LONGEST_AHEAD, LONGEST_REST,
@@ -470,7 +471,7 @@ impl Motion {
     }
 
     /// The declarations whose own equations the earlier side does not satisfy, with the branches of the later one.
-    fn declarations_behind(&self, jump: Jump) -> Vec<usize> {
+    fn declarations_behind(&self, jump: Jump) -> Vec<DeclarationId> {
         let system = self.kinematics.system();
         let open = |row: usize| {
             let (velocity, acceleration) = self.kinematics.left_open(row, &self.before);
@@ -483,7 +484,7 @@ impl Motion {
         };
         let open: Vec<f64> = (0..system.rows.len()).map(open).collect();
         let widest = open.iter().copied().fold(0.0, f64::max);
-        let mut behind: Vec<usize> = (0..open.len())
+        let mut behind: Vec<DeclarationId> = (0..open.len())
             .filter(|&row| open[row] > TAKES_PART * widest)
             .map(|row| system.rows[row].declaration)
             .collect();
@@ -509,10 +510,10 @@ impl Motion {
             (a - b).abs() > ACCELERATION_JUMP * a.abs().max(b.abs()).max(REST / (self.span * self.span))
         };
         // what is varied jumps with what it is a derivative of
-        let mut names = super::columns(self.kinematics.system());
-        names.truncate(names.len() - self.kinematics.system().appended().len());
+        let columns = layout::columns(self.kinematics.system());
+        let own = columns.into_iter().filter(|column| column.kind != ColumnKind::Variation);
         let sides = self.row_before.iter().zip(&self.row);
-        names.into_iter().zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(name, _)| name).collect()
+        own.zip(sides).filter(|(_, (a, b))| jumps(**a, **b)).map(|(column, _)| column.name).collect()
     }
 }
 

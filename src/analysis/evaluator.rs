@@ -4,7 +4,7 @@
 use super::aslant;
 use super::errors;
 use super::least_squares::{Linear, Values, minimize};
-use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::program::{Program, Registers, Stage};
 use crate::tolerances::assembly::evaluator::{HOPELESS, NUDGE};
@@ -83,10 +83,10 @@ impl<'s> Evaluator<'s> {
     }
 
     /// The distance that a declaration prescribes between two points, if it does, and that between them (m).
-    pub fn distance(&self, declaration: usize) -> Option<[f64; 2]> {
+    pub fn distance(&self, declaration: DeclarationId) -> Option<[f64; 2]> {
         let system = self.system;
         let is_distance = match system.declarations[declaration].kind {
-            DeclarationKind::Joint(word) => word == "revolute_revolute",
+            DeclarationKind::Joint(kind) => kind == JointKind::RevoluteRevolute,
             _ => true,
         };
         let &[p, q] = system.declarations[declaration].points.as_slice() else {
@@ -120,13 +120,14 @@ impl<'s> Evaluator<'s> {
     }
 
     /// Where a point is (m).
-    pub fn place_of(&self, point: usize) -> [f64; 2] {
+    pub fn place_of(&self, point: PointId) -> [f64; 2] {
         let point = &self.system.points[point];
         let [x, y] = point.at.map(|id| self.system.value_at(id, &[]));
         let Some(body) = point.body else {
             return [x, y];
         };
-        let (sin, cos) = math::sin_cos(self.q[3 * body + 2]);
-        [self.q[3 * body] + x * cos - y * sin, self.q[3 * body + 1] + x * sin + y * cos]
+        let [origin_x, origin_y, phi] = self.system.pose_of(body).map(|k| self.q[k]);
+        let (sin, cos) = math::sin_cos(phi);
+        [origin_x + x * cos - y * sin, origin_y + x * sin + y * cos]
     }
 }

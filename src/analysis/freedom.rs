@@ -4,7 +4,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::redundancy::{Basis, orthogonal};
 use super::singular;
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, IdVec, JointKind, PointId};
 use crate::math;
 use crate::structure::Part;
 use crate::tolerances::determinacy::freedom::{
@@ -16,9 +16,9 @@ use std::collections::hash_map::Entry;
 /// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]
 pub struct FreeMotion {
-    /// The bodies that move, by their numbers, with the velocities of their frames [m, m, rad]. Of all coordinates, in sizes of
+    /// The bodies that move, with the velocities of their frames [m, m, rad]. Of all coordinates, in sizes of
     /// their bodies and in radians, the fastest moves by 1.
-    pub bodies: Vec<(usize, [f64; 3])>,
+    pub bodies: Vec<(BodyId, [f64; 3])>,
 }
 
 /// The motions that equations leave free.
@@ -27,9 +27,9 @@ pub(super) struct Freedom {
     /// Independent motions, by coordinates, scaled.
     motions: Vec<Vec<f64>>,
     /// Bodies that nothing holds.
-    loose: Vec<usize>,
+    loose: Vec<BodyId>,
     /// Bodies that can move.
-    moving: Vec<usize>,
+    moving: Vec<BodyId>,
     /// What would take them where it is driven: `rotation(main)`.
     drivers: Vec<String>,
     /// Joints that may have been forgotten, as text to write.
@@ -48,7 +48,7 @@ impl Freedom {
         let taken = Basis::of(&jacobian, part.columns.len()).vectors;
         let shares = shares_left(&taken, part.columns.len());
         let with_share = |least: f64| {
-            let mut count = vec![0; system.bodies.len()];
+            let mut count = system.bodies.map(|_| 0);
             for (&column, &share) in part.columns.iter().zip(&shares) {
                 if let Some(body) = system.body_of(column as usize)
                     && share > least
@@ -58,8 +58,8 @@ impl Freedom {
             }
             count
         };
-        let bodies_where = |counts: Vec<usize>, least: usize| -> Vec<usize> {
-            (0..counts.len()).filter(|&body| counts[body] >= least).collect()
+        let bodies_where = |counts: IdVec<BodyId, usize>, least: usize| -> Vec<BodyId> {
+            counts.ids().filter(|&body| counts[body] >= least).collect()
         };
         let loose = bodies_where(with_share(LOOSE), 3);
         let moving = bodies_where(with_share(MOVES), 1);
@@ -81,7 +81,7 @@ impl Freedom {
     }
 
     /// The bodies that can move.
-    pub fn moving(&self) -> &[usize] {
+    pub fn moving(&self) -> &[BodyId] {
         &self.moving
     }
 
@@ -173,22 +173,24 @@ impl Freedom {
                 continue;
             };
             let rates: Vec<f64> = match declaration.kind {
-                DeclarationKind::Joint("revolute") => {
+                DeclarationKind::Joint(JointKind::Revolute) => {
                     self.motions.iter().map(|motion| turn(system, motion, q) - turn(system, motion, p)).collect()
                 }
-                DeclarationKind::Joint("translational") => self.slides(evaluator, p, q),
+                DeclarationKind::Joint(JointKind::Translational) => self.slides(evaluator, p, q),
                 _ => continue,
             };
-            let quantity =
-                if declaration.kind == DeclarationKind::Joint("revolute") { "rotation" } else { "displacement" };
+            let quantity = if declaration.kind == DeclarationKind::Joint(JointKind::Revolute) {
+                "rotation"
+            } else {
+                "displacement"
+            };
             candidates.push((format!("{quantity}({})", declaration.name), rates));
         }
         for &body in &self.moving {
             let name = &system.bodies[body].name;
-            let turns = self.motions.iter().map(|motion| motion[3 * body + 2]).collect();
-            let of_body = |point: &usize| system.points[*point].body == Some(body);
-            let point =
-                (0..system.points.len()).filter(of_body).find_map(|k| Some((k, system.points[k].name.as_ref()?)));
+            let turns = self.motions.iter().map(|motion| motion[system.pose_of(body)[2]]).collect();
+            let of_body = |point: &PointId| system.points[*point].body == Some(body);
+            let point = system.points.ids().filter(of_body).find_map(|k| Some((k, system.points[k].name.as_ref()?)));
             if let Some((point, point_name)) = point {
                 for (part, word) in [(0, "x"), (1, "y")] {
                     let rates =
@@ -202,7 +204,7 @@ impl Freedom {
     }
 
     /// How fast a second point moves away from a first one, along the way it takes.
-    fn slides(&self, evaluator: &Evaluator<'_>, p: usize, q: usize) -> Vec<f64> {
+    fn slides(&self, evaluator: &Evaluator<'_>, p: PointId, q: PointId) -> Vec<f64> {
         let system = evaluator.system;
         let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
         let relative = |motion: &Vec<f64>| {
@@ -228,17 +230,17 @@ impl Freedom {
         }
         let drawn = Evaluator::new(system);
         let pinned = pinned_together(system);
-        let held = |p: usize, q: usize| {
+        let held = |p: PointId, q: PointId| {
             let bodies = [system.points[p].body, system.points[q].body];
-            let holds = |points: &[usize]| {
+            let holds = |points: &[PointId]| {
                 matches!(points, &[a, b] if [system.points[a].body, system.points[b].body] == bodies
                     || [system.points[b].body, system.points[a].body] == bodies)
             };
             pinned[p] == pinned[q] || system.declarations.iter().any(|declaration| holds(&declaration.points))
         };
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for p in 0..system.points.len() {
-            for q in p + 1..system.points.len() {
+        let mut pairs: Vec<(f64, PointId, PointId)> = Vec::new();
+        for p in system.points.ids() {
+            for q in system.points.ids().skip(p.index() + 1) {
                 let bodies = [system.points[p].body, system.points[q].body];
                 let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
                 if bodies[0] == bodies[1] || !moves {
@@ -246,7 +248,7 @@ impl Freedom {
                 }
                 let (a, b) = (drawn.place_of(p), drawn.place_of(q));
                 let apart = math::hypot(b[0] - a[0], b[1] - a[1]);
-                let is_used = |point: usize| system.declarations.iter().any(|one| one.points.contains(&point));
+                let is_used = |point: PointId| system.declarations.iter().any(|one| one.points.contains(&point));
                 let near = if is_used(p) || is_used(q) { COINCIDE } else { DANGLING };
                 if apart < near * system.length && !held(p, q) {
                     pairs.push((apart, p, q));
@@ -254,11 +256,11 @@ impl Freedom {
             }
         }
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let text = |&(_, p, q): &(f64, usize, usize)| {
+        let text = |&(_, p, q): &(f64, PointId, PointId)| {
             Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
         };
         // of points that are pinned together one will do
-        let mut told: Vec<[usize; 2]> = Vec::new();
+        let mut told: Vec<[PointId; 2]> = Vec::new();
         pairs.retain(|&(_, p, q)| {
             let mut both = [pinned[p], pinned[q]];
             both.sort_unstable();
@@ -281,13 +283,13 @@ pub(super) fn motions_as_drawn(system: &ConstraintSystem, part: &Part, t: f64) -
 /// A motion of all coordinates, scaled, as one of the bodies.
 fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     let fastest = motion.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-    let velocity = |body: usize| [0, 1, 2].map(|part| (3 * body + part, motion[3 * body + part]));
-    let moves = |body: &usize| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
-    let moved = |body: usize| {
+    let velocity = |body: BodyId| system.pose_of(body).map(|column| (column, motion[column]));
+    let moves = |body: &BodyId| velocity(*body).iter().any(|(_, x)| x.abs() > MOVES * fastest);
+    let moved = |body: BodyId| {
         let of_rounding = |x: f64| if x.abs() > MOVES * fastest { x / fastest } else { 0.0 };
         (body, velocity(body).map(|(column, x)| of_rounding(x) * system.coordinates[column].scale))
     };
-    FreeMotion { bodies: (0..system.bodies.len()).filter(moves).map(moved).collect() }
+    FreeMotion { bodies: system.bodies.ids().filter(moves).map(moved).collect() }
 }
 
 /// The motions beside an orthonormal basis of what is held, each told by itself, of all coordinates.
@@ -301,26 +303,26 @@ fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Vec<Vec<f64
 }
 
 /// For each point, one that stands for all that are pinned together with it, also by way of others.
-fn pinned_together(system: &ConstraintSystem) -> Vec<usize> {
-    let mut stands_for: Vec<usize> = (0..system.points.len()).collect();
-    let mut join = |a: usize, b: usize| {
+fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
+    let mut stands_for: IdVec<PointId, PointId> = system.points.ids().collect();
+    let mut join = |a: PointId, b: PointId| {
         let (from, to) = (stands_for[a], stands_for[b]);
-        for point in &mut stands_for {
+        for point in stands_for.iter_mut() {
             if *point == from {
                 *point = to;
             }
         }
     };
     for declaration in &system.declarations {
-        if let (DeclarationKind::Joint("revolute" | "weld"), &[a, b]) =
+        if let (DeclarationKind::Joint(JointKind::Revolute | JointKind::Weld), &[a, b]) =
             (declaration.kind, declaration.points.as_slice())
         {
             join(a, b);
         }
     }
     // a point may stand in a body under several names
-    let mut first_at: FxHashMap<(Option<usize>, [u64; 2]), usize> = FxHashMap::default();
-    for (k, point) in system.points.iter().enumerate() {
+    let mut first_at: FxHashMap<(Option<BodyId>, [u64; 2]), PointId> = FxHashMap::default();
+    for (k, point) in system.points.pairs() {
         let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
         match first_at.entry((point.body, place)) {
             Entry::Occupied(known) => join(k, *known.get()),
@@ -386,18 +388,19 @@ fn spread(motion: &[f64], part: &Part, n: usize) -> Vec<f64> {
 }
 
 /// How fast the body of a point turns.
-fn turn(system: &ConstraintSystem, motion: &[f64], point: usize) -> f64 {
-    system.points[point].body.map_or(0.0, |body| motion[3 * body + 2])
+fn turn(system: &ConstraintSystem, motion: &[f64], point: PointId) -> f64 {
+    system.points[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
 }
 
 /// How fast a point moves (m).
-fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: usize) -> [f64; 2] {
+fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: PointId) -> [f64; 2] {
     let system = evaluator.system;
     let Some(body) = system.points[point].body else {
         return [0.0; 2];
     };
     let [x, y] = evaluator.place_of(point);
     let along = |k: usize| motion[k] * system.coordinates[k].scale;
-    let turn = motion[3 * body + 2];
-    [along(3 * body) - turn * (y - evaluator.q[3 * body + 1]), along(3 * body + 1) + turn * (x - evaluator.q[3 * body])]
+    let [origin_x, origin_y, phi] = system.pose_of(body);
+    let turn = motion[phi];
+    [along(origin_x) - turn * (y - evaluator.q[origin_y]), along(origin_y) + turn * (x - evaluator.q[origin_x])]
 }

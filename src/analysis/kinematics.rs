@@ -6,9 +6,10 @@ use super::scoped::ScopedLu;
 use super::yardstick::is_looked_at_beside;
 use crate::cancel::Cancel;
 use crate::expr::ExprId;
-use crate::ir::{ConstraintSystem, DeclarationKind, Measure, Owner, WatchKind};
+use crate::ir::{ConstraintSystem, DeclarationKind, Owner, WatchKind};
+use crate::layout::{self, Holds};
 use crate::program::{Enclosure, Frozen, Op, Program, Register, Registers, Rim, Signal, Stage, Switch};
-use crate::solver::{Equations, Pivoting, RowLayout, Solver, Values};
+use crate::solver::{Equations, Pivoting, Solver, Values};
 use crate::structure::Determined;
 use crate::tolerances::checks::LARGEST_OPENING;
 use crate::tolerances::scales::kinematics::{BESIDE, ROUNDING, TRUSTED};
@@ -87,6 +88,8 @@ pub(super) struct Kinematics {
     /// Where assembly begins, if not where the file says.
     other_estimates: Option<Vec<f64>>,
     variations: Varied,
+    /// What the columns of a row hold.
+    holds: Vec<Holds>,
 }
 
 /// What is needed for derivatives by inputs and parameters.
@@ -101,21 +104,19 @@ struct Varied {
 }
 
 impl Varied {
-    fn new(system: &ConstraintSystem) -> Varied {
+    fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
         let scoped = ScopedLu::new(system);
         if system.variations.is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
         let n = system.coordinates.len();
         let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
-        let mut columns = vec![false];
-        let derivatives: [fn(&Measure) -> Option<ExprId>; 3] = [|m| Some(m.value), |m| m.first, |m| m.second];
-        for derivative in derivatives {
-            columns.extend(std::iter::repeat_n(false, n));
-            columns.extend(system.measures.iter().filter_map(derivative).map(is_varied));
-        }
-        columns.extend(system.appended().iter().map(|_| true));
-        Varied { solution: vec![0.0; n], columns, scoped }
+        let is_varied_column = |holds: &Holds| match *holds {
+            Holds::Time | Holds::Coordinate { .. } => false,
+            Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_varied),
+            Holds::Appended(_) => true,
+        };
+        Varied { solution: vec![0.0; n], columns: holds.iter().map(is_varied_column).collect(), scoped }
     }
 }
 
@@ -152,7 +153,8 @@ impl Kinematics {
         let looked_at_beside = (0..system.rows.len()).filter(|&row| is_looked_at_beside(system, row)).collect();
         let n = system.coordinates.len();
         let other_estimates = None;
-        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system));
+        let holds = layout::holds(system);
+        let (beside, doubt, variations) = (vec![0.0; n], Doubt::new(n), Varied::new(system, &holds));
         Kinematics {
             determined,
             program,
@@ -167,6 +169,7 @@ impl Kinematics {
             doubt,
             other_estimates,
             variations,
+            holds,
         }
     }
 
@@ -753,8 +756,9 @@ impl Kinematics {
         let determined = Arc::new(self.determined.for_variations_of_results()?);
         let program = Arc::new(Program::new(determined.system()));
         let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
-        let (registers, variations) = (program.start(&params), Varied::new(determined.system()));
-        Some(Kinematics { determined, program, registers, variations, ..self.clone() })
+        let holds = layout::holds(determined.system());
+        let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
+        Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
     }
 
     /// Computes the variations of a state that was solved for, where they can be trusted.
@@ -885,21 +889,16 @@ impl Kinematics {
     /// columns of derivatives by them.
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();
-        let n = system.coordinates.len();
-        let having = |has: fn(&Measure) -> bool| (0..system.measures.len()).filter(move |&k| has(&system.measures[k]));
-        let columns = std::iter::repeat_n(0, 1 + n)
-            .chain(having(|_| true))
-            .chain(std::iter::repeat_n(0, n))
-            .chain(having(|measure| measure.first.is_some()))
-            .chain(std::iter::repeat_n(0, n))
-            .chain(having(|measure| measure.second.is_some()))
-            .chain(system.appended().iter().map(|column| system.measures.len() + column.variable as usize));
-        columns.clone().nth(column).unwrap_or(0)
+        match self.holds.get(column) {
+            Some(&Holds::Measure { index, .. }) => index,
+            Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
+            _ => 0,
+        }
     }
 
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
-        RowLayout::new(self.system()).printed
+        self.holds.len()
     }
 
     /// Evaluates and factors at a state again.

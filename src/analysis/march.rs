@@ -17,6 +17,7 @@ use super::times::Times;
 use super::touch::Before;
 use super::trust::Trust;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::{DeclarationId, IdVec};
 use crate::program::Enclosure;
 use crate::solver::Solver;
 use crate::tolerances::steps::march::{
@@ -72,7 +73,7 @@ pub struct Motion {
     pub(super) fastest: f64,
     pub(super) hardest: f64,
     /// Declarations of which it has been said that they make an acceleration jump.
-    pub(super) warned: Vec<bool>,
+    pub(super) warned: IdVec<DeclarationId, bool>,
     pub(super) remarks: Diagnostics,
     /// Times at which accelerations have jumped (s), if anybody asks for them.
     pub(super) edges: Option<Vec<f64>>,
@@ -142,7 +143,7 @@ impl Motion {
             acceleration_change: 0.0,
             fastest: 0.0,
             hardest: 0.0,
-            warned: vec![false; kinematics.system().declarations.len()],
+            warned: kinematics.system().declarations.map(|_| false),
             remarks: Diagnostics::default(),
             edges: None,
             trial: state.clone(),

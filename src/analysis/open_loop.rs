@@ -8,7 +8,7 @@ use super::errors;
 use super::evaluator::Evaluator;
 use super::least_squares::Linear;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::structure::{Determined, Part};
 use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
@@ -16,13 +16,13 @@ use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIG
 /// A loop that does not close.
 pub(super) struct OpenLoop {
     /// The declaration at which it is told to be open.
-    pub at: usize,
+    pub at: DeclarationId,
     /// By how much there (m or rad), all else being closed.
     pub by: f64,
     /// In what.
     pub kind: CoordinateKind,
     /// All declarations that take part, in order.
-    pub declarations: Vec<usize>,
+    pub declarations: Vec<DeclarationId>,
     /// Lengths that stand in the way.
     pub links: Vec<Link>,
     /// The largest residual that is left, scaled.
@@ -43,9 +43,9 @@ pub(super) struct Link {
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub(super) enum LinkOf {
     /// The distance between two declarations' points on a body; none for the ground.
-    Body(Option<usize>, [usize; 2]),
+    Body(Option<BodyId>, [DeclarationId; 2]),
     /// The distance that a declaration prescribes.
-    Declaration(usize),
+    Declaration(DeclarationId),
 }
 
 /// The diagnosis where the nearest position is `q`.
@@ -92,7 +92,7 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
     if largest < CLOSED {
         return None;
     }
-    let mut declarations: Vec<usize> = part
+    let mut declarations: Vec<DeclarationId> = part
         .rows
         .iter()
         .zip(&linear.residual)
@@ -134,39 +134,44 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
 
 /// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
 /// than a pin.
-fn weakest(system: &ConstraintSystem, part: &Part, linear: &Linear, declarations: &[usize]) -> Option<usize> {
-    let is_about_places = |k: usize| {
+fn weakest(
+    system: &ConstraintSystem,
+    part: &Part,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+) -> Option<DeclarationId> {
+    let is_about_places = |k: DeclarationId| {
         let own = (0..system.rows.len()).find(|&row| system.rows[row].declaration == k);
         own.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
     };
-    let rank = |k: usize| match system.declarations[k].kind {
-        DeclarationKind::Joint("revolute_revolute") => 2,
+    let rank = |k: DeclarationId| match system.declarations[k].kind {
+        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
         DeclarationKind::Constraint => 1,
         DeclarationKind::Driver if is_about_places(k) => 1,
         _ => 0,
     };
-    let open = |k: usize| {
+    let open = |k: DeclarationId| {
         let own =
             part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows[**row as usize].declaration == k);
         own.map(|(_, open)| open * open).sum::<f64>()
     };
     // of pins that are equally open the last one closes the loop
-    let is_no_driver = |k: usize| system.declarations[k].kind != DeclarationKind::Driver;
+    let is_no_driver = |k: DeclarationId| system.declarations[k].kind != DeclarationKind::Driver;
     let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
     declarations.iter().copied().filter(|&k| open(k) > 0.3 * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
 }
 
 /// The lengths along which the residuals pull or press.
-fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: &[usize]) -> Vec<Link> {
+fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
     let system = evaluator.system;
     let mut links = Vec::new();
     for &k in declarations {
         let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
         links.extend(evaluator.distance(k).map(link));
     }
-    let bodies = std::iter::once(None).chain((0..system.bodies.len()).map(Some));
+    let bodies = std::iter::once(None).chain(system.bodies.ids().map(Some));
     for body in bodies {
-        let pulls: Vec<(usize, usize, [f64; 2])> = declarations
+        let pulls: Vec<(DeclarationId, PointId, [f64; 2])> = declarations
             .iter()
             .filter_map(|&k| {
                 let point = *system.declarations[k].points.iter().find(|&&point| system.points[point].body == body)?;
@@ -191,7 +196,13 @@ fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: 
 }
 
 /// What a declaration pulls at a body or the ground with, its residuals taken for springs.
-fn force(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declaration: usize, body: Option<usize>) -> [f64; 2] {
+fn force(
+    evaluator: &Evaluator<'_>,
+    part: &Part,
+    linear: &Linear,
+    declaration: DeclarationId,
+    body: Option<BodyId>,
+) -> [f64; 2] {
     let system = evaluator.system;
     let mut force = [0.0; 2];
     for (k, &row) in part.rows.iter().enumerate() {
@@ -201,12 +212,14 @@ fn force(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declaration: u
         }
         let pull = linear.residual[k] / linear.weights[k];
         for (column, slope) in evaluator.slopes(row) {
-            let axis = column % 3;
-            match (system.body_of(column), body) {
-                (Some(of), Some(wanted)) if of == wanted && axis < 2 => force[axis] -= pull * slope,
+            let Some(of) = system.body_of(column) else { continue };
+            let [x, y, _] = system.pose_of(of);
+            let Some(axis) = [x, y].iter().position(|&place| place == column) else { continue };
+            match body {
+                Some(wanted) if of == wanted => force[axis] -= pull * slope,
                 // what holds the ground is what it holds the bodies with
-                (Some(_), None) if axis < 2 => force[axis] += pull * slope,
-                _ => {}
+                None => force[axis] += pull * slope,
+                Some(_) => {}
             }
         }
     }

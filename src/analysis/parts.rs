@@ -87,7 +87,7 @@ impl<'d> Placing<'d> {
         let parts = &system.parts;
         let mut is_of_an_open_part = vec![false; q.len()];
         for part in parts {
-            is_of_an_open_part[3 * part.bodies.start..3 * part.bodies.end].fill(true);
+            is_of_an_open_part[part.poses.clone()].fill(true);
             is_of_an_open_part[part.own.clone()].fill(true);
         }
         Placing {
@@ -134,23 +134,24 @@ impl<'d> Placing<'d> {
 
     fn set_on_its_mount(&mut self, part: usize, [x, y, phi]: [f64; 3], alone: Option<Vec<f64>>) {
         let start = &self.parts[part];
-        let first = 3 * start.bodies.start;
-        let columns = (first..3 * start.bodies.end).chain(start.own.clone());
-        columns.for_each(|column| self.is_of_an_open_part[column] = false);
+        let (poses, own) = (start.poses.clone(), start.own.clone());
+        poses.clone().chain(own.clone()).for_each(|column| self.is_of_an_open_part[column] = false);
         let is_whole = [x, y, phi].iter().all(|value| value.is_finite());
-        let Some(alone) = alone.filter(|q| q.len() == 3 * start.bodies.len() + start.own.len() && is_whole) else {
+        let Some(alone) = alone.filter(|q| q.len() == poses.len() + own.len() && is_whole) else {
             return;
         };
         let (sin, cos) = math::sin_cos(phi);
         let side = if start.is_mirrored { -1.0 } else { 1.0 };
-        for (k, pose) in alone[..3 * start.bodies.len()].chunks_exact(3).enumerate() {
-            let (along, across) = (pose[0], side * pose[1]);
-            let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * pose[2]];
-            self.q[first + 3 * k..first + 3 * k + 3].copy_from_slice(&placed);
+        for &body in &start.bodies {
+            let pose = self.determined.system().pose_of(body);
+            let [along, across, turn] = pose.map(|column| alone[column - poses.start]);
+            let across = side * across;
+            let placed = [x + along * cos - across * sin, y + along * sin + across * cos, phi + side * turn];
+            pose.into_iter().zip(placed).for_each(|(column, value)| self.q[column] = value);
         }
-        self.q[start.own.clone()].copy_from_slice(&alone[3 * start.bodies.len()..]);
-        self.is_settled[first..first + 3 * start.bodies.len()].fill(true);
-        self.is_settled[start.own.clone()].fill(true);
+        self.q[own.clone()].copy_from_slice(&alone[poses.len()..]);
+        self.is_settled[poses].fill(true);
+        self.is_settled[own].fill(true);
     }
 
     /// Solves blocks that parts need, each once those before it are settled; whether there was one.

@@ -13,7 +13,8 @@ use super::singular;
 use super::times::Times;
 use super::trust::Trust;
 use crate::diag::Diagnostic;
-use crate::solver::{Batch, Bend, Lanes, Pivoting, RowLayout, Solver};
+use crate::layout::RowLayout;
+use crate::solver::{Batch, Bend, Lanes, Pivoting, Solver};
 use crate::tolerances::solving::rows::{ENOUGH, LANES, REFINED, SHORT, STEPS_AHEAD};
 #[cfg(feature = "threads")]
 use crate::tolerances::solving::rows::{MOST_THREADS, WORTH_A_THREAD};
@@ -175,7 +176,7 @@ impl Output {
 /// How many threads a solver is worth.
 #[cfg(feature = "threads")]
 fn threads(solver: &Solver) -> usize {
-    if solver.operations() < WORTH_A_THREAD {
+    if solver.instructions().len() < WORTH_A_THREAD {
         // asking for the processors takes as long as a hundred steps of a four-bar
         return 1;
     }

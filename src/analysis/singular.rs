@@ -5,7 +5,7 @@ use super::errors;
 use super::kinematics::{Fault, Kinematics, State};
 use super::times::Horizon;
 use crate::diag::Diagnostic;
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, WatchKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, WatchKind};
 use crate::program::Rim;
 use crate::tolerances::singular::reasons::{AT_HAND, FLAT, NEAR, NEAR_FOLD, SEEN, TAKES_PART};
 
@@ -99,7 +99,7 @@ pub(super) fn centers_that_meet(kinematics: &Kinematics) -> Option<usize> {
 }
 
 /// The joint at whose contact the relative curvature vanishes, or nearly so, where the position was set.
-fn flat_contact(kinematics: &Kinematics) -> Option<usize> {
+fn flat_contact(kinematics: &Kinematics) -> Option<DeclarationId> {
     let watches = &kinematics.system().watches;
     let flat = |k: &usize| watches[*k].kind == WatchKind::Curvature && kinematics.watched(*k).abs() < FLAT;
     (0..watches.len()).find(flat).map(|k| watches[k].declaration)
@@ -257,7 +257,7 @@ fn slide_in_words(system: &ConstraintSystem, right: &[f64], sliding: &[usize]) -
     let Some(body) = sliding.first().and_then(|&k| system.body_of(k)) else {
         return "left free: the contacts can move".to_owned();
     };
-    let [x, y] = [right[3 * body], right[3 * body + 1]];
+    let [x, y, _] = system.pose_of(body).map(|k| right[k]);
     let largest = f64::max(x.abs(), y.abs());
     let [x, y] = [x, y].map(|way| errors::three_digits(if way.abs() > SEEN * largest { way / largest } else { 0.0 }));
     let mut names: Vec<String> = sliding.iter().map(|&k| format!("`{}`", system.owner_name(k))).collect();
@@ -283,19 +283,19 @@ fn heaviest_driver(system: &ConstraintSystem, left: &[f64]) -> Option<usize> {
 }
 
 /// The joints and constraints that the dependency is made of, those that weigh most first.
-fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
+fn joints_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let all = declarations_in(system, left);
     all.into_iter().filter(|&k| system.declarations[k].kind != DeclarationKind::Driver).collect()
 }
 
 /// All declarations that the dependency is made of, those that weigh most first.
-fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<usize> {
+fn declarations_in(system: &ConstraintSystem, left: &[f64]) -> Vec<DeclarationId> {
     let largest = left.iter().fold(0.0, |m: f64, w| m.max(w.abs()));
     let mut rows: Vec<usize> = (0..left.len()).filter(|&row| left[row].abs() > 0.1 * largest).collect();
     // rounding does not order what weighs the same
     let weight = |row: usize| (left[row].abs() / largest * 1e6).round();
     rows.sort_by(|&a, &b| weight(b).total_cmp(&weight(a)));
-    let mut joints: Vec<usize> = Vec::new();
+    let mut joints: Vec<DeclarationId> = Vec::new();
     for row in rows {
         let declaration = system.rows[row].declaration;
         if !joints.contains(&declaration) {

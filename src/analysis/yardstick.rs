@@ -10,7 +10,7 @@
 //! Where a body's frame lies far from its features, its turn is about their centroid, and its motion is that of the centroid:
 //! else turning would be almost the same as moving.
 
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind};
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationKind, IdVec, JointKind, PointId};
 use crate::math;
 use crate::structure::Block;
 use crate::tolerances::scales::yardstick::{FAR_FRAME, LEAST_LEVER, ROUNDING, ROW_NORM, SWEEPS};
@@ -106,7 +106,7 @@ impl Yardstick {
             is_measured: false,
         };
         let mut place_of = vec![NONE; n];
-        let mut centroid_of = vec![NONE; system.bodies.len()];
+        let mut centroid_of = system.bodies.map(|_| NONE);
         for block in blocks {
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of[column as usize] = place as u32;
@@ -123,13 +123,14 @@ impl Yardstick {
         system: &ConstraintSystem,
         block: &Block,
         features: &Features,
-        (place_of, centroid_of): (&[u32], &mut [u32]),
+        (place_of, centroid_of): (&[u32], &mut IdVec<BodyId, u32>),
     ) {
         let (rows, entries, centroids) = (self.rows.len(), self.entries.len(), self.centroids.len());
         self.rows.extend_from_slice(&block.rows);
         self.columns.extend_from_slice(&block.columns);
-        for (body, local) in features.far_centroids(system, block, place_of) {
-            let [x, y, phi] = [0, 1, 2].map(|part| [(3 * body + part) as u32, place_of[3 * body + part]]);
+        let far = features.far_centroids(system, block, place_of);
+        for &(body, local) in &far {
+            let [x, y, phi] = system.pose_of(body).map(|column| [column as u32, place_of[column]]);
             let moves = [x, y].map(|[column, place]| (place != NONE).then_some([column, place]));
             centroid_of[body] = self.centroids.len() as u32;
             self.centroids.push(Centroid { turn: phi, moves, local, from_origin: local });
@@ -140,7 +141,10 @@ impl Yardstick {
                     continue;
                 }
                 let body = system.body_of(column as usize);
-                let along = body.map_or([NONE; 2], |body| [0, 1].map(|part| slope(system, row, 3 * body + part)));
+                let along = body.map_or([NONE; 2], |body| {
+                    let [x, y, _] = system.pose_of(body);
+                    [x, y].map(|column| slope(system, row, column))
+                });
                 let kind = match (system.coordinates[column as usize].kind, body) {
                     (CoordinateKind::Angle, Some(body)) => {
                         let about = centroid_of[body];
@@ -153,8 +157,8 @@ impl Yardstick {
                 self.entries.push(Entry { row, column, position: position as u32, along, kind });
             }
         }
-        for centroid in &self.centroids[centroids..] {
-            centroid_of[centroid.turn[0] as usize / 3] = NONE;
+        for (body, _) in far {
+            centroid_of[body] = NONE;
         }
         self.parts.push(Part {
             rows: rows..self.rows.len(),
@@ -325,7 +329,9 @@ fn is_of_joint(system: &ConstraintSystem, row: usize) -> bool {
 /// Whether the magnitudes of a row's slopes change along the motion.
 fn changes(system: &ConstraintSystem, row: usize) -> bool {
     match system.declaration_of(row).kind {
-        DeclarationKind::Joint(word) => !matches!(word, "revolute" | "weld" | "revolute_revolute"),
+        DeclarationKind::Joint(kind) => {
+            !matches!(kind, JointKind::Revolute | JointKind::Weld | JointKind::RevoluteRevolute)
+        }
         _ => system.phi_q.row(row).iter().any(|&(_, slope)| !system.graph.dependence(slope).is_constant()),
     }
 }
@@ -341,7 +347,7 @@ pub(super) fn is_looked_at_beside(system: &ConstraintSystem, row: usize) -> bool
 
 /// Where features are in the frames of their bodies (m), by point.
 struct Features {
-    places: Vec<[f64; 2]>,
+    places: IdVec<PointId, [f64; 2]>,
 }
 
 impl Features {
@@ -356,7 +362,7 @@ impl Features {
             };
             system.graph.extend_values(&mut values, value);
         }
-        Features { places: system.points.iter().map(|point| point.at.map(|id| values[id.index()])).collect() }
+        Features { places: system.points.map(|point| point.at.map(|id| values[id.index()])) }
     }
 
     /// The features of a body that a row speaks of.
@@ -364,14 +370,14 @@ impl Features {
         &'f self,
         system: &'f ConstraintSystem,
         row: usize,
-        body: usize,
+        body: BodyId,
     ) -> impl Iterator<Item = [f64; 2]> + 'f {
         let features = &system.declaration_of(row).features;
         features.iter().filter(move |&&k| system.points[k].body == Some(body)).map(|&k| self.places[k])
     }
 
     /// How far from a centroid a row takes hold of a body at most (m).
-    fn lever(&self, system: &ConstraintSystem, row: usize, body: usize, [x, y]: [f64; 2]) -> f64 {
+    fn lever(&self, system: &ConstraintSystem, row: usize, body: BodyId, [x, y]: [f64; 2]) -> f64 {
         // where all features are one point, rounding may put their centroid beside it
         let beside = |at: &[f64; 2]| math::hypot(at[0] - x, at[1] - y);
         let is_lever = |at: &[f64; 2]| beside(at).is_finite() && beside(at) > ROUNDING * math::hypot(x, y);
@@ -381,31 +387,32 @@ impl Features {
             return longest;
         }
         let bodies = system.phi_q.row(row).iter().filter_map(|&(column, _)| system.body_of(column as usize));
-        let smallest = bodies.map(|body| system.coordinates[3 * body].scale).fold(f64::INFINITY, f64::min);
+        let smallest = bodies.map(|body| system.size_of(body)).fold(f64::INFINITY, f64::min);
         f64::max(longest, if smallest.is_finite() { LEAST_LEVER * smallest } else { 0.0 })
     }
 
     /// The bodies of a block that move and turn with it, and whose frames lie far from the features that its equations use,
     /// with the centroids of these.
-    fn far_centroids(&self, system: &ConstraintSystem, block: &Block, place_of: &[u32]) -> Vec<(usize, [f64; 2])> {
+    fn far_centroids(&self, system: &ConstraintSystem, block: &Block, place_of: &[u32]) -> Vec<(BodyId, [f64; 2])> {
         let in_block = |column: usize| place_of[column] != NONE;
         let turning = block.columns.iter().filter_map(|&column| {
             let body = system.body_of(column as usize)?;
-            let whole = column as usize == 3 * body + 2 && (in_block(3 * body) || in_block(3 * body + 1));
+            let [x, y, phi] = system.pose_of(body);
+            let whole = column as usize == phi && (in_block(x) || in_block(y));
             whole.then_some(body)
         });
-        let mut places: Vec<(usize, [f64; 2])> = Vec::new();
-        let bodies: Vec<usize> = turning.collect();
+        let mut places: Vec<(BodyId, [f64; 2])> = Vec::new();
+        let bodies: Vec<BodyId> = turning.collect();
         if bodies.is_empty() {
             return Vec::new();
         }
         for &row in &block.rows {
-            let mut touched: Vec<usize> = system
+            let mut touched: Vec<BodyId> = system
                 .phi_q
                 .row(row as usize)
                 .iter()
                 .filter_map(|&(column, _)| system.body_of(column as usize))
-                .filter(|body| in_block(3 * body + 2))
+                .filter(|&body| in_block(system.pose_of(body)[2]))
                 .collect();
             touched.dedup();
             for body in touched {
@@ -418,7 +425,7 @@ impl Features {
 }
 
 /// The centroid of a body's features, if the frame lies far from them.
-fn far_centroid(places: &[(usize, [f64; 2])], body: usize) -> Option<[f64; 2]> {
+fn far_centroid(places: &[(BodyId, [f64; 2])], body: BodyId) -> Option<[f64; 2]> {
     let start = places.partition_point(|&(other, _)| other < body);
     let own: Vec<[f64; 2]> =
         places[start..].iter().take_while(|&&(other, _)| other == body).map(|&(_, at)| at).collect();

@@ -140,8 +140,8 @@ impl Checker<'_> {
     /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
     fn drives(&self, form: EquationForm) -> bool {
         let sides = match form {
-            EquationForm::Difference(left, right) => [left, right],
-            EquationForm::SquaredDistance(_, _, distance) => [distance, distance],
+            EquationForm::Equality(left, right) => [left, right],
+            EquationForm::Distance(_, _, distance) => [distance, distance],
         };
         let on_time = |id: ExprId| self.model.graph.dependence(id).on(Dependence::TIME);
         let has_bound_inputs = !self.bound_inputs.is_empty();
@@ -214,9 +214,9 @@ impl Checker<'_> {
                     owner: format!("{}{}", self.path, name.text),
                 });
             }
-            return Some(EquationForm::SquaredDistance(p, q, b.id));
+            return Some(EquationForm::Distance(p, q, b.id));
         }
-        Some(EquationForm::Difference(a.id, b.id))
+        Some(EquationForm::Equality(a.id, b.id))
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.

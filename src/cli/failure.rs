@@ -46,7 +46,7 @@ pub(super) fn unusable(message: impl Into<String>) -> Diagnostic {
 
 /// The exit code of a command that ended with these.
 pub(super) fn exit_code(diagnostics: &Diagnostics, sources: &Sources) -> u8 {
-    let Some(first) = diagnostics.iter().find(|d| d.severity() == crate::diag::Severity::Error) else {
+    let Some(first) = diagnostics.iter().find(|d| d.is_error()) else {
         return 0;
     };
     // what is wrong with an option is wrong usage, whatever it is, unless it is only wrong at some time

@@ -189,11 +189,7 @@ impl Output {
 
     /// Writes a whole text.
     pub fn write(name: &str, text: &str, spared: &Spared<'_>) -> Result<(), Failure> {
-        let mut output = Output::open(name, spared)?;
-        if let Err(error) = output.writer.write_all(text.as_bytes()) {
-            return Err(output.failure(&error));
-        }
-        output.close()
+        Output::open(name, spared)?.close_with_text(text)
     }
 
     /// Writes a whole text in the place of the one that was read there.
@@ -221,6 +217,12 @@ impl Output {
             return Failure::ReaderGone;
         }
         cannot_write(&self.name, error).into()
+    }
+
+    /// Writes a whole text, and puts the file in its place.
+    pub fn close_with_text(mut self, text: &str) -> Result<(), Failure> {
+        self.writer.write_all(text.as_bytes()).map_err(|error| self.failure(&error))?;
+        self.close()
     }
 
     /// Puts a file in its place.

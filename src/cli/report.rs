@@ -3,7 +3,7 @@
 use super::arguments::{MessageFormat, Messages, When};
 use super::failure::{Failure, exit_code};
 use super::spared::Spared;
-use crate::diag::{Code, Color, Diagnostics, Fix, Format, Severity, render, render_made};
+use crate::diag::{Code, Color, Diagnostics, Fix, Format, render, render_made};
 use crate::source::{FileId, Sources};
 use std::cell::Cell;
 use std::io::{IsTerminal, Write};
@@ -55,7 +55,7 @@ impl Reporter {
         for diagnostic in diagnostics.iter() {
             text += &render(diagnostic, &self.sources, self.format, self.color);
         }
-        let errors = diagnostics.iter().filter(|d| d.severity() == Severity::Error).count();
+        let errors = diagnostics.iter().filter(|d| d.is_error()).count();
         if errors > 1 && self.format == Format::Human {
             text += &format!("error: {errors} errors\n");
         }

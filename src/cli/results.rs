@@ -4,8 +4,9 @@ use super::endings;
 use super::failure::{Failure, unusable};
 use super::files::{Output, is_standard_output};
 use super::spared::Spared;
-use crate::analysis::{Answers, ColumnUnit};
+use crate::analysis::Answers;
 use crate::diag::{Diagnostic, readable};
+use crate::layout::ColumnUnit;
 use std::io::Write;
 use std::path::Path;
 

@@ -183,6 +183,12 @@ impl Diagnostic {
     pub fn severity(&self) -> Severity {
         self.code.severity()
     }
+
+    /// Whether it is more than a remark.
+    #[must_use]
+    pub fn is_error(&self) -> bool {
+        self.severity() == Severity::Error
+    }
 }
 
 /// What a pass found, in the order of finding.
@@ -204,7 +210,7 @@ impl Diagnostics {
     /// Whether anything forbids to go on.
     #[must_use]
     pub fn has_errors(&self) -> bool {
-        self.list.iter().any(|d| d.severity() == Severity::Error)
+        self.list.iter().any(Diagnostic::is_error)
     }
 
     /// How many.

@@ -3,11 +3,10 @@
 //! Every register is written by one operation. What one function computes and a later one needs is handed on in an array of
 //! terms, `w`.
 
-use super::operations::{binary, unary};
+use super::operations::Expression;
 use super::text::{LONGEST_LINE, contains_word, documented, lines, literal, signature};
-use crate::expr::Comparison;
-use crate::program::{self, Column, Register};
-use crate::solver::{Op, Segment, Tear};
+use crate::program::{Column, Op, Register};
+use crate::solver::{Instruction, Segment, Tear, from_bits};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::ops::Range;
 
@@ -41,7 +40,7 @@ pub(super) trait Scene {
     /// The line that leaves a value in a column; none where that holds it already.
     fn store(&self, column: u32, value: &str) -> Option<String>;
     /// The line that is written for an operation without a result.
-    fn act(&self, op: Op, value: &str) -> String;
+    fn act(&self, instruction: Instruction, value: &str) -> String;
     /// The line that watches a multiplier.
     fn watch(&self, weight: u32, value: &str) -> String;
     /// Whether every number stands for several lanes, which loops go over.
@@ -82,7 +81,7 @@ pub(super) enum Out<'f> {
 
 /// What is to be printed.
 pub(super) struct Code<'c> {
-    pub operations: &'c [Op],
+    pub instructions: &'c [Instruction],
     pub segments: &'c [Segment],
     pub registers: usize,
 }
@@ -114,9 +113,9 @@ impl<'c> Code<'c> {
         }
     }
 
-    /// How many operations compute something.
+    /// How many instructions compute something.
     pub fn count(&self) -> usize {
-        self.operations.iter().filter(|op| is_work(**op)).count()
+        self.instructions.iter().filter(|instruction| is_work(**instruction)).count()
     }
 
     /// Cuts the segments into parts that are short enough; with lanes each loop is a part of its own.
@@ -126,8 +125,8 @@ impl<'c> Code<'c> {
         for segment in self.segments {
             match segment {
                 Segment::Once(range) => cut.straight(range.clone()),
-                Segment::Newton { operations, tears } if has_lanes => cut.push(operations.clone(), Some(tears)),
-                Segment::Newton { operations, tears } => cut.newton(operations.clone(), tears),
+                Segment::Newton { instructions, tears } if has_lanes => cut.push(instructions.clone(), Some(tears)),
+                Segment::Newton { instructions, tears } => cut.newton(instructions.clone(), tears),
             }
             if has_lanes {
                 cut.close();
@@ -188,20 +187,11 @@ impl<'c> Cut<'c> {
     }
 }
 
-/// Whether an operation computes something.
-fn is_work(op: Op) -> bool {
-    let is_name =
-        matches!(op, Op::Number { .. } | Op::Load { .. } | Op::Time { .. } | Op::Column { .. } | Op::Curve { .. });
-    let is_note = matches!(op, Op::Store { .. } | Op::Pivot { .. } | Op::Residual { .. });
-    !is_name && !is_note && !matches!(op, Op::Other(program::Op::Copy { .. }))
-}
-
-/// The column of a table that an operation looks into.
-pub(super) fn column_of(op: Op) -> Option<(u32, Column)> {
-    match op {
-        Op::Other(program::Op::Piece { table, .. }) => Some((table, Column::Knots)),
-        Op::Other(program::Op::Pick { table, column, .. }) => Some((table, column)),
-        _ => None,
+/// Whether an instruction computes something.
+fn is_work(instruction: Instruction) -> bool {
+    match instruction {
+        Instruction::Compute(op) => !matches!(op, Op::Copy { .. }),
+        _ => matches!(instruction, Instruction::Multiplier { .. }),
     }
 }
 
@@ -223,7 +213,7 @@ const STRAIGHT: u32 = 0;
 
 struct Printer<'p, S> {
     scene: &'p S,
-    operations: &'p [Op],
+    instructions: &'p [Instruction],
     homes: Vec<Home>,
     is_read: Vec<bool>,
     terms: u32,
@@ -245,7 +235,7 @@ impl<'p, S: Scene> Printer<'p, S> {
     fn new(code: &Code<'p>, scene: &'p S, parts: &[Part<'p>]) -> Printer<'p, S> {
         let mut printer = Printer {
             scene,
-            operations: code.operations,
+            instructions: code.instructions,
             homes: vec![Home::Given; code.registers],
             is_read: vec![false; code.registers],
             terms: 0,
@@ -294,19 +284,17 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     fn settle_in(&mut self, range: Range<usize>, function: u32, of_loop: u32) {
         for at in range {
-            let op = self.operations[at];
-            let (reads, count) = op.reads();
-            for &register in &reads[..count] {
+            let instruction = self.instructions[at];
+            for register in instruction.reads() {
                 self.read(register, function, of_loop);
             }
-            if let Some((table, column)) = column_of(op) {
+            if let Some((table, column)) = instruction.column() {
                 self.scene.cells(table, column).into_iter().for_each(|cell| self.read(cell, function, of_loop));
             }
-            let (writes, count) = op.writes();
-            for &register in &writes[..count] {
+            for register in instruction.writes() {
                 self.homes[register as usize] = Home::Local { function, of_loop };
             }
-            if let Op::Store { column, a } = op
+            if let Instruction::Store { column, a } = instruction
                 && self.wanted[a as usize].is_none()
             {
                 self.wanted[a as usize] = self.scene.name(column);
@@ -434,7 +422,7 @@ impl<'p, S: Scene> Printer<'p, S> {
                 None if self.scene.has_lanes() => {
                     let mut body = String::new();
                     for at in piece.range.clone() {
-                        self.operation(self.operations[at], "        ", &mut body);
+                        self.instruction(self.instructions[at], "        ", &mut body);
                     }
                     if !body.is_empty() {
                         text += &format!("    for k in 0..LANES {{\n{body}    }}\n");
@@ -442,7 +430,7 @@ impl<'p, S: Scene> Printer<'p, S> {
                 }
                 None => {
                     for at in piece.range.clone() {
-                        self.operation(self.operations[at], "    ", &mut text);
+                        self.instruction(self.instructions[at], "    ", &mut text);
                     }
                 }
             }
@@ -458,11 +446,10 @@ impl<'p, S: Scene> Printer<'p, S> {
     fn newton(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
         let mut body = String::new();
         for at in range.clone() {
-            self.operation(self.operations[at], "        ", &mut body);
+            self.instruction(self.instructions[at], "        ", &mut body);
         }
         for at in range {
-            let (writes, count) = self.operations[at].writes();
-            for &register in &writes[..count] {
+            for register in self.instructions[at].writes() {
                 if let (Home::BeyondLoop { .. }, Some(name)) =
                     (self.homes[register as usize], &self.names[register as usize])
                 {
@@ -486,7 +473,7 @@ impl<'p, S: Scene> Printer<'p, S> {
         }
         let mut body = String::new();
         for at in range {
-            self.operation(self.operations[at], "            ", &mut body);
+            self.instruction(self.instructions[at], "            ", &mut body);
         }
         for (tear, place) in tears.iter().zip(places) {
             let (x, delta) = (self.value(tear.x), self.value(tear.delta));
@@ -532,73 +519,61 @@ impl<'p, S: Scene> Printer<'p, S> {
         format!("&{name}")
     }
 
-    fn operation(&mut self, op: Op, indent: &str, text: &mut String) {
-        let column = column_of(op).map(|(table, column)| self.column(table, column, indent, text)).unwrap_or_default();
-        let mut v = |register: Register| self.value(register);
-        let expression = match op {
-            Op::Add { a, b, .. } => format!("{} + {}", v(a), v(b)),
-            Op::Sub { a, b, .. } => format!("{} - {}", v(a), v(b)),
-            Op::Mul { a, b, .. } | Op::Multiplier { a, b, .. } => format!("{} * {}", v(a), v(b)),
-            Op::Div { a, b, .. } => format!("{} / {}", v(a), v(b)),
-            Op::MulAdd { a, b, c, .. } => format!("{} * {} + {}", v(a), v(b), v(c)),
-            Op::MulLess { a, b, c, .. } => format!("{} * {} - {}", v(a), v(b), v(c)),
-            Op::LessMul { a, b, c, .. } => format!("{} - {} * {}", v(c), v(a), v(b)),
-            Op::Neg { a, .. } => format!("-{}", v(a)),
-            Op::Recip { a, .. } => format!("1.0 / {}", v(a)),
-            Op::Other(op) => {
-                let (reads, count) = op.reads();
-                let operands: Vec<String> = reads[..count].iter().map(|&register| v(register)).collect();
-                other(op, &operands, &column)
+    fn instruction(&mut self, instruction: Instruction, indent: &str, text: &mut String) {
+        match instruction {
+            Instruction::Compute(op) => self.operation(op, indent, text),
+            Instruction::Multiplier { to, a, b, weight } => {
+                self.operation(Op::Mul { to, a, b }, indent, text);
+                let value = self.value(to);
+                *text += &format!("{indent}{}\n", self.scene.watch(weight, &value));
             }
-            Op::SinCos { sin, cos, a } => return self.pair(sin, cos, a, indent, text),
-            Op::Number { to, bits: [low, high] } => {
-                let value = f64::from_bits(u64::from(low) | (u64::from(high) << 32));
-                self.names[to as usize] = Some(literal(value));
-                return;
-            }
-            Op::Load { to, from } => {
-                let value = self.scene.load(from);
-                if value.len() > LONGEST_OPERAND {
-                    self.count += 1;
-                    let target = self.target(to, 'v');
-                    *text += &format!("{indent}{target} = {value};\n");
-                } else {
-                    self.names[to as usize] = Some(value);
-                }
-                return;
-            }
-            Op::Time { to } => {
+            Instruction::Number { to, bits } => self.names[to as usize] = Some(literal(from_bits(bits))),
+            Instruction::Load { to, from } => self.load(to, from, indent, text),
+            Instruction::Time { to } => {
                 self.names[to as usize] = Some(if self.scene.has_lanes() { "t[k]" } else { "t" }.to_owned());
-                return;
             }
-            Op::Column { to, column } => {
-                self.names[to as usize] = Some(self.scene.place(column));
-                return;
-            }
-            Op::Curve { to, tear } => return self.guess(to, tear, indent, text),
-            Op::Residual { a, .. } | Op::Pivot { a, .. } => {
+            Instruction::Column { to, column } => self.names[to as usize] = Some(self.scene.place(column)),
+            Instruction::Curve { to, tear } => self.guess(to, tear, indent, text),
+            Instruction::Residual { a, .. } | Instruction::Pivot { a, .. } => {
                 let value = self.value(a);
-                *text += &format!("{indent}{}\n", self.scene.act(op, &value));
-                return;
+                *text += &format!("{indent}{}\n", self.scene.act(instruction, &value));
             }
-            Op::Store { column, a } => {
+            Instruction::Store { column, a } => {
                 let value = self.value(a);
                 if let Some(line) = self.scene.store(column, &value) {
                     *text += &format!("{indent}{line}\n");
                 }
-                return;
             }
+        }
+    }
+
+    fn operation(&mut self, op: Op, indent: &str, text: &mut String) {
+        if let Op::SinCos { sin, cos, a } = op {
+            return self.pair(sin, cos, a, indent, text);
+        }
+        let column = op.column().map(|(table, column)| self.column(table, column, indent, text)).unwrap_or_default();
+        let mut expression = Expression { value: |register| self.value(register), column, result: None };
+        op.run(&mut expression);
+        let Some((to, expression)) = expression.result else {
+            return;
         };
-        let (writes, _) = op.writes();
-        if let Op::Other(program::Op::Copy { .. }) = op {
-            return self.copy(writes[0], expression, indent, text);
+        if let Op::Copy { .. } = op {
+            return self.copy(to, expression, indent, text);
         }
         self.count += 1;
-        let target = self.target(writes[0], 'v');
+        let target = self.target(to, 'v');
         *text += &self.assigned(indent, &target, &expression);
-        if let Op::Multiplier { weight, .. } = op {
-            let value = self.value(writes[0]);
-            *text += &format!("{indent}{}\n", self.scene.watch(weight, &value));
+    }
+
+    /// A value of the program, by a name of its own if it is long.
+    fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
+        let value = self.scene.load(from);
+        if value.len() > LONGEST_OPERAND {
+            self.count += 1;
+            let target = self.target(to, 'v');
+            *text += &format!("{indent}{target} = {value};\n");
+        } else {
+            self.names[to as usize] = Some(value);
         }
     }
 
@@ -698,38 +673,5 @@ impl Parts<'_> {
         self.text += &format!("/// Part {} of [`{}`].\n{}", self.count, self.name, self.attribute);
         self.text += &(signature("", &name, &types, "", body, self.margin) + body + "}\n\n");
         name
-    }
-}
-
-/// An operation that has no counterpart among those of the solver.
-fn other(op: program::Op, operands: &[String], column: &str) -> String {
-    use program::Op as P;
-    let [a, b, c] = std::array::from_fn(|k| operands.get(k).map_or("", String::as_str));
-    match op {
-        P::Unary { function, .. } => unary(function, a),
-        P::Binary { function, .. } => binary(function, a, b),
-        P::Compare { comparison, .. } => {
-            let operator = match comparison {
-                Comparison::Less => "<",
-                Comparison::LessEqual => "<=",
-                Comparison::Equal => "==",
-            };
-            format!("f64::from({a} {operator} {b})")
-        }
-        P::And { .. } => format!("f64::from({a} != 0.0 && {b} != 0.0)"),
-        P::Or { .. } => format!("f64::from({a} != 0.0 || {b} != 0.0)"),
-        P::Not { .. } => format!("f64::from({a} == 0.0)"),
-        P::Select { .. } => format!("select({a}, {b}, {c})"),
-        P::Either { .. } => format!("either({a}, {b}, {c})"),
-        P::Piece { .. } => format!("piece({a}, {column})"),
-        P::Pick { .. } => format!("pick({column}, {a})"),
-        P::Copy { .. } => a.to_owned(),
-        P::Add { .. } => format!("{a} + {b}"),
-        P::Sub { .. } => format!("{a} - {b}"),
-        P::Mul { .. } => format!("{a} * {b}"),
-        P::Div { .. } => format!("{a} / {b}"),
-        P::Neg { .. } => format!("-{a}"),
-        P::Recip { .. } => format!("1.0 / {a}"),
-        P::SinCos { .. } => format!("sin_cos({a})"),
     }
 }

@@ -8,7 +8,7 @@ use super::tables::{self, Tables};
 use super::tape::{self, Book, Notes};
 use super::text::{documented, literal, signature};
 use crate::program::{Column, Program, Register};
-use crate::solver::{Op, Segment};
+use crate::solver::{Instruction, Segment};
 use rustc_hash::{FxHashMap, FxHashSet};
 use std::cell::RefCell;
 
@@ -79,7 +79,7 @@ impl Equations<'_> {
                 of_time.map(|switch| switch.to).collect()
             }
         };
-        let operations = slice(self.program, wanted.outputs, &given);
+        let instructions = slice(self.program, wanted.outputs, &given);
         let mut arguments: Vec<(&str, String)> =
             ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
         if wanted.varied && self.has_varied() {
@@ -93,11 +93,11 @@ impl Equations<'_> {
             arguments.push(("sides", "&Sides".to_owned()));
         }
         if let Some(book) = &self.book {
-            return self.as_numbers(wanted, &operations, &arguments, &mut book.borrow_mut());
+            return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut());
         }
-        self.uses.borrow_mut().operations(&operations, false);
-        let segments = [Segment::Once(0..operations.len())];
-        let code = Code { operations: &operations, segments: &segments, registers: self.program.registers() };
+        self.uses.borrow_mut().instructions(&instructions, false);
+        let segments = [Segment::Once(0..instructions.len())];
+        let code = Code { instructions: &instructions, segments: &segments, registers: self.program.registers() };
         let (result, first) = (format!("[f64; {}]", wanted.length), format!("[0.0; {}]", wanted.length));
         let function = Function {
             name: wanted.name,
@@ -114,16 +114,16 @@ impl Equations<'_> {
     fn as_numbers(
         &self,
         wanted: &Wanted<'_>,
-        operations: &[Op],
+        instructions: &[Instruction],
         arguments: &[(&str, String)],
         book: &mut Book,
     ) -> String {
-        let count = operations.iter().filter(|op| !matches!(op, Op::Store { .. })).count();
-        let operations = tape::with_loads(operations, self.program.registers());
-        let segments = [Segment::Once(0..operations.len())];
-        let shared = tape::share(&operations, &segments, self.program.registers());
+        let count = instructions.iter().filter(|each| !matches!(each, Instruction::Store { .. })).count();
+        let instructions = tape::with_loads(instructions, self.program.registers());
+        let segments = [Segment::Once(0..instructions.len())];
+        let shared = tape::share(&instructions, &segments, self.program.registers());
         let notes = Notes { pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
-        let words = book.encode(&shared.operations, self, &FxHashMap::default(), &notes).words;
+        let words = book.encode(&shared.instructions, self, &FxHashMap::default(), &notes).words;
         let name = wanted.name.to_uppercase();
         let params = match (self.names.params.is_empty(), self.is_led) {
             (true, _) => "&[]",
@@ -302,7 +302,7 @@ impl Scene for EquationScene<'_, '_> {
         (value != "0.0" && value != "-0.0").then(|| format!("out[{column}] = {value};"))
     }
 
-    fn act(&self, _: Op, _: &str) -> String {
+    fn act(&self, _: Instruction, _: &str) -> String {
         String::new()
     }
 

@@ -3,10 +3,10 @@
 //! Who writes code that calls something says so here ([`Uses`]); what else that needs follows.
 
 use super::limits;
-use super::operations::{Callee, callee};
+use super::operations::{Callee, callee, callee_of_two};
 use super::print::Page;
-use crate::program;
-use crate::solver::Op;
+use crate::program::Op;
+use crate::solver::Instruction;
 use std::collections::BTreeSet;
 
 /// A file that can go along.
@@ -77,7 +77,8 @@ files! {
     "sign" at "runtime/functions/sign.rs": [], [];
     "lesser" at "runtime/functions/lesser.rs": [], [];
     "greater" at "runtime/functions/greater.rs": [], [];
-    "tables" at "runtime/tables.rs": ["sine_and_cosine", "select", "either", "piece", "pick"], [];
+    "codes" at "../program/codes.rs": [], [];
+    "tables" at "runtime/tables.rs": ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
     "listed" at "runtime/listed.rs": ["measured", "solution", "pivots", "grid", "newton", "tables"], [ITERATIONS];
     "listed_slopes" at "runtime/listed_slopes.rs": ["solution", "newton", "tables", "listed"], [];
 }
@@ -118,34 +119,32 @@ impl Uses {
         self.libm = true;
     }
 
-    /// What operations written as lines call, in lanes or alone.
-    pub fn operations(&mut self, operations: &[Op], has_lanes: bool) {
-        for op in operations {
-            match op {
-                Op::SinCos { .. } if has_lanes => {
+    /// What instructions written as lines call, in lanes or alone.
+    pub fn instructions(&mut self, instructions: &[Instruction], has_lanes: bool) {
+        for instruction in instructions {
+            match instruction {
+                Instruction::Compute(Op::SinCos { .. }) if has_lanes => {
                     self.name("without_branches", "sin_cos_below_a_million");
                     self.file("lane_strain");
                 }
-                Op::SinCos { .. } => self.name("sine_and_cosine", "sin_cos"),
-                Op::Pivot { .. } => self.file(if has_lanes { "lane_pivots" } else { "pivots" }),
-                Op::Multiplier { .. } if !has_lanes => self.name("limits", "LARGEST_MULTIPLIER"),
-                Op::Multiplier { .. } | Op::Residual { .. } if has_lanes => self.file("lane_strain"),
-                Op::Other(op) => self.other(*op),
+                Instruction::Compute(op) => self.operation(*op),
+                Instruction::Pivot { .. } => self.file(if has_lanes { "lane_pivots" } else { "pivots" }),
+                Instruction::Multiplier { .. } if !has_lanes => self.name("limits", "LARGEST_MULTIPLIER"),
+                Instruction::Multiplier { .. } | Instruction::Residual { .. } if has_lanes => self.file("lane_strain"),
                 _ => {}
             }
         }
     }
 
-    fn other(&mut self, op: program::Op) {
-        use program::Op as P;
+    fn operation(&mut self, op: Op) {
         match op {
-            P::Unary { function, .. } => self.callee(callee(function)),
-            P::Binary { function, .. } => self.callee(super::operations::callee_of_two(function)),
-            P::SinCos { .. } => self.name("sine_and_cosine", "sin_cos"),
-            P::Select { .. } => self.name("select", "select"),
-            P::Either { .. } => self.name("either", "either"),
-            P::Piece { .. } => self.name("piece", "piece"),
-            P::Pick { .. } => self.name("pick", "pick"),
+            Op::Unary { function, .. } => self.callee(callee(function)),
+            Op::Binary { function, .. } => self.callee(callee_of_two(function)),
+            Op::SinCos { .. } => self.name("sine_and_cosine", "sin_cos"),
+            Op::Select { .. } => self.name("select", "select"),
+            Op::Either { .. } => self.name("either", "either"),
+            Op::Piece { .. } => self.name("piece", "piece"),
+            Op::Pick { .. } => self.name("pick", "pick"),
             _ => {}
         }
     }

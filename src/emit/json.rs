@@ -38,8 +38,8 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
     object.list("terms", terms);
     object.list("rows", writer.rows());
     object.list("phi_q", writer.phi_q());
-    object.list("nu", writer.texts(&system.nu));
-    object.list("gamma", writer.texts(&system.gamma));
+    object.list("nu", writer.texts(system.nu()));
+    object.list("gamma", writer.texts(system.gamma()));
     object.list("measures", writer.measures());
     object.list("conditions", writer.conditions());
     object.list("watches", writer.watches());
@@ -51,7 +51,7 @@ pub fn json(system: &ConstraintSystem, sources: &Sources, file: &str) -> String 
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
-    roots.extend(system.nu.iter().chain(&system.gamma));
+    roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.coordinates.iter().map(|coordinate| coordinate.estimate));
     roots.extend(system.inputs.iter().flat_map(|input| input.formulas));
     roots.extend(system.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
@@ -140,8 +140,8 @@ impl Writer<'_> {
             };
             let unit = Some(coordinate.kind.unit()).filter(|unit| !unit.is_empty()).unwrap_or("1");
             let owner = match coordinate.owner {
-                Owner::Body(body) => json!({ "body": body }),
-                Owner::Joint(joint) => json!({ "declaration": joint }),
+                Owner::Body(body) => json!({ "body": body.index() }),
+                Owner::Joint(joint) => json!({ "declaration": joint.index() }),
             };
             json!({
                 "name": coordinate.name,
@@ -158,7 +158,7 @@ impl Writer<'_> {
     fn declarations(&self) -> Vec<Value> {
         let declarations = self.system.declarations.iter().map(|declaration| {
             let joint = match declaration.kind {
-                DeclarationKind::Joint(word) => Some(word),
+                DeclarationKind::Joint(kind) => Some(kind.word()),
                 DeclarationKind::Constraint | DeclarationKind::Driver => None,
             };
             json!({
@@ -174,14 +174,14 @@ impl Writer<'_> {
 
     fn left_out(&self) -> Vec<Value> {
         let checks = self.system.checks.iter();
-        checks.map(|check| json!({ "declaration": check.declaration, "phi": (self.text)(check.phi) })).collect()
+        checks.map(|check| json!({ "declaration": check.declaration.index(), "phi": (self.text)(check.phi) })).collect()
     }
 
     fn rows(&self) -> Vec<Value> {
         let rows = self.system.rows.iter().enumerate().map(|(k, row)| {
             json!({
                 "name": self.system.row_name(k),
-                "declaration": row.declaration,
+                "declaration": row.declaration.index(),
                 "phi": (self.text)(row.phi),
             })
         });
@@ -237,7 +237,7 @@ impl Writer<'_> {
                 WatchKind::Tangents => "tangents",
                 WatchKind::Curvature => "curvature",
             };
-            json!({ "declaration": watch.declaration, "kind": kind, "value": (self.text)(watch.value) })
+            json!({ "declaration": watch.declaration.index(), "kind": kind, "value": (self.text)(watch.value) })
         });
         watches.collect()
     }

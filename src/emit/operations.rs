@@ -1,13 +1,13 @@
-//! The operations that some outputs of a program need, and the words for the functions among them.
+//! The operations that some outputs of a program need, and operations as Rust.
 
-use crate::expr::{Binary, Unary};
-use crate::program::{self, Program, Register, STAGES};
-use crate::solver::Op;
+use crate::expr::{Binary, Comparison, Unary};
+use crate::program::{Column, Machine, Program, Register, STAGES};
+use crate::solver::Instruction;
 use rustc_hash::FxHashSet;
 
 /// The operations behind some registers, in the order in which the interpreter runs them; `given` registers are not computed.
 /// Each output is left in the column of its number.
-pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<Register>) -> Vec<Op> {
+pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<Register>) -> Vec<Instruction> {
     let mut is_read = vec![false; program.registers()];
     for &output in outputs {
         is_read[output as usize] = true;
@@ -15,32 +15,111 @@ pub(super) fn slice(program: &Program, outputs: &[Register], given: &FxHashSet<R
     let mut needed = Vec::new();
     for stage in STAGES.iter().rev() {
         for &op in program.stage(*stage).iter().rev() {
-            let (reads, writes) = program.operands(op);
-            if writes.iter().any(|register| is_read[*register as usize] && !given.contains(register)) {
-                needed.push(plain(op));
-                for register in reads {
+            if op.writes().iter().any(|register| is_read[*register as usize] && !given.contains(register)) {
+                needed.push(Instruction::Compute(op));
+                for register in program.reads(op) {
                     is_read[register as usize] = true;
                 }
             }
         }
     }
     needed.reverse();
-    needed.extend(outputs.iter().enumerate().map(|(k, &a)| Op::Store { column: k as u32, a }));
+    needed.extend(outputs.iter().enumerate().map(|(k, &a)| Instruction::Store { column: k as u32, a }));
     needed
 }
 
-/// An operation of a program as one of the solver.
-fn plain(op: program::Op) -> Op {
-    use program::Op as P;
-    match op {
-        P::Add { to, a, b } => Op::Add { to, a, b },
-        P::Sub { to, a, b } => Op::Sub { to, a, b },
-        P::Mul { to, a, b } => Op::Mul { to, a, b },
-        P::Div { to, a, b } => Op::Div { to, a, b },
-        P::Neg { to, a } => Op::Neg { to, a },
-        P::Recip { to, a } => Op::Recip { to, a },
-        P::SinCos { sin, cos, a } => Op::SinCos { sin, cos, a },
-        _ => Op::Other(op),
+/// What an operation is as a Rust expression.
+pub(super) struct Expression<V> {
+    /// The text of a register's value.
+    pub value: V,
+    /// The column of a table that the operation looks into, borrowed.
+    pub column: String,
+    /// The register that it writes, and the expression.
+    pub result: Option<(Register, String)>,
+}
+
+impl<V: FnMut(Register) -> String> Machine for Expression<V> {
+    type Value = String;
+
+    fn read(&mut self, register: Register) -> String {
+        (self.value)(register)
+    }
+
+    fn write(&mut self, register: Register, value: String) {
+        self.result = Some((register, value));
+    }
+
+    fn add(&mut self, a: String, b: String) -> String {
+        format!("{a} + {b}")
+    }
+
+    fn sub(&mut self, a: String, b: String) -> String {
+        format!("{a} - {b}")
+    }
+
+    fn mul(&mut self, a: String, b: String) -> String {
+        format!("{a} * {b}")
+    }
+
+    fn div(&mut self, a: String, b: String) -> String {
+        format!("{a} / {b}")
+    }
+
+    fn neg(&mut self, a: String) -> String {
+        format!("-{a}")
+    }
+
+    fn recip(&mut self, a: String) -> String {
+        format!("1.0 / {a}")
+    }
+
+    fn sin_cos(&mut self, a: String) -> [String; 2] {
+        [format!("sin_cos({a}).0"), format!("sin_cos({a}).1")]
+    }
+
+    fn unary(&mut self, function: Unary, a: String) -> String {
+        unary(function, &a)
+    }
+
+    fn binary(&mut self, function: Binary, a: String, b: String) -> String {
+        binary(function, &a, &b)
+    }
+
+    fn compare(&mut self, comparison: Comparison, a: String, b: String) -> String {
+        let operator = match comparison {
+            Comparison::Less => "<",
+            Comparison::LessEqual => "<=",
+            Comparison::Equal => "==",
+        };
+        format!("f64::from({a} {operator} {b})")
+    }
+
+    fn and(&mut self, a: String, b: String) -> String {
+        format!("f64::from({a} != 0.0 && {b} != 0.0)")
+    }
+
+    fn or(&mut self, a: String, b: String) -> String {
+        format!("f64::from({a} != 0.0 || {b} != 0.0)")
+    }
+
+    fn not(&mut self, a: String) -> String {
+        format!("f64::from({a} == 0.0)")
+    }
+
+    fn select(&mut self, condition: String, a: String, b: String) -> String {
+        format!("select({condition}, {a}, {b})")
+    }
+
+    fn either(&mut self, condition: String, a: String, b: String) -> String {
+        format!("either({condition}, {a}, {b})")
+    }
+
+    fn piece(&mut self, _: u32, a: String) -> String {
+        format!("piece({a}, {})", self.column)
+    }
+
+    fn pick(&mut self, _: u32, _: Column, piece: String) -> String {
+        format!("pick({}, {piece})", self.column)
     }
 }
 

@@ -1,14 +1,15 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute, column_of};
+use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute};
 use super::equations::Equations;
 use super::names::Names;
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
 use super::{Motion, Unit};
+use crate::layout::RowLayout;
 use crate::program::{Column, Register};
-use crate::solver::{Op, RowLayout, Segment, Solver};
+use crate::solver::{Instruction, Segment, Solver};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 
@@ -27,20 +28,20 @@ impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined(&motion.solver);
         let mut solution = Solution { unit, motion, equations, known: FxHashMap::default(), joined };
-        let operations = || {
-            let sensitive = motion.sensitive.iter().flat_map(Solver::all_operations);
-            motion.solver.all_operations().iter().chain(sensitive)
+        let instructions = || {
+            let sensitive = motion.sensitive.iter().flat_map(Solver::instructions);
+            motion.solver.instructions().iter().chain(sensitive)
         };
-        for op in operations() {
-            if let Some((table, column)) = column_of(*op)
+        for instruction in instructions() {
+            if let Some((table, column)) = instruction.column()
                 && !equations.is_constant(table, column)
             {
                 // one behind the other
                 unit.program.tables()[table as usize].column(column).for_each(|cell| solution.know(cell));
             }
         }
-        for op in operations() {
-            if let Op::Load { from, .. } = *op
+        for instruction in instructions() {
+            if let Instruction::Load { from, .. } = *instruction
                 && from >= unit.program.inputs.time
                 && !unit.program.inputs.all_signals().contains(&from)
                 && !equations.sides.contains_key(&from)
@@ -84,7 +85,7 @@ impl<'s> Solution<'s> {
     pub fn function(&self, has_lanes: bool) -> String {
         let solver = &self.motion.solver;
         let code =
-            Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
+            Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
         let names: Vec<String> = solver
             .tears()
             .iter()
@@ -127,7 +128,7 @@ impl<'s> Solution<'s> {
     /// Notes what a solver's operations use as lines.
     fn note(&self, solver: &Solver, has_lanes: bool) {
         let mut uses = self.equations.uses.borrow_mut();
-        uses.operations(solver.all_operations(), has_lanes);
+        uses.instructions(solver.instructions(), has_lanes);
         if !solver.tears().is_empty() {
             uses.name("limits", "ITERATIONS");
             uses.name("grid", "on_grid");
@@ -140,7 +141,7 @@ impl<'s> Solution<'s> {
     pub fn sensitive_function(&self) -> Option<String> {
         let solver = self.motion.sensitive.as_ref()?;
         let code =
-            Code { operations: solver.all_operations(), segments: solver.segments(), registers: solver.registers() };
+            Code { instructions: solver.instructions(), segments: solver.segments(), registers: solver.registers() };
         let has_sides = !self.equations.sides.is_empty();
         let arguments = [
             ("guess", "&[f64; TEARS]"),
@@ -169,8 +170,8 @@ impl<'s> Solution<'s> {
 
     /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
     pub fn listing(&self, solver: &Solver, ending: &str, book: &mut Book, page: &mut Page) {
-        let Shared { operations, segments, registers } =
-            tape::share(solver.all_operations(), solver.segments(), solver.registers());
+        let Shared { instructions, segments, registers } =
+            tape::share(solver.instructions(), solver.segments(), solver.registers());
         let notes = Notes {
             pivot: &|number| {
                 let pivot = solver.pivots()[number as usize];
@@ -179,13 +180,13 @@ impl<'s> Solution<'s> {
             weight: &|number| solver.weight(number),
             bound: &|row| self.motion.bounds[row as usize],
         };
-        let operations: Vec<Op> = operations.into_iter().map(|op| self.listed(op)).collect();
-        let Tape { words, starts } = book.encode(&operations, self.equations, &self.known, &notes);
+        let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
+        let Tape { words, starts } = book.encode(&instructions, self.equations, &self.known, &notes);
         let (mut list, mut settling) = (Vec::new(), Vec::new());
         for segment in &segments {
             let (range, tears) = match segment {
                 Segment::Once(range) => (range, &[][..]),
-                Segment::Newton { operations, tears } => (operations, tears.as_slice()),
+                Segment::Newton { instructions, tears } => (instructions, tears.as_slice()),
             };
             let (first, code) = (settling.len(), [starts[range.start], starts[range.end]]);
             settling.extend(tears.iter().map(|tear| {
@@ -233,7 +234,7 @@ impl<'s> Solution<'s> {
 
     /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
     /// behind that the derivatives by parameters.
-    fn listed(&self, op: Op) -> Op {
+    fn listed(&self, op: Instruction) -> Instruction {
         let (layout, results) = (self.motion.solver.layout(), self.results());
         let place = |column: u32| match self.joined.binary_search(&column) {
             Ok(place) => results + place as u32,
@@ -244,8 +245,8 @@ impl<'s> Solution<'s> {
             Err(_) => column,
         };
         match op {
-            Op::Column { to, column } => Op::Column { to, column: place(column) },
-            Op::Store { column, a } => Op::Store { column: place(column), a },
+            Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
+            Instruction::Store { column, a } => Instruction::Store { column: place(column), a },
             op => op,
         }
     }
@@ -260,8 +261,8 @@ impl<'s> Solution<'s> {
             }
         }
         let mut cells = vec![0.0; solver.tears().len()];
-        for op in solver.all_operations() {
-            if let Op::Curve { to, tear } = op {
+        for op in solver.instructions() {
+            if let Instruction::Curve { to, tear } = op {
                 cells[*tear as usize] = cell_of.get(to).copied().unwrap_or(0.0);
             }
         }
@@ -272,11 +273,11 @@ impl<'s> Solution<'s> {
 /// The columns that a solver stores to read them again, but those of results.
 fn joined(solver: &Solver) -> Vec<u32> {
     let printed = solver.layout().printed as u32;
-    let read = |op: &Op| match *op {
-        Op::Column { column, .. } => Some(column).filter(|column| *column >= printed),
+    let read = |op: &Instruction| match *op {
+        Instruction::Column { column, .. } => Some(column).filter(|column| *column >= printed),
         _ => None,
     };
-    let mut columns: Vec<u32> = solver.all_operations().iter().filter_map(read).collect();
+    let mut columns: Vec<u32> = solver.instructions().iter().filter_map(read).collect();
     columns.sort_unstable();
     columns.dedup();
     columns
@@ -403,18 +404,18 @@ impl Scene for SolverScene<'_> {
         }
     }
 
-    fn act(&self, op: Op, value: &str) -> String {
+    fn act(&self, op: Instruction, value: &str) -> String {
         let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
         match (op, self.has_lanes) {
-            (Op::Pivot { pivot, .. }, has_lanes) => {
+            (Instruction::Pivot { pivot, .. }, has_lanes) => {
                 let pivot = solver.pivots()[pivot as usize];
                 let lane = if has_lanes { "k, " } else { "" };
                 format!("at.pivot({lane}{}, {value}, {});", pivot.turn, literal(pivot.weight))
             }
-            (Op::Residual { row, .. }, false) => {
+            (Instruction::Residual { row, .. }, false) => {
                 format!("at.holds &= {} <= {};", absolute(value), literal(bounds[row as usize]))
             }
-            (Op::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
+            (Instruction::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
             _ => String::new(),
         }
     }

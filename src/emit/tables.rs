@@ -4,10 +4,6 @@ use super::names::Namer;
 use crate::program::{Column, Program, Register};
 use rustc_hash::FxHashMap;
 
-/// All columns of a table.
-pub(super) const COLUMNS: [Column; 5] =
-    [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
-
 /// Names for the columns of a program's tables.
 pub(super) struct Tables {
     names: FxHashMap<(u32, Column), String>,
@@ -18,7 +14,7 @@ impl Tables {
         let mut namer = Namer::default();
         let mut names = FxHashMap::default();
         for (number, table) in program.tables().iter().enumerate() {
-            for column in COLUMNS {
+            for column in Column::ALL {
                 let what = match column {
                     Column::Knots => "knots".to_owned(),
                     Column::Coefficient(order) => format!("c{order}"),

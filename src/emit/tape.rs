@@ -6,11 +6,10 @@
 use super::equations::{Equations, Loaded};
 use super::operations::{binary, callee, callee_of_two, unary};
 use super::print::{Head, Page};
-use super::tables::COLUMNS;
 use super::text::literal;
-use crate::expr::{Binary, Comparison, Unary};
-use crate::program::{self, Register};
-use crate::solver::{Op, Segment};
+use crate::expr::{Binary, Unary};
+use crate::program::{Column, Op, Register, codes};
+use crate::solver::{Instruction, Segment, from_bits};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
 use rustc_hash::FxHashMap;
 use std::collections::BTreeMap;
@@ -21,47 +20,47 @@ pub const LARGEST_STRAIGHT: usize = 100_000;
 /// Words of a list on a line.
 const WORDS_ON_A_LINE: usize = 16;
 
+/// The array in which the time is given.
+const TIME: u32 = 3;
+
 const UNUSED: Register = Register::MAX;
 
 /// Operations with their registers shared.
 pub(super) struct Shared {
-    pub operations: Vec<Op>,
+    pub instructions: Vec<Instruction>,
     pub segments: Vec<Segment>,
     pub registers: usize,
 }
 
 /// Puts what is given into registers where it is first read: these are written by no operation.
-pub(super) fn with_loads(operations: &[Op], registers: usize) -> Vec<Op> {
+pub(super) fn with_loads(instructions: &[Instruction], registers: usize) -> Vec<Instruction> {
     let mut is_written = vec![false; registers];
-    let mut all = Vec::with_capacity(operations.len());
-    for &op in operations {
-        let (reads, count) = op.reads();
-        for &register in &reads[..count] {
+    let mut all = Vec::with_capacity(instructions.len());
+    for &instruction in instructions {
+        for register in instruction.reads() {
             if !is_written[register as usize] {
                 is_written[register as usize] = true;
-                all.push(Op::Load { to: register, from: register });
+                all.push(Instruction::Load { to: register, from: register });
             }
         }
-        let (writes, count) = op.writes();
-        for &register in &writes[..count] {
+        for register in instruction.writes() {
             is_written[register as usize] = true;
         }
-        all.push(op);
+        all.push(instruction);
     }
     all
 }
 
-/// Gives registers out anew, each to several values one after the other. Every register must be written by one operation.
-pub(super) fn share(operations: &[Op], segments: &[Segment], registers: usize) -> Shared {
-    let last = last_uses(operations, segments, registers);
+/// Gives registers out anew, each to several values one after the other. Every register must be written by one instruction.
+pub(super) fn share(instructions: &[Instruction], segments: &[Segment], registers: usize) -> Shared {
+    let last = last_uses(instructions, segments, registers);
     let mut place = vec![UNUSED; registers];
-    let mut ends: Vec<Vec<Register>> = vec![Vec::new(); operations.len() + 1];
+    let mut ends: Vec<Vec<Register>> = vec![Vec::new(); instructions.len() + 1];
     let (mut free, mut next) = (Vec::new(), 0);
-    let mut shared = Vec::with_capacity(operations.len());
-    for (at, &op) in operations.iter().enumerate() {
-        let (writes, count) = op.writes();
-        let op = op.renumbered(|register| place[register as usize], |register| register);
-        for &register in &writes[..count] {
+    let mut shared = Vec::with_capacity(instructions.len());
+    for (at, &instruction) in instructions.iter().enumerate() {
+        let with_reads = instruction.renumbered(|register| place[register as usize], |register| register);
+        for register in instruction.writes() {
             let own = free.pop().unwrap_or_else(|| {
                 next += 1;
                 next - 1
@@ -69,43 +68,30 @@ pub(super) fn share(operations: &[Op], segments: &[Segment], registers: usize) -
             place[register as usize] = own;
             ends[last[register as usize].max(at)].push(own);
         }
-        shared.push(op.renumbered(|register| register, |register| place[register as usize]));
+        shared.push(with_reads.renumbered(|register| register, |register| place[register as usize]));
         free.append(&mut ends[at]);
     }
-    let segments = segments.iter().cloned().map(|mut segment| {
-        if let Segment::Newton { tears, .. } = &mut segment {
-            for tear in tears {
-                (tear.x, tear.delta) = (place[tear.x as usize], place[tear.delta as usize]);
-            }
-        }
-        segment
-    });
-    Shared { operations: shared, segments: segments.collect(), registers: next as usize }
+    let segments = segments.iter().cloned().map(|segment| segment.renumbered(|register| place[register as usize]));
+    Shared { instructions: shared, segments: segments.collect(), registers: next as usize }
 }
 
-/// By register, the operation after which nothing needs it.
-fn last_uses(operations: &[Op], segments: &[Segment], registers: usize) -> Vec<usize> {
+/// By register, the instruction after which nothing needs it.
+fn last_uses(instructions: &[Instruction], segments: &[Segment], registers: usize) -> Vec<usize> {
     let (mut last, mut written) = (vec![0; registers], vec![0; registers]);
     for segment in segments {
-        let (range, tears) = match segment {
-            Segment::Once(range) => (range.clone(), &[][..]),
-            Segment::Newton { operations, tears } => (operations.clone(), tears.as_slice()),
-        };
-        let is_loop = !tears.is_empty();
+        let range = segment.range();
         for at in range.clone() {
-            let (reads, count) = operations[at].reads();
-            for &register in &reads[..count] {
+            for register in instructions[at].reads() {
                 // what comes from before a loop is needed again in its next round
-                let is_from_before = is_loop && written[register as usize] < range.start;
+                let is_from_before = !segment.tears().is_empty() && written[register as usize] < range.start;
                 let until = if is_from_before { range.end - 1 } else { at };
                 last[register as usize] = last[register as usize].max(until);
             }
-            let (writes, count) = operations[at].writes();
-            for &register in &writes[..count] {
+            for register in instructions[at].writes() {
                 written[register as usize] = at;
             }
         }
-        for register in tears.iter().flat_map(|tear| [tear.x, tear.delta]) {
+        for register in segment.tears().iter().flat_map(|tear| [tear.x, tear.delta]) {
             last[register as usize] = last[register as usize].max(range.end.saturating_sub(1));
         }
     }
@@ -161,23 +147,65 @@ impl Book {
     /// Writes operations down.
     pub fn encode(
         &mut self,
-        operations: &[Op],
+        instructions: &[Instruction],
         equations: &Equations<'_>,
         known: &FxHashMap<Register, usize>,
         notes: &Notes<'_>,
     ) -> Tape {
-        for op in operations {
-            match op {
-                Op::Other(program::Op::Unary { function, .. }) => {
-                    self.unary.insert(*function as u32, *function);
-                }
-                Op::Other(program::Op::Binary { function, .. }) => {
-                    self.binary.insert(*function as u32, *function);
-                }
-                _ => {}
+        let mut tape = Tape::default();
+        for &instruction in instructions {
+            tape.starts.push(tape.words.len() as u32);
+            self.write(instruction, &mut tape.words, equations, known, notes);
+        }
+        tape.starts.push(tape.words.len() as u32);
+        tape
+    }
+
+    /// Writes one instruction down.
+    fn write(
+        &mut self,
+        instruction: Instruction,
+        words: &mut Vec<u32>,
+        equations: &Equations<'_>,
+        known: &FxHashMap<Register, usize>,
+        notes: &Notes<'_>,
+    ) {
+        let numbers = &mut self.numbers;
+        match instruction {
+            Instruction::Compute(op) => self.write_operation(op, words),
+            Instruction::Number { to, bits } => words.extend([codes::NUMBER, to, numbers.of(from_bits(bits))]),
+            Instruction::Load { to, from } => match equations.loaded(from, known) {
+                Loaded::Number(value) => words.extend([codes::NUMBER, to, numbers.of(value)]),
+                Loaded::Input { array, index } => words.extend([codes::INPUT, to, array, index]),
+            },
+            Instruction::Time { to } => words.extend([codes::INPUT, to, TIME, 0]),
+            Instruction::Column { to, column } => words.extend([codes::STORED, to, column]),
+            Instruction::Curve { to, tear } => words.extend([codes::GUESS, to, tear]),
+            Instruction::Store { column, a } => words.extend([codes::STORE, column, a]),
+            Instruction::Multiplier { to, a, b, weight } => {
+                let most = numbers.of((notes.weight)(weight) / LARGEST_MULTIPLIER);
+                self.write_operation(Op::Mul { to, a, b }, words);
+                words.extend([codes::MULTIPLIER, to, most]);
+            }
+            Instruction::Residual { a, row } => words.extend([codes::RESIDUAL, a, numbers.of((notes.bound)(row))]),
+            Instruction::Pivot { a, pivot } => {
+                let (turn, weight) = (notes.pivot)(pivot);
+                words.extend([codes::PIVOT, a, turn, numbers.of(weight)]);
             }
         }
-        encode(operations, equations, known, notes, &mut self.numbers)
+    }
+
+    fn write_operation(&mut self, op: Op, words: &mut Vec<u32>) {
+        match op {
+            Op::Unary { function, .. } => drop(self.unary.insert(function as u32, function)),
+            Op::Binary { function, .. } => drop(self.binary.insert(function as u32, function)),
+            _ => {}
+        }
+        let (code, about) = op.code();
+        words.push(code);
+        words.extend(op.writes());
+        words.extend(op.reads());
+        words.extend(about);
     }
 
     /// The numbers, the functions and the columns of tables by their numbers.
@@ -203,8 +231,8 @@ impl Book {
         }
         let mut column_arms = Vec::new();
         for table in 0..equations.program.tables().len() as u32 {
-            for (k, &column) in COLUMNS.iter().enumerate() {
-                let number = table * COLUMNS.len() as u32 + k as u32;
+            for column in Column::ALL {
+                let number = table * Column::ALL.len() as u32 + column.number();
                 column_arms.push((number, format!("&{}", equations.table(table, column))));
             }
         }
@@ -249,83 +277,4 @@ pub(super) fn list(docs: &str, name: &str, words: &[u32]) -> String {
         text += "\n";
     }
     text + "];\n\n"
-}
-
-/// Writes operations down.
-fn encode(
-    operations: &[Op],
-    equations: &Equations<'_>,
-    known: &FxHashMap<Register, usize>,
-    notes: &Notes<'_>,
-    numbers: &mut Numbers,
-) -> Tape {
-    let mut tape = Tape::default();
-    for &op in operations {
-        tape.starts.push(tape.words.len() as u32);
-        let words = &mut tape.words;
-        match op {
-            Op::Number { to, bits: [low, high] } => {
-                let value = f64::from_bits(u64::from(low) | (u64::from(high) << 32));
-                words.extend([0, to, numbers.of(value)]);
-            }
-            Op::Load { to, from } => match equations.loaded(from, known) {
-                Loaded::Number(value) => words.extend([0, to, numbers.of(value)]),
-                Loaded::Input { array, index } => words.extend([1, to, array, index]),
-            },
-            Op::Time { to } => words.extend([1, to, 3, 0]),
-            Op::Column { to, column } => words.extend([2, to, column]),
-            Op::Curve { to, tear } => words.extend([3, to, tear]),
-            Op::Store { column, a } => words.extend([4, column, a]),
-            Op::Add { to, a, b } => words.extend([5, to, a, b]),
-            Op::Sub { to, a, b } => words.extend([6, to, a, b]),
-            Op::Mul { to, a, b } => words.extend([7, to, a, b]),
-            Op::Div { to, a, b } => words.extend([8, to, a, b]),
-            Op::MulAdd { to, a, b, c } => words.extend([9, to, a, b, c]),
-            Op::MulLess { to, a, b, c } => words.extend([10, to, a, b, c]),
-            Op::LessMul { to, a, b, c } => words.extend([11, to, a, b, c]),
-            Op::Neg { to, a } => words.extend([12, to, a]),
-            Op::Recip { to, a } => words.extend([13, to, a]),
-            Op::SinCos { sin, cos, a } => words.extend([14, sin, cos, a]),
-            Op::Multiplier { to, a, b, weight } => {
-                words.extend([7, to, a, b, 15, to, numbers.of((notes.weight)(weight) / LARGEST_MULTIPLIER)]);
-            }
-            Op::Residual { a, row } => words.extend([16, a, numbers.of((notes.bound)(row))]),
-            Op::Pivot { a, pivot } => {
-                let (turn, weight) = (notes.pivot)(pivot);
-                words.extend([17, a, turn, numbers.of(weight)]);
-            }
-            Op::Other(op) => encode_other(op, words),
-        }
-    }
-    tape.starts.push(tape.words.len() as u32);
-    tape
-}
-
-fn encode_other(op: program::Op, words: &mut Vec<u32>) {
-    use program::Op as P;
-    match op {
-        P::Unary { function, to, a } => words.extend([18, to, a, function as u32]),
-        P::Binary { function, to, a, b } => words.extend([19, to, a, b, function as u32]),
-        P::Compare { comparison: Comparison::Less, to, a, b } => words.extend([20, to, a, b]),
-        P::Compare { comparison: Comparison::LessEqual, to, a, b } => words.extend([21, to, a, b]),
-        P::Compare { comparison: Comparison::Equal, to, a, b } => words.extend([22, to, a, b]),
-        P::And { to, a, b } => words.extend([23, to, a, b]),
-        P::Or { to, a, b } => words.extend([24, to, a, b]),
-        P::Not { to, a } => words.extend([25, to, a]),
-        P::Select { to, condition, a, b } => words.extend([26, to, condition, a, b]),
-        P::Either { to, condition, a, b } => words.extend([27, to, condition, a, b]),
-        P::Copy { to, a } => words.extend([28, to, a]),
-        P::Piece { to, table, a } => words.extend([29, to, a, table * COLUMNS.len() as u32]),
-        P::Pick { to, table, column, piece } => {
-            let column = COLUMNS.iter().position(|own| *own == column).unwrap_or(0) as u32;
-            words.extend([30, to, piece, table * COLUMNS.len() as u32 + column]);
-        }
-        P::Add { to, a, b } => words.extend([5, to, a, b]),
-        P::Sub { to, a, b } => words.extend([6, to, a, b]),
-        P::Mul { to, a, b } => words.extend([7, to, a, b]),
-        P::Div { to, a, b } => words.extend([8, to, a, b]),
-        P::Neg { to, a } => words.extend([12, to, a]),
-        P::Recip { to, a } => words.extend([13, to, a]),
-        P::SinCos { sin, cos, a } => words.extend([14, sin, cos, a]),
-    }
 }

@@ -8,11 +8,11 @@ impl ConstraintSystem {
     /// each. Nothing where no declaration of that name wrote any.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let declaration = self.declarations.iter().position(|declaration| declaration.name == name)?;
+        let declaration = self.declarations.find(|declaration| declaration.name == name)?;
         let rows: Vec<usize> = (0..self.rows.len()).filter(|&row| self.rows[row].declaration == declaration).collect();
         let of = |list: &[ExprId]| rows.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
         let phi: Vec<ExprId> = rows.iter().map(|&row| self.rows[row].phi).collect();
-        let columns = [("Φ", phi), ("ν", of(&self.nu)), ("γ", of(&self.gamma))];
+        let columns = [("Φ", phi), ("ν", of(self.nu())), ("γ", of(self.gamma()))];
         let mut printer = Printer::new(&self.graph, |symbol| self.symbol_name(symbol));
         let roots: Vec<ExprId> = columns.iter().flat_map(|(_, list)| list.iter().copied()).collect();
         let prefix = self.prefix_of_shared();

@@ -19,16 +19,24 @@
 //! - Every expression is in the one graph; `Φ_q` holds exactly the entries that do not vanish identically.
 //! - Every row knows the declaration that wrote it, with its place in the text.
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
+//!
+//! [`ConstraintSystem::validate`] looks at these and more.
 
 mod equations_of;
+mod ids;
 mod print;
 mod results;
+mod right_sides;
 mod rims;
 mod scopes;
 mod signals;
+mod validate;
 mod variations;
 
+pub use crate::vocabulary::JointKind;
+pub use ids::{BodyId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
+pub use right_sides::{RightSide, With};
 pub use rims::Rim;
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
 pub use signals::CheckSlopes;
@@ -53,30 +61,22 @@ pub struct ConstraintSystem {
     pub inputs: Vec<Input>,
     /// Whether the equations hold inputs, and time, as signals rather than by their formulas.
     pub has_signals: bool,
-    /// By signal: the right side of the equation for the derivatives of `q` by it, `−Φ_u` [unit of the row / that of the signal].
-    pub by_signal: Vec<Vec<ExprId>>,
-    /// Likewise by parameter, `−Φ_p`, where that is asked for.
-    pub by_param: Vec<Vec<ExprId>>,
     /// How equations that were left out change, where one of the two is there.
     pub check_slopes: CheckSlopes,
     /// The bodies, each with three coordinates; those of the joints come after them.
-    pub bodies: Vec<Body>,
+    pub bodies: IdVec<BodyId, Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
-    pub points: Vec<Point>,
+    pub points: IdVec<PointId, Point>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
-    pub declarations: Vec<Declaration>,
+    pub declarations: IdVec<DeclarationId, Declaration>,
     /// The entries of `Φ`.
     pub rows: Vec<Row>,
     /// `Φ_q`, by rows.
     pub phi_q: SparseRows,
-    /// `ν`, one entry per row [unit of the row / s].
-    pub nu: Vec<ExprId>,
-    /// `γ`, one entry per row [unit of the row / s²].
-    pub gamma: Vec<ExprId>,
-    /// Right side of the jerk equation, where a measure needs it [unit of the row / s³].
-    pub jerk: Option<Vec<ExprId>>,
+    /// The right sides of the equations that follow from `Φ = 0`.
+    pub right_sides: Vec<RightSide>,
     /// Derivatives by inputs and parameters, where there are any.
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
@@ -91,6 +91,8 @@ pub struct ConstraintSystem {
     pub watches: Vec<Watch>,
     /// Where formulas of the equations come to the end of what their functions take.
     pub rims: Vec<Rim>,
+    /// Contacts that begin where nobody said; none once that is searched for.
+    pub open_contacts: Vec<OpenContact>,
     /// Distances that gears and racks are made for, but do not hold themselves.
     pub fits: Vec<Fit>,
     /// The parts of the mechanism, as far as their start asks for it.
@@ -134,6 +136,12 @@ pub struct Input {
 }
 
 impl Input {
+    /// The symbol of its value.
+    #[must_use]
+    pub fn symbol(&self) -> Symbol {
+        Symbol::Signal { index: self.index, order: 0 }
+    }
+
     /// Whether it is time, which is one where formulas hold it beside inputs.
     #[must_use]
     pub fn is_time(&self) -> bool {
@@ -150,13 +158,15 @@ pub struct Body {
     pub span: Span,
     /// Where its pose is written, if it is.
     pub pose_span: Option<Span>,
+    /// Its coordinates: x, y, phi.
+    pub pose: [usize; 3],
 }
 
 /// A point fixed in a body or in the ground.
 #[derive(Clone, Debug)]
 pub struct Point {
-    /// Index of its body; none for the ground.
-    pub body: Option<usize>,
+    /// Its body; none for the ground.
+    pub body: Option<BodyId>,
     /// Its name; a literal point has none.
     pub name: Option<String>,
     /// In the frame of its body (m); holds parameters only.
@@ -187,12 +197,12 @@ impl CoordinateKind {
 }
 
 /// Whose a coordinate is.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Owner {
-    /// A body, by its index.
-    Body(usize),
-    /// A joint, by the index of its declaration.
-    Joint(usize),
+    /// A body.
+    Body(BodyId),
+    /// A joint, by its declaration.
+    Joint(DeclarationId),
 }
 
 /// A generalized coordinate.
@@ -213,8 +223,8 @@ pub struct Coordinate {
 /// What kind of declaration wrote a row.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum DeclarationKind {
-    /// A joint, by its word.
-    Joint(&'static str),
+    /// A joint.
+    Joint(JointKind),
     /// A constraint.
     Constraint,
     /// A driver.
@@ -244,10 +254,10 @@ pub struct Declaration {
     pub kind: DeclarationKind,
     /// How many rows it wrote.
     pub rows: usize,
-    /// Where it takes hold: indices of points, one for each of its two bodies where there is one.
-    pub points: Vec<usize>,
-    /// All points that its equations speak of, by their indices.
-    pub features: Vec<usize>,
+    /// Where it takes hold: one point for each of its two bodies where there is one.
+    pub points: Vec<PointId>,
+    /// All points that its equations speak of.
+    pub features: Vec<PointId>,
     /// The axes that it joins, as they are written.
     pub axes: Vec<String>,
     /// Where the two sides of an equation are written.
@@ -259,8 +269,8 @@ pub struct Declaration {
 /// An equation.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// Index of the declaration that wrote it.
-    pub declaration: usize,
+    /// The declaration that wrote it.
+    pub declaration: DeclarationId,
     /// The entry of `Φ` [m, m² or rad].
     pub phi: ExprId,
 }
@@ -280,6 +290,20 @@ pub struct Measure {
     pub span: Span,
     /// In what it is printed.
     pub units: Units,
+}
+
+impl Measure {
+    /// Its value (order 0), first or second time derivative, if that can be had.
+    #[must_use]
+    pub fn derivative(&self, order: usize) -> Option<ExprId> {
+        [Some(self.value), self.first, self.second][order]
+    }
+
+    /// Whether it has a value (0), a first time derivative (1), a second one (2).
+    #[must_use]
+    pub fn has(&self, order: usize) -> bool {
+        self.derivative(order).is_some()
+    }
 }
 
 /// The units of a measure and of its derivatives.
@@ -311,8 +335,8 @@ pub struct Condition {
 pub struct Check {
     /// The entry of `Φ` [m, m² or rad].
     pub phi: ExprId,
-    /// Index of the declaration that wrote it.
-    pub declaration: usize,
+    /// The declaration that wrote it.
+    pub declaration: DeclarationId,
     /// Its norm in the scaled `Φ_q` at the start.
     pub scale: f64,
 }
@@ -326,8 +350,8 @@ pub struct Watch {
     pub kind: WatchKind,
     /// What it is judged against.
     pub scale: f64,
-    /// Index of the joint's declaration.
-    pub declaration: usize,
+    /// The joint's declaration.
+    pub declaration: DeclarationId,
 }
 
 /// What a [`Watch`] looks at.
@@ -359,9 +383,22 @@ pub struct PartStart {
     /// Whether its text is mirrored.
     pub is_mirrored: bool,
     /// Its bodies.
-    pub bodies: Range<usize>,
+    pub bodies: Vec<BodyId>,
+    /// The coordinates of these.
+    pub poses: Range<usize>,
     /// The coordinates that its joints bring along.
     pub own: Range<usize>,
+}
+
+/// A contact with arguments that no curve gives an estimate of.
+#[derive(Clone, Debug)]
+pub struct OpenContact {
+    /// The joint's declaration.
+    pub declaration: DeclarationId,
+    /// These arguments, by the numbers of their coordinates.
+    pub arguments: Vec<u32>,
+    /// What must be positive for its curves to have a point.
+    pub conditions: Vec<ExprId>,
 }
 
 /// A distance in the assembled start, and what it should be.
@@ -373,8 +410,8 @@ pub struct Fit {
     pub wanted: ExprId,
     /// The larger radius (m).
     pub radius: ExprId,
-    /// Index of the joint's declaration.
-    pub declaration: usize,
+    /// The joint's declaration.
+    pub declaration: DeclarationId,
 }
 
 /// What a condition is about.
@@ -422,10 +459,26 @@ impl SparseRows {
         self.starts[row]..self.starts[row + 1]
     }
 
+    /// Some of its rows.
+    #[must_use]
+    pub fn of_rows(&self, rows: &[usize]) -> SparseRows {
+        let mut kept = SparseRows::new();
+        for &row in rows {
+            kept.push(self.row(row).iter().copied());
+        }
+        kept
+    }
+
     /// The row that a position in [`SparseRows::entries`] belongs to.
     #[must_use]
     pub fn row_of(&self, position: usize) -> usize {
         self.starts.partition_point(|&start| start <= position) - 1
+    }
+
+    /// How many rows it has.
+    #[must_use]
+    pub fn rows(&self) -> usize {
+        self.starts.len().saturating_sub(1)
     }
 
     /// All entries, row by row.
@@ -455,27 +508,21 @@ impl ConstraintSystem {
 
     /// `Φ_q`, `ν`, `γ`, and the jerk's right side if wanted, of rows of `Φ`.
     pub fn derive(&mut self, with_jerk: bool) {
-        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
-        let graph = &mut self.graph;
         self.phi_q = SparseRows::new();
-        for &row in &phi {
-            let gradient = graph.gradient(row, Dependence::coordinates(0));
+        for row in self.phi() {
+            let gradient = self.graph.gradient(row, Dependence::coordinates(0));
             self.phi_q.push(gradient.into_iter().filter_map(|(symbol, slope)| match symbol {
                 Symbol::Coordinate { index, order: 0 } => Some((index, slope)),
                 _ => None,
             }));
         }
-        let phi_t = Self::time_derivatives(graph, &phi, 0);
-        self.nu = phi_t.into_iter().map(|id| graph.neg(id)).collect();
-        // Φ̇ holds q̇; what remains of Φ̈ when q̈ is left out is −γ
-        let first = Self::time_derivatives(graph, &phi, 1);
-        let second = Self::time_derivatives(graph, &first, 1);
-        self.gamma = second.into_iter().map(|id| graph.neg(id)).collect();
-        self.jerk = with_jerk.then(|| {
-            let second = Self::time_derivatives(graph, &first, 2);
-            let third = Self::time_derivatives(graph, &second, 2);
-            third.into_iter().map(|id| graph.neg(id)).collect()
-        });
+        self.derive_by_time(with_jerk);
+    }
+
+    /// `Φ`, row by row.
+    #[must_use]
+    pub fn phi(&self) -> Vec<ExprId> {
+        self.rows.iter().map(|row| row.phi).collect()
     }
 
     /// Where a signal stands among the inputs: time is the last.
@@ -500,36 +547,43 @@ impl ConstraintSystem {
     pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
-        let mut phi_q = SparseRows::new();
-        for &row in &kept {
-            phi_q.push(self.phi_q.row(row).iter().copied());
-        }
-        let of = |list: &[ExprId]| kept.iter().map(|&row| list[row]).collect::<Vec<ExprId>>();
-        (self.nu, self.gamma, self.jerk) = (of(&self.nu), of(&self.gamma), self.jerk.as_deref().map(of));
-        self.by_signal = self.by_signal.iter().map(|list| of(list)).collect();
-        self.by_param = self.by_param.iter().map(|list| of(list)).collect();
         self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
-        self.phi_q = phi_q;
+        self.phi_q = self.phi_q.of_rows(&kept);
+        self.right_sides.iter_mut().for_each(|side| side.keep(&kept));
         for check in &checks {
             self.declarations[check.declaration].rows -= 1;
         }
         self.checks = checks;
         self.leave_out_of_variations(&kept);
         self.derive_checks();
+        debug_assert_eq!(self.validate(), Ok(()));
     }
 
     /// The body that a coordinate is of, if it is of a body.
     #[must_use]
-    pub fn body_of(&self, coordinate: usize) -> Option<usize> {
+    pub fn body_of(&self, coordinate: usize) -> Option<BodyId> {
         match self.coordinates[coordinate].owner {
             Owner::Body(body) => Some(body),
             Owner::Joint(_) => None,
         }
     }
 
+    /// The coordinates of a body: x, y, phi.
+    #[must_use]
+    pub fn pose_of(&self, body: BodyId) -> [usize; 3] {
+        self.bodies[body].pose
+    }
+
+    /// The size of a body (m): what a change of its place is judged against.
+    #[must_use]
+    pub fn size_of(&self, body: BodyId) -> f64 {
+        let [x, ..] = self.pose_of(body);
+        self.coordinates[x].scale
+    }
+
     /// How a point is written, `rod.pin`; a literal one has no name.
     #[must_use]
-    pub fn point_name(&self, point: usize) -> Option<String> {
+    pub fn point_name(&self, point: PointId) -> Option<String> {
         let point = &self.points[point];
         let owner = point.body.map_or("ground", |body| self.bodies[body].name.as_str());
         point.name.as_ref().map(|name| format!("{owner}.{name}"))

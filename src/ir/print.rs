@@ -81,7 +81,7 @@ impl ConstraintSystem {
         writeln!(f, "\nwritten by")?;
         for declaration in &self.declarations {
             let kind = match declaration.kind {
-                DeclarationKind::Joint(word) => format!("joint, {word}"),
+                DeclarationKind::Joint(joint) => format!("joint, {}", joint.word()),
                 other => other.noun().to_owned(),
             };
             writeln!(f, "  {}: {kind}", declaration.name)?;
@@ -93,9 +93,9 @@ impl ConstraintSystem {
             })
         });
         section(f, "Jacobian Φ_q, entries that are not 0", entries)?;
-        section(f, "velocity, right side ν of Φ_q q̇ = ν", of_rows(&self.nu).into_iter())?;
-        section(f, "acceleration, right side γ of Φ_q q̈ = γ", of_rows(&self.gamma).into_iter())?;
-        let jerk = self.jerk.as_deref().map_or(Vec::new(), of_rows);
+        section(f, "velocity, right side ν of Φ_q q̇ = ν", of_rows(self.nu()).into_iter())?;
+        section(f, "acceleration, right side γ of Φ_q q̈ = γ", of_rows(self.gamma()).into_iter())?;
+        let jerk = self.jerk().map_or(Vec::new(), of_rows);
         section(f, "jerk, right side of Φ_q q⃛ = …", jerk.into_iter())?;
         for (number, variation) in self.variations().iter().enumerate() {
             for (of, rights) in ["q", "q̇", "q̈"].into_iter().zip(&variation.rights) {
@@ -182,7 +182,7 @@ impl ConstraintSystem {
         roots.extend(self.results.outcomes.iter().map(|outcome| outcome.value));
         roots.extend(self.watches.iter().map(|watch| watch.value));
         roots.extend(self.phi_q.entries().iter().map(|&(_, id)| id));
-        roots.extend(self.nu.iter().chain(&self.gamma).chain(self.jerk.iter().flatten()));
+        roots.extend(self.nu().iter().chain(self.gamma()).chain(self.jerk().into_iter().flatten()));
         roots.extend(self.variations().iter().flat_map(|variation| variation.rights.iter().flatten()));
         roots.extend(self.measures.iter().flat_map(|m| [Some(m.value), m.first, m.second].into_iter().flatten()));
         roots

@@ -1,6 +1,6 @@
 //! Rims: where a formula comes to the end of what one of its functions takes, as a root that comes to zero.
 
-use super::ConstraintSystem;
+use super::{ConstraintSystem, DeclarationId};
 use crate::expr::{Binary, ExprId, Graph, Node, Unary};
 use rustc_hash::FxHashMap;
 
@@ -11,8 +11,8 @@ pub struct Rim {
     pub gauge: ExprId,
     /// Its time derivative along the motion: where the gauge only touches zero, this one changes its sign.
     pub slope: ExprId,
-    /// The declarations whose equations hold the formula, by index, in order.
-    pub declarations: Vec<usize>,
+    /// The declarations whose equations hold the formula, in order.
+    pub declarations: Vec<DeclarationId>,
 }
 
 impl ConstraintSystem {

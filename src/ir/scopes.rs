@@ -5,7 +5,7 @@
 //! changes as what it is bound to. When all is made, each stands again for that. With `F` the rows of the part, over its leaves, and `q` its
 //! coordinates alone, `F_q q_p = −D_p F`.
 
-use super::SparseRows;
+use super::{DeclarationId, SparseRows};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::source::Span;
 
@@ -100,6 +100,6 @@ pub struct AskingPart {
     pub columns: Vec<u32>,
     /// What its inputs are bound to.
     pub inputs: Vec<ExprId>,
-    /// The indices of its joints, constraints and drivers, ascending.
-    pub declarations: Vec<usize>,
+    /// Its joints, constraints and drivers, ascending.
+    pub declarations: Vec<DeclarationId>,
 }

@@ -1,6 +1,7 @@
 //! Inputs as signals: what their place in the equations asks for beside what a system of time alone has.
 
-use super::{ConstraintSystem, Measure};
+use super::right_sides::slopes_by;
+use super::{ConstraintSystem, Measure, With};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 
 /// Nobody gives more of a signal than its value, rate and acceleration.
@@ -14,29 +15,28 @@ pub struct CheckSlopes {
     pub pattern: Vec<(u32, u32)>,
     /// These slopes.
     pub by_q: Vec<ExprId>,
-    /// By signal: a slope for each check.
-    pub by_signal: Vec<Vec<ExprId>>,
-    /// By parameter: a slope for each check.
-    pub by_param: Vec<Vec<ExprId>>,
+    /// With inputs and parameters: a slope for each check.
+    pub with: Vec<(With, Vec<ExprId>)>,
+}
+
+impl CheckSlopes {
+    /// By input, in their order.
+    pub fn by_inputs(&self) -> impl Iterator<Item = &[ExprId]> {
+        self.with.iter().filter(|(with, _)| matches!(with, With::Input(_))).map(|(_, slopes)| slopes.as_slice())
+    }
+
+    /// By parameter, in their order.
+    pub fn by_params(&self) -> impl Iterator<Item = &[ExprId]> {
+        self.with.iter().filter(|(with, _)| matches!(with, With::Param(_))).map(|(_, slopes)| slopes.as_slice())
+    }
 }
 
 impl ConstraintSystem {
-    /// The right sides of the equations for the derivatives of `q` by each signal.
-    pub fn derive_by_signals(&mut self) {
-        let signals: Vec<u32> = self.inputs.iter().map(|input| input.index).collect();
-        self.by_signal = signals.into_iter().map(|index| self.rights_by(Symbol::Signal { index, order: 0 })).collect();
-    }
-
-    /// The right sides of the equations for the derivatives of `q` by each parameter, those by which tables change too.
-    pub fn derive_by_params(&mut self) {
-        self.by_param = (0..self.params.len() as u32).map(|k| self.rights_by(Symbol::Param(k))).collect();
-        self.derive_checks();
-    }
-
     /// The slopes of equations that were left out, where coordinates are differentiated by signals or parameters.
     pub(super) fn derive_checks(&mut self) {
-        let (has_signals, has_params) = (!self.by_signal.is_empty(), !self.by_param.is_empty());
-        if self.checks.is_empty() || !(has_signals || has_params) {
+        let with = self.right_sides.iter().map(|side| side.with);
+        let with: Vec<With> = with.filter(|with| !matches!(with, With::Time(_))).collect();
+        if self.checks.is_empty() || with.is_empty() {
             return;
         }
         let phi: Vec<ExprId> = self.checks.iter().map(|check| check.phi).collect();
@@ -49,21 +49,15 @@ impl ConstraintSystem {
                 }
             }
         }
-        let signals: Vec<u32> = self.inputs.iter().map(|input| input.index).filter(|_| has_signals).collect();
-        let params = if has_params { self.params.len() as u32 } else { 0 };
-        let mut slopes_by =
-            |own: Symbol| self.graph.variations(&phi, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)));
-        slopes.by_signal = signals.into_iter().map(|index| slopes_by(Symbol::Signal { index, order: 0 })).collect();
-        slopes.by_param = (0..params).map(|k| slopes_by(Symbol::Param(k))).collect();
+        for with in with {
+            let symbol = match with {
+                With::Input(k) => self.inputs[k].symbol(),
+                With::Param(k) => Symbol::Param(k as u32),
+                With::Time(_) => Symbol::Time,
+            };
+            slopes.with.push((with, slopes_by(&mut self.graph, &phi, symbol)));
+        }
         self.check_slopes = slopes;
-    }
-
-    /// The partial derivatives of `Φ` by a symbol, negated.
-    fn rights_by(&mut self, own: Symbol) -> Vec<ExprId> {
-        let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
-        let graph = &mut self.graph;
-        let slopes = graph.variations(&phi, |graph, symbol| (symbol == own).then(|| graph.constant(1.0)));
-        slopes.into_iter().map(|id| graph.neg(id)).collect()
     }
 
     /// Gives measures the derivatives that those of another system of the same text have; what would need more of a signal than its

@@ -2,8 +2,8 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::expr::{ExprId, Symbol, Unary};
-use crate::ir::{Coordinate, CoordinateKind, Owner, Watch, WatchKind};
+use crate::expr::{ExprId, Node, Symbol, Unary};
+use crate::ir::{Coordinate, CoordinateKind, OpenContact, Owner, Watch, WatchKind};
 use crate::model::{AxisId, Joint, Named, PointId, Profile};
 use rustc_hash::FxHashMap;
 
@@ -21,7 +21,7 @@ impl Lowering<'_> {
         let index = self.coordinates.len() as u32;
         self.coordinates.push(Coordinate {
             name: format!("{}.{}", joint.declared.name, joint.kind.own_coordinates()[k]),
-            owner: Owner::Joint(self.declarations.len()),
+            owner: Owner::Joint(self.declarations.next_id()),
             kind,
             estimate,
             scale: 1.0,
@@ -31,7 +31,7 @@ impl Lowering<'_> {
 
     /// Something that keeps its sign along a branch, of the joint that is being lowered.
     pub(super) fn watch(&mut self, value: ExprId, kind: WatchKind, scale: f64) {
-        self.watches.push(Watch { value, kind, scale, declaration: self.declarations.len() });
+        self.watches.push(Watch { value, kind, scale, declaration: self.declarations.next_id() });
     }
 
     /// `r_j + A_j k(u) − r_i^P`
@@ -41,7 +41,7 @@ impl Lowering<'_> {
         let local = self.along(profile, u);
         let (on_curve, point) = (self.placed(profile.frame(self.model), local.at), self.global(point));
         let rows = self.minus(on_curve, point).to_vec();
-        self.search(&rows, &[(u, profile)], first_condition);
+        self.leave_open(&[(u, profile)], first_condition);
         rows
     }
 
@@ -66,7 +66,7 @@ impl Lowering<'_> {
         let (of_k, of_m) = (self.graph.mul(of_k, square), self.graph.mul(of_m, together));
         let curvature = self.graph.add(of_k, of_m);
         self.watch(curvature, WatchKind::Curvature, scale * scale);
-        self.search(&rows, &[(u, first), (w, second)], first_condition);
+        self.leave_open(&[(u, first), (w, second)], first_condition);
         rows
     }
 
@@ -86,8 +86,23 @@ impl Lowering<'_> {
         self.watch(along, WatchKind::Tangents, scale);
         let curvature = self.left_of(v, bend);
         self.watch(curvature, WatchKind::Curvature, scale);
-        self.search(&rows, &[(u, profile)], first_condition);
+        self.leave_open(&[(u, profile)], first_condition);
         rows
+    }
+
+    /// Notes which arguments of the contact that is being lowered have no estimate by their curves.
+    fn leave_open(&mut self, arguments: &[(ExprId, Profile)], first_condition: usize) {
+        let is_open = |profile| !matches!(profile, Profile::Curve(curve) if self.model[curve].estimate.is_some());
+        let index = |u: ExprId| match self.graph.node(u) {
+            Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index),
+            _ => None,
+        };
+        let open = arguments.iter().filter(|(_, profile)| is_open(*profile));
+        let arguments: Vec<u32> = open.filter_map(|&(u, _)| index(u)).collect();
+        if !arguments.is_empty() {
+            let conditions = self.conditions[first_condition..].iter().map(|condition| condition.positive).collect();
+            self.open_contacts.push(OpenContact { declaration: self.declarations.next_id(), arguments, conditions });
+        }
     }
 
     /// A contact's coordinate on a profile, with the estimate that the curve gives; 0 until it is searched for.

@@ -31,7 +31,7 @@ impl Lowering<'_> {
                 self.formula(pose)
             }
             Frame::Body(body) if !self.as_drawn && self.view.is_none() => {
-                let index = 3 * body.index() as u32 + part;
+                let index = self.numbering.pose(body)[part as usize];
                 self.graph.symbol(Symbol::Coordinate { index, order: 0 })
             }
             _ => {
@@ -82,10 +82,8 @@ impl Lowering<'_> {
         match frame {
             Frame::Ground => Placement::identity(&mut self.graph),
             Frame::Body(body) => {
-                let [x, y, phi] = [0, 1, 2].map(|part| {
-                    let index = 3 * body.index() as u32 + part;
-                    self.graph.symbol(Symbol::Coordinate { index, order: 0 })
-                });
+                let pose = self.numbering.pose(body);
+                let [x, y, phi] = pose.map(|index| self.graph.symbol(Symbol::Coordinate { index, order: 0 }));
                 let is_mirrored = self.model.is_mirrored(self.model[body].part);
                 Placement { at: [x, y], phi, is_mirrored }
             }

@@ -41,7 +41,7 @@ impl Lowering<'_> {
         };
         let distance = self.graph.binary(Binary::Hypot, dx, dy);
         let radius = self.graph.binary(Binary::Max, radii[0], radii[1]);
-        self.fits.push(Fit { distance, wanted, radius, declaration: self.declarations.len() });
+        self.fits.push(Fit { distance, wanted, radius, declaration: self.declarations.next_id() });
         vec![across, mesh]
     }
 
@@ -91,7 +91,7 @@ impl Lowering<'_> {
         // on the other side it is below zero
         let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
-        self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.len() });
+        self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.next_id() });
         vec![self.graph.sub(rolled, phase)]
     }
 

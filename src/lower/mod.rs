@@ -3,11 +3,11 @@
 //! 1989).
 
 mod contacts;
-mod estimates;
 mod frames;
 mod gears;
 mod inputs;
 mod joints;
+mod numbering;
 mod parts;
 mod quantities;
 mod results;
@@ -19,13 +19,15 @@ mod velocities;
 
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
-    self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationKind, Fit, Measure,
-    Owner, Param, Row, SparseRows, Units, Variations, Watch,
+    self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, SparseRows, Units, Variations, Watch,
 };
 use crate::model::{
-    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, Mechanism, Named, PartId, Placement, PointId, Quantity,
+    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
+    Quantity,
 };
 use crate::tolerances::scales::size::FAR_FRAME;
+use numbering::Numbering;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 /// What holds so many time derivatives of the coordinates has one that holds a third derivative.
@@ -37,6 +39,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let sizes = size::of_bodies(model);
     let mut lowering = Lowering {
         model,
+        numbering: Numbering::of(model),
         graph: Graph::new(),
         known: FxHashMap::default(),
         named: Vec::new(),
@@ -45,10 +48,10 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         part_sizes: size::of_parts(model, &sizes),
         largest_size: sizes.iter().copied().fold(0.0, f64::max),
         sizes,
-        numbers: estimates::Numbers::default(),
+        open_contacts: Vec::new(),
         coordinates: Vec::new(),
         rows: Vec::new(),
-        declarations: Vec::new(),
+        declarations: IdVec::default(),
         conditions: Vec::new(),
         known_conditions: FxHashSet::default(),
         watches: Vec::new(),
@@ -80,23 +83,15 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         params: params(model),
         inputs: Vec::new(),
         has_signals: model.has_signals,
-        by_signal: Vec::new(),
-        by_param: Vec::new(),
         check_slopes: ir::CheckSlopes::default(),
-        bodies: model
-            .bodies
-            .iter()
-            .map(|body| Body { name: body.declared.name.clone(), span: body.declared.span, pose_span: body.pose_span })
-            .collect(),
+        bodies: lowering.bodies(),
         points,
         coordinates: std::mem::take(&mut lowering.coordinates),
         declarations: std::mem::take(&mut lowering.declarations),
         rows: std::mem::take(&mut lowering.rows),
         graph: std::mem::take(&mut lowering.graph),
         phi_q: SparseRows::new(),
-        nu: Vec::new(),
-        gamma: Vec::new(),
-        jerk: None,
+        right_sides: Vec::new(),
         variations: lowering.variations.take().map(Box::new),
         measures,
         conditions: std::mem::take(&mut lowering.conditions),
@@ -104,6 +99,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         checks: Vec::new(),
         watches: std::mem::take(&mut lowering.watches),
         rims: Vec::new(),
+        open_contacts: std::mem::take(&mut lowering.open_contacts),
         fits: std::mem::take(&mut lowering.fits),
         parts,
         asking_parts,
@@ -124,6 +120,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
         system.graph = lowering.graph;
         system.derive_variations_of_results();
     }
+    debug_assert_eq!(system.validate(), Ok(()));
     system
 }
 
@@ -144,8 +141,24 @@ fn params(model: &Mechanism) -> Vec<Param> {
     model.params.iter().map(param).collect()
 }
 
+/// A body of the model in the system: both have the same, in the same order.
+fn same_body(body: BodyId) -> ir::BodyId {
+    body.index().into()
+}
+
+/// Likewise a point.
+fn same_point(point: PointId) -> ir::PointId {
+    point.index().into()
+}
+
+/// The declaration of a joint: joints are the first.
+fn of_joint(joint: JointId) -> DeclarationId {
+    joint.index().into()
+}
+
 struct Lowering<'m> {
     model: &'m Mechanism,
+    numbering: Numbering,
     graph: Graph,
     /// Formulas of the model that have been carried over.
     known: FxHashMap<ExprId, ExprId>,
@@ -159,11 +172,11 @@ struct Lowering<'m> {
     sizes: Vec<f64>,
     part_sizes: Vec<f64>,
     largest_size: f64,
-    /// What the search for contacts knows already.
-    numbers: estimates::Numbers,
+    /// Contacts that begin where nobody said.
+    open_contacts: Vec<OpenContact>,
     coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
-    declarations: Vec<Declaration>,
+    declarations: IdVec<DeclarationId, Declaration>,
     conditions: Vec<Condition>,
     known_conditions: FxHashSet<ExprId>,
     watches: Vec<Watch>,
@@ -226,11 +239,21 @@ impl Lowering<'_> {
         }
     }
 
-    fn points(&mut self) -> Vec<ir::Point> {
+    fn bodies(&self) -> IdVec<ir::BodyId, Body> {
+        let body = |(id, body): (BodyId, &model::Body)| Body {
+            name: body.declared.name.clone(),
+            span: body.declared.span,
+            pose_span: body.pose_span,
+            pose: self.numbering.pose(id).map(|number| number as usize),
+        };
+        self.model.body_ids().zip(&self.model.bodies).map(body).collect()
+    }
+
+    fn points(&mut self) -> IdVec<ir::PointId, ir::Point> {
         let model = self.model;
         let point = |point: &crate::model::Point| ir::Point {
             body: match model.carrier(point.frame) {
-                Frame::Body(body) => Some(body.index()),
+                Frame::Body(body) => Some(same_body(body)),
                 Frame::Ground | Frame::Part(_) => None,
             },
             name: point.name.clone(),
@@ -270,7 +293,7 @@ impl Lowering<'_> {
             for ((part, kind), estimate) in PARTS.into_iter().zip(pose) {
                 let coordinate = Coordinate {
                     name: format!("{}.{part}", body.declared.name),
-                    owner: Owner::Body(k),
+                    owner: Owner::Body(same_body(id)),
                     kind,
                     estimate,
                     scale: if kind == CoordinateKind::Length { size } else { 1.0 },
@@ -307,9 +330,9 @@ impl Lowering<'_> {
         points: &[PointId],
         axes: &[AxisId],
     ) {
-        let declaration = self.declarations.len();
+        let declaration = self.declarations.next_id();
         let (name, span) = (declared.name.clone(), declared.span);
-        let points: Vec<usize> = points.iter().map(|point| point.index()).collect();
+        let points: Vec<ir::PointId> = points.iter().copied().map(same_point).collect();
         let written = |&axis: &AxisId| {
             let axis = &self.model[axis];
             format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
@@ -333,12 +356,12 @@ impl Lowering<'_> {
         let model = self.model;
         for joint in &model.joints {
             let phi = self.joint(joint);
-            let kind = DeclarationKind::Joint(joint.kind.word());
+            let kind = DeclarationKind::Joint(joint.kind.plain());
             self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
-                self.declarations[joint.index()].is_spoken_of = true;
+                self.declarations[of_joint(*joint)].is_spoken_of = true;
             }
         }
     }
@@ -348,21 +371,30 @@ impl Lowering<'_> {
         let model = self.model;
         for (drivers, kind) in [(false, DeclarationKind::Constraint), (true, DeclarationKind::Driver)] {
             for (number, equation) in model.equations.iter().enumerate().filter(|(_, one)| one.driver == drivers) {
-                let (phi, points) = match equation.form {
-                    EquationForm::Difference(left, right) => {
-                        let (left, right) = (self.formula(left), self.formula(right));
-                        (self.graph.sub(left, right), Vec::new())
-                    }
-                    EquationForm::SquaredDistance(p, q, distance) => {
-                        let distance = self.formula(distance);
-                        (self.squared_distance_row(p, q, distance), vec![p, q])
-                    }
+                let points = match equation.form {
+                    EquationForm::Equality(..) => Vec::new(),
+                    EquationForm::Distance(p, q, _) => vec![p, q],
                 };
+                let phi = self.equation_row(equation.form);
                 self.declare(&equation.declared, kind, &[phi], &points, &[]);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
-                    declaration.features = uses::of_equation(model, number).iter().map(|point| point.index()).collect();
+                    declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();
                 }
+            }
+        }
+    }
+
+    /// The row of an equation: left minus right, but of a distance the squares (H 3.2).
+    fn equation_row(&mut self, form: EquationForm) -> ExprId {
+        match form {
+            EquationForm::Equality(left, right) => {
+                let (left, right) = (self.formula(left), self.formula(right));
+                self.graph.sub(left, right)
+            }
+            EquationForm::Distance(p, q, distance) => {
+                let distance = self.formula(distance);
+                self.squared_distance_row(p, q, distance)
             }
         }
     }

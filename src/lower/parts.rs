@@ -1,7 +1,7 @@
 //! What the start of a part needs: where its coordinates are, what it is led to, and where its mount is.
 
 use super::Lowering;
-use crate::ir::{Owner, PartStart};
+use crate::ir::{BodyId, Coordinate, Owner, PartStart};
 use crate::model::{Frame, PartId, Placement};
 use std::ops::Range;
 
@@ -15,15 +15,16 @@ impl Lowering<'_> {
         let outermost: Vec<PartId> = model.part_ids().map(|part| self.outermost(part)).collect();
         let top = |part: Option<PartId>| part.map(|part| outermost[part.index()]);
         let of_bodies: Vec<Option<PartId>> = model.bodies.iter().map(|body| top(body.part)).collect();
-        let of_coordinates: Vec<Option<PartId>> = self
-            .coordinates
-            .iter()
-            .map(|coordinate| match coordinate.owner {
-                Owner::Body(_) => None,
-                Owner::Joint(joint) => model.joints.get(joint).and_then(|joint| top(joint.part)),
-            })
-            .collect();
-        let (bodies, own) = (ranges(&of_bodies, model.parts.len()), ranges(&of_coordinates, model.parts.len()));
+        let of_coordinates = |of_bodies_are_wanted: bool| {
+            let part = |coordinate: &Coordinate| match coordinate.owner {
+                Owner::Body(body) if of_bodies_are_wanted => of_bodies[body.index()],
+                Owner::Joint(joint) if !of_bodies_are_wanted => top(model.joints[joint.index()].part),
+                _ => None,
+            };
+            ranges(&self.coordinates.iter().map(part).collect::<Vec<_>>(), model.parts.len())
+        };
+        let (poses, own) = (of_coordinates(true), of_coordinates(false));
+        let bodies = ranges(&of_bodies, model.parts.len());
         let mut starts = Vec::new();
         for id in model.part_ids().filter(|id| model[*id].within.is_none()) {
             let part = &model[id];
@@ -38,7 +39,8 @@ impl Lowering<'_> {
                 inputs,
                 mount: [x, y, phi],
                 is_mirrored: part.is_mirrored,
-                bodies: bodies[id.index()].clone(),
+                bodies: bodies[id.index()].clone().map(BodyId::from).collect(),
+                poses: poses[id.index()].clone(),
                 own: own[id.index()].clone(),
             });
         }

@@ -2,8 +2,8 @@
 
 use super::Lowering;
 use crate::expr::{ExprId, Graph};
-use crate::ir::{AskingPart, ConstraintSystem, LEAF_ORDERS, Leaf, Scope, SparseRows, leaf};
-use crate::model::{EquationForm, Mechanism, Named, PartId};
+use crate::ir::{AskingPart, ConstraintSystem, DeclarationId, LEAF_ORDERS, Leaf, Scope, SparseRows, leaf};
+use crate::model::{Mechanism, Named, PartId};
 use rustc_hash::FxHashMap;
 
 /// Formulas in which the inputs that parts may hold are leaves.
@@ -67,12 +67,12 @@ impl Lowering<'_> {
 
     /// The parts that stand alone, of which only the coordinates are known yet; of formulas only tables have been lowered.
     pub(super) fn open_scopes(&mut self) {
-        let model = self.model;
+        let (model, numbering) = (self.model, &self.numbering);
         let parts = parts_that_stand_alone(model);
         if let Some(variations) = &mut self.variations {
             let scope = |&part: &PartId| Scope {
                 name: model[part].declared.name.clone(),
-                columns: columns_of(model, part),
+                columns: numbering.of_part(model, |to| belongs(model, to, part)),
                 phi: Vec::new(),
                 phi_q: SparseRows::new(),
             };
@@ -101,7 +101,7 @@ impl Lowering<'_> {
             if !own.contains(&declaration) {
                 continue;
             }
-            let id = match declaration.checked_sub(model.joints.len()) {
+            let id = match declaration.index().checked_sub(model.joints.len()) {
                 // joints hold no inputs
                 None => self.rows[row].phi,
                 Some(number) => self.equation_over_leaves(number),
@@ -118,16 +118,7 @@ impl Lowering<'_> {
             model.equations.iter().filter(|one| !one.driver).chain(model.equations.iter().filter(|e| e.driver));
         let Some(equation) = in_order.into_iter().nth(number) else { return self.graph.constant(0.0) };
         self.named_over_leaves_up_to(model.named_before_results);
-        self.over_leaves(|l| match equation.form {
-            EquationForm::Difference(left, right) => {
-                let (left, right) = (l.formula(left), l.formula(right));
-                l.graph.sub(left, right)
-            }
-            EquationForm::SquaredDistance(p, q, distance) => {
-                let distance = l.formula(distance);
-                l.squared_distance_row(p, q, distance)
-            }
-        })
+        self.over_leaves(|l| l.equation_row(equation.form))
     }
 
     fn named_over_leaves_up_to(&mut self, end: usize) {
@@ -196,30 +187,22 @@ impl Lowering<'_> {
         places.dedup();
         let around = model.parts_around(Some(part));
         let used_at = around.map(|part| (model[part].declared.name.clone(), model[part].declared.span)).collect();
-        let (name, columns) = (model[part].declared.name.clone(), columns_of(model, part));
+        let (name, columns) =
+            (model[part].declared.name.clone(), self.numbering.of_part(model, |to| belongs(model, to, part)));
         let inputs = model[part].inputs.iter().map(|(_, id)| self.formula(*id)).collect();
         AskingPart { name, used_at, places, columns, inputs, declarations: self.declarations_of(part) }
     }
 
     /// The joints, constraints and drivers of a part, and of those within it.
-    fn declarations_of(&self, part: PartId) -> Vec<usize> {
+    fn declarations_of(&self, part: PartId) -> Vec<DeclarationId> {
         let model = self.model;
         let path = format!("{}.", model[part].declared.name);
-        let is_own = |k: &usize| match model.joints.get(*k) {
+        let is_own = |k: &DeclarationId| match model.joints.get(k.index()) {
             Some(joint) => belongs(model, joint.part, part),
             None => self.declarations[*k].name.starts_with(&path),
         };
-        (0..self.declarations.len()).filter(is_own).collect()
+        self.declarations.ids().filter(is_own).collect()
     }
-}
-
-/// The coordinates of a part, and of those within it: those of bodies come first, three each, then those that joints bring along.
-fn columns_of(model: &Mechanism, part: PartId) -> Vec<u32> {
-    let of_bodies = model.bodies.iter().flat_map(|body| std::iter::repeat_n(body.part, 3));
-    let of_joints =
-        model.joints.iter().flat_map(|joint| std::iter::repeat_n(joint.part, joint.kind.own_coordinates().len()));
-    let owners = of_bodies.chain(of_joints).enumerate();
-    owners.filter(|(_, owner)| belongs(model, *owner, part)).map(|(column, _)| column as u32).collect()
 }
 
 /// A formula with its time derivatives.

@@ -50,8 +50,8 @@ impl Uses {
 pub(super) fn of_equation(model: &Mechanism, equation: usize) -> Vec<PointId> {
     let mut points = Vec::new();
     match model.equations[equation].form {
-        EquationForm::Difference(left, right) => of_formulas(model, &[left, right], &mut points),
-        EquationForm::SquaredDistance(p, q, distance) => {
+        EquationForm::Equality(left, right) => of_formulas(model, &[left, right], &mut points),
+        EquationForm::Distance(p, q, distance) => {
             points.extend([p, q]);
             of_formulas(model, &[distance], &mut points);
         }

@@ -128,11 +128,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// The first coordinate that a joint brings along; those of joints are not there yet.
+    /// The first coordinate that a joint brings along.
     fn contact_argument(&mut self, joint: JointId) -> ExprId {
-        let before = self.model.joints.iter().take(joint.index());
-        let of_joints: usize = before.map(|joint| joint.kind.own_coordinates().len()).sum();
-        let index = (3 * self.model.bodies.len() + of_joints) as u32;
+        let index = self.numbering.own(joint).start;
         self.graph.symbol(Symbol::Coordinate { index, order: 0 })
     }
 

@@ -16,6 +16,7 @@ pub use results::{Outcome, Reduction, ReductionKind};
 
 use crate::expr::{ExprId, Graph, Symbol, TableId};
 use crate::source::Span;
+use crate::vocabulary;
 
 /// A name and the place where it is declared.
 #[derive(Clone, PartialEq, Eq, Debug)]
@@ -486,22 +487,29 @@ pub enum JointKind {
 }
 
 impl JointKind {
+    /// The kind alone, without its features.
+    #[must_use]
+    pub fn plain(self) -> vocabulary::JointKind {
+        use vocabulary::JointKind as Plain;
+        match self {
+            JointKind::Revolute(..) => Plain::Revolute,
+            JointKind::Translational(..) => Plain::Translational,
+            JointKind::Weld(..) => Plain::Weld,
+            JointKind::RevoluteRevolute(..) => Plain::RevoluteRevolute,
+            JointKind::RevoluteTranslational(..) => Plain::RevoluteTranslational,
+            JointKind::Gear { internal: false, .. } => Plain::Gear,
+            JointKind::Gear { internal: true, .. } => Plain::InternalGear,
+            JointKind::RackPinion { .. } => Plain::RackPinion,
+            JointKind::PointFollower(..) => Plain::PointFollower,
+            JointKind::Cam(..) => Plain::Cam,
+            JointKind::FlatFollower(..) => Plain::FlatFollower,
+        }
+    }
+
     /// The word of the language.
     #[must_use]
     pub fn word(self) -> &'static str {
-        match self {
-            JointKind::Revolute(..) => "revolute",
-            JointKind::Translational(..) => "translational",
-            JointKind::Weld(..) => "weld",
-            JointKind::RevoluteRevolute(..) => "revolute_revolute",
-            JointKind::RevoluteTranslational(..) => "revolute_translational",
-            JointKind::Gear { internal: false, .. } => "gear",
-            JointKind::Gear { internal: true, .. } => "internal_gear",
-            JointKind::RackPinion { .. } => "rack_pinion",
-            JointKind::PointFollower(..) => "point_follower",
-            JointKind::Cam(..) => "cam",
-            JointKind::FlatFollower(..) => "flat_follower",
-        }
+        self.plain().word()
     }
 
     /// The names of the coordinates that it brings along.
@@ -676,13 +684,13 @@ pub struct Equation {
     pub written: Span,
 }
 
-/// The two ways an equation becomes a row of Φ.
+/// What an equation says.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum EquationForm {
-    /// Left minus right.
-    Difference(ExprId, ExprId),
-    /// The squared distance of two points, minus the square of a formula without kinematic quantities (m).
-    SquaredDistance(PointId, PointId, ExprId),
+    /// Two formulas are equal.
+    Equality(ExprId, ExprId),
+    /// Two points have a distance, which is a formula without kinematic quantities (m).
+    Distance(PointId, PointId, ExprId),
 }
 
 /// A number to tabulate.

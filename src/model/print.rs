@@ -201,8 +201,8 @@ impl Mechanism {
         list.extend(self.curves.iter().flat_map(|curve| curve.at.into_iter().chain(curve.estimate)));
         for equation in &self.equations {
             match equation.form {
-                EquationForm::Difference(left, right) => list.extend([left, right]),
-                EquationForm::SquaredDistance(_, _, distance) => list.push(distance),
+                EquationForm::Equality(left, right) => list.extend([left, right]),
+                EquationForm::Distance(_, _, distance) => list.push(distance),
             }
         }
         list.extend(self.measures.iter().map(|measure| measure.value));
@@ -264,8 +264,8 @@ impl std::fmt::Display for Mechanism {
             let kind = if equation.driver { "driver" } else { "constraint" };
             let side = |id: ExprId| text.formula_text(id);
             let (left, right) = match equation.form {
-                EquationForm::Difference(left, right) => (side(left), side(right)),
-                EquationForm::SquaredDistance(p, q, distance) => {
+                EquationForm::Equality(left, right) => (side(left), side(right)),
+                EquationForm::Distance(p, q, distance) => {
                     (text.quantity_text(Quantity::Distance(p, q), &side), side(distance))
                 }
             };

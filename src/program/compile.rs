@@ -26,20 +26,19 @@ impl Program {
         outputs.terms =
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
-        outputs.nu = layout.place(Stage::Velocity, system.nu.iter().copied());
-        let velocity = |list: &Vec<ExprId>| layout.place(Stage::Velocity, list.iter().copied());
-        outputs.by_signal = system.by_signal.iter().map(velocity).collect();
-        outputs.gamma = layout.place(Stage::Acceleration, system.gamma.iter().copied());
-        outputs.jerk = layout.place(Stage::Jerk, system.jerk.iter().flatten().copied());
+        outputs.nu = layout.place(Stage::Velocity, system.nu().iter().copied());
+        let velocity = |list: &[ExprId]| layout.place(Stage::Velocity, list.iter().copied());
+        outputs.by_signal = system.by_inputs().map(velocity).collect();
+        outputs.gamma = layout.place(Stage::Acceleration, system.gamma().iter().copied());
+        outputs.jerk = layout.place(Stage::Jerk, system.jerk().into_iter().flatten().copied());
         // as variations have it: what is differentiated brings no branches of its own
-        let varied = |list: &Vec<ExprId>| layout.place(Stage::Variation, list.iter().copied());
-        outputs.by_param = system.by_param.iter().map(varied).collect();
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
+        outputs.by_param = system.by_params().map(&mut varied).collect();
         let slopes = &system.check_slopes;
         outputs.check_slopes = CheckSlopes {
             coordinates: varied(&slopes.by_q),
-            signals: slopes.by_signal.iter().map(|list| varied(list)).collect(),
-            params: slopes.by_param.iter().map(|list| varied(list)).collect(),
+            signals: slopes.by_inputs().map(&mut varied).collect(),
+            params: slopes.by_params().map(&mut varied).collect(),
         };
         for scope in system.scopes() {
             let entries = scope.phi_q.entries().iter().map(|&(_, id)| id);
@@ -82,8 +81,13 @@ pub(super) struct Layout<'s> {
 impl<'s> Layout<'s> {
     fn new(system: &'s ConstraintSystem) -> Layout<'s> {
         let signals = if system.has_signals { system.inputs.len() } else { 0 };
-        let counts =
-            [system.params.len(), system.coordinates.len(), signals, system.by_param.len(), system.variations().len()];
+        let counts = [
+            system.params.len(),
+            system.coordinates.len(),
+            signals,
+            system.by_params().len(),
+            system.variations().len(),
+        ];
         Layout::of(&system.graph, counts.map(|count| count as u32))
     }
 

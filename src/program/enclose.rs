@@ -3,7 +3,7 @@
 //! An enclosure holds every value that an operation takes while time, and where wanted the coordinates, go through their
 //! intervals; it may hold more, and the narrower the intervals, the less more it holds.
 
-use super::{Column, Op, Program, Register, Registers, Stage};
+use super::{Column, Machine, Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use crate::tolerances::results::enclose::MOST_PIECES;
 use std::f64::consts::{FRAC_PI_2, PI};
@@ -75,7 +75,7 @@ impl Enclosure {
     fn new(program: &Program, registers: &Registers, on_time: bool) -> Enclosure {
         let mut in_motion = vec![false; program.registers()];
         for &op in program.stage(Stage::Position) {
-            for register in program.operands(op).1 {
+            for register in op.writes() {
                 in_motion[register as usize] = true;
             }
         }
@@ -162,16 +162,11 @@ impl Enclosure {
         let v = &mut self.values;
         v[self.time as usize] = Interval { low: from, high: to };
         for &op in &self.operations {
-            if let Op::SinCos { sin, cos, a } = op {
-                let (sine, cosine) = (of_one(Unary::Sin, v[a as usize]), of_one(Unary::Cos, v[a as usize]));
-                (v[sin as usize], v[cos as usize]) = (sine, cosine);
+            enclose(program, op, v);
+            let Some(to) = op.switched() else {
                 continue;
-            }
-            let (to, value) = enclosed(program, op, v);
-            if op.switched().is_none() {
-                v[to as usize] = value;
-                continue;
-            }
+            };
+            let value = v[to as usize];
             let frozen = point(registers.get(to));
             let is_same = [value.low, value.high].iter().all(|end| end.to_bits() == frozen.low.to_bits());
             if !is_same && self.switches.contains(&to) && !may_change(to) {
@@ -191,10 +186,9 @@ pub(super) fn behind(program: &Program, roots: &[Register], stages: &[Stage]) ->
     }
     let mut operations = Vec::new();
     for &op in stages.iter().flat_map(|&stage| program.stage(stage).iter().rev()) {
-        let (reads, writes) = program.operands(op);
-        if writes.iter().any(|&register| needed[register as usize]) {
+        if op.writes().iter().any(|&register| needed[register as usize]) {
             operations.push(op);
-            for register in reads {
+            for register in program.reads(op) {
                 needed[register as usize] = true;
             }
         }
@@ -203,54 +197,114 @@ pub(super) fn behind(program: &Program, roots: &[Register], stages: &[Stage]) ->
     operations
 }
 
-/// An operation's register and the enclosure of its result.
-pub(super) fn enclosed(program: &Program, op: Op, v: &[Interval]) -> (Register, Interval) {
-    let at = |register: Register| v[register as usize];
+/// Encloses the results of an operation.
+pub(super) fn enclose(program: &Program, op: Op, v: &mut [Interval]) {
     match op {
-        Op::Add { to, a, b } => (to, wider(at(a).low + at(b).low, at(a).high + at(b).high)),
-        Op::Sub { to, a, b } => (to, wider(at(a).low - at(b).high, at(a).high - at(b).low)),
-        Op::Mul { to, a, b } if a == b => (to, square(at(a))),
-        Op::Mul { to, a, b } => (to, corners(at(a), at(b), |x, y| if x == 0.0 || y == 0.0 { 0.0 } else { x * y })),
-        Op::Div { to, a, b } => (to, quotient(at(a), at(b))),
-        Op::Recip { to, a } => (to, quotient(point(1.0), at(a))),
-        Op::Neg { to, a } => (to, Interval { low: -at(a).high, high: -at(a).low }),
-        Op::Unary { function, to, a } => (to, of_one(function, at(a))),
-        Op::Binary { function, to, a, b } => (to, of_two(function, at(a), at(b))),
-        // a number is what it is
-        Op::Compare { comparison, to, a, b } if a == b => (to, point(compare(comparison, 0.0, 0.0))),
-        Op::Compare { comparison, to, a, b } => (to, compared(comparison, at(a), at(b))),
-        // switches are points once they have been looked at
-        Op::And { to, a, b } => (to, exact(at(a).low.min(at(b).low), at(a).high.min(at(b).high))),
-        Op::Or { to, a, b } => (to, exact(at(a).low.max(at(b).low), at(a).high.max(at(b).high))),
-        Op::Not { to, a } => (to, exact(1.0 - at(a).high, 1.0 - at(a).low)),
-        Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => (
-            to,
-            match at(condition) {
-                Interval { low: 0.0, high: 0.0 } => at(b),
-                Interval { low, high } if low <= 0.0 && high >= 0.0 => hull(at(a), at(b)),
-                _ => at(a),
-            },
-        ),
-        Op::Copy { to, a } => (to, at(a)),
-        Op::Piece { to, table, a } => {
-            let layout = &program.tables()[table as usize];
-            let knot = |k: usize| at(layout.knots + k as u32).low;
-            let number = |x: f64| piece(layout.pieces as usize, knot, x) as f64;
-            (to, Interval { low: number(at(a).low), high: number(at(a).high) })
+        // a register has but one value at a time
+        Op::Mul { to, a, b } if a == b => v[to as usize] = square(v[a as usize]),
+        Op::Compare { comparison, to, a, b } if a == b => v[to as usize] = point(compare(comparison, 0.0, 0.0)),
+        _ => op.run(&mut Intervals { program, v }),
+    }
+}
+
+/// Registers that hold intervals.
+struct Intervals<'i> {
+    program: &'i Program,
+    v: &'i mut [Interval],
+}
+
+impl Machine for Intervals<'_> {
+    type Value = Interval;
+
+    fn read(&mut self, register: Register) -> Interval {
+        self.v[register as usize]
+    }
+
+    fn write(&mut self, register: Register, value: Interval) {
+        self.v[register as usize] = value;
+    }
+
+    fn add(&mut self, a: Interval, b: Interval) -> Interval {
+        wider(a.low + b.low, a.high + b.high)
+    }
+
+    fn sub(&mut self, a: Interval, b: Interval) -> Interval {
+        wider(a.low - b.high, a.high - b.low)
+    }
+
+    fn mul(&mut self, a: Interval, b: Interval) -> Interval {
+        corners(a, b, |x, y| if x == 0.0 || y == 0.0 { 0.0 } else { x * y })
+    }
+
+    fn div(&mut self, a: Interval, b: Interval) -> Interval {
+        quotient(a, b)
+    }
+
+    fn neg(&mut self, a: Interval) -> Interval {
+        Interval { low: -a.high, high: -a.low }
+    }
+
+    fn recip(&mut self, a: Interval) -> Interval {
+        quotient(point(1.0), a)
+    }
+
+    fn sin_cos(&mut self, a: Interval) -> [Interval; 2] {
+        [of_one(Unary::Sin, a), of_one(Unary::Cos, a)]
+    }
+
+    fn unary(&mut self, function: Unary, a: Interval) -> Interval {
+        of_one(function, a)
+    }
+
+    fn binary(&mut self, function: Binary, a: Interval, b: Interval) -> Interval {
+        of_two(function, a, b)
+    }
+
+    fn compare(&mut self, comparison: Comparison, a: Interval, b: Interval) -> Interval {
+        compared(comparison, a, b)
+    }
+
+    // switches are points once they have been looked at
+
+    fn and(&mut self, a: Interval, b: Interval) -> Interval {
+        exact(a.low.min(b.low), a.high.min(b.high))
+    }
+
+    fn or(&mut self, a: Interval, b: Interval) -> Interval {
+        exact(a.low.max(b.low), a.high.max(b.high))
+    }
+
+    fn not(&mut self, a: Interval) -> Interval {
+        exact(1.0 - a.high, 1.0 - a.low)
+    }
+
+    fn select(&mut self, condition: Interval, a: Interval, b: Interval) -> Interval {
+        match condition {
+            Interval { low: 0.0, high: 0.0 } => b,
+            Interval { low, high } if low <= 0.0 && high >= 0.0 => hull(a, b),
+            _ => a,
         }
-        Op::Pick { to, table, column, piece } => {
-            let (first, last) = (at(piece).low, at(piece).high);
-            let one = picked(program, table, column, first, v);
-            // several pieces where the argument goes over a knot: all between
-            let all = if first.total_cmp(&last).is_eq() {
-                one
-            } else {
-                picked_of_all(program, table, column, [first, last], v)
-            };
-            (to, all)
+    }
+
+    fn either(&mut self, condition: Interval, a: Interval, b: Interval) -> Interval {
+        self.select(condition, a, b)
+    }
+
+    fn piece(&mut self, table: u32, a: Interval) -> Interval {
+        let layout = &self.program.tables()[table as usize];
+        let knot = |k: usize| self.v[layout.knots as usize + k].low;
+        let number = |x: f64| piece(layout.pieces as usize, knot, x) as f64;
+        Interval { low: number(a.low), high: number(a.high) }
+    }
+
+    fn pick(&mut self, table: u32, column: Column, piece: Interval) -> Interval {
+        let (first, last) = (piece.low, piece.high);
+        // several pieces where the argument goes over a knot: all between
+        if first.total_cmp(&last).is_eq() {
+            picked(self.program, table, column, first, self.v)
+        } else {
+            picked_of_all(self.program, table, column, [first, last], self.v)
         }
-        // both results are written where it is met
-        Op::SinCos { sin, .. } => (sin, WHOLE),
     }
 }
 

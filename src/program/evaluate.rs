@@ -1,7 +1,7 @@
 //! Running a program. Allocates nothing but the registers, once.
 
-use super::{Column, Op, Program, Stage, Switch};
-use crate::expr::{Unary, binary_value, compare, piece, unary_value};
+use super::{Column, Machine, Op, Program, Register, Stage, Switch, TableLayout};
+use crate::expr::{Binary, Comparison, Unary, binary_value, compare, piece, unary_value};
 use crate::math;
 
 /// A program's registers.
@@ -24,7 +24,7 @@ pub struct Frozen {
 impl Registers {
     /// The value of one.
     #[must_use]
-    pub fn get(&self, register: super::Register) -> f64 {
+    pub fn get(&self, register: Register) -> f64 {
         self.values[register as usize]
     }
 
@@ -34,12 +34,12 @@ impl Registers {
     }
 
     /// Sets an input.
-    pub fn set(&mut self, register: super::Register, value: f64) {
+    pub fn set(&mut self, register: Register, value: f64) {
         self.values[register as usize] = value;
     }
 
     /// Sets a run of inputs.
-    pub fn set_all(&mut self, first: super::Register, values: &[f64]) {
+    pub fn set_all(&mut self, first: Register, values: &[f64]) {
         self.values[first as usize..first as usize + values.len()].copy_from_slice(values);
     }
 }
@@ -64,7 +64,7 @@ impl Program {
         match switch.op {
             Op::Compare { comparison, a, b, .. } => compare(comparison, v[a as usize], v[b as usize]),
             Op::Unary { function, a, .. } => unary_value(function, v[a as usize]),
-            Op::Piece { table, a, .. } => self.piece_in(table, v[a as usize], v),
+            Op::Piece { table, a, .. } => piece_in(&self.tables[table as usize], v[a as usize], v),
             _ => v[switch.to as usize],
         }
     }
@@ -92,32 +92,13 @@ impl Program {
     /// The number of the piece that an argument lies in; what is no number lies nowhere.
     #[must_use]
     pub fn piece(&self, table: u32, x: f64, registers: &Registers) -> f64 {
-        self.piece_in(table, x, &registers.values)
+        piece_in(&self.tables[table as usize], x, &registers.values)
     }
 
     /// The entry of a table's column for a piece.
     #[must_use]
     pub fn pick(&self, table: u32, column: Column, piece: f64, registers: &Registers) -> f64 {
-        self.pick_in(table, column, piece, &registers.values)
-    }
-
-    fn piece_in(&self, table: u32, x: f64, v: &[f64]) -> f64 {
-        let layout = &self.tables[table as usize];
-        if x.is_nan() {
-            return x;
-        }
-        piece(layout.pieces as usize, |k| v[layout.knots as usize + k], x) as f64
-    }
-
-    fn pick_in(&self, table: u32, column: Column, piece: f64, v: &[f64]) -> f64 {
-        if piece.is_nan() {
-            return piece;
-        }
-        let range = self.tables[table as usize].column(column);
-        // a piece is a small whole number
-        #[allow(clippy::cast_sign_loss)]
-        let at = range.start as usize + piece as usize;
-        v[at.min(range.end as usize - 1)]
+        pick_in(&self.tables[table as usize], column, piece, &registers.values)
     }
 
     /// Runs the operations of one stage; where registers are frozen, all but the switches.
@@ -127,52 +108,171 @@ impl Program {
             Stage::Time => registers.frozen.time,
             _ => registers.frozen.motion,
         };
-        let v = registers.values.as_mut_slice();
-        for op in self.stage(stage) {
-            match *op {
-                Op::Add { to, a, b } => v[to as usize] = v[a as usize] + v[b as usize],
-                Op::Sub { to, a, b } => v[to as usize] = v[a as usize] - v[b as usize],
-                Op::Mul { to, a, b } => v[to as usize] = v[a as usize] * v[b as usize],
-                Op::Div { to, a, b } => v[to as usize] = v[a as usize] / v[b as usize],
-                Op::Neg { to, a } => v[to as usize] = -v[a as usize],
-                Op::Recip { to, a } => v[to as usize] = 1.0 / v[a as usize],
-                Op::SinCos { sin, cos, a } => (v[sin as usize], v[cos as usize]) = math::sin_cos(v[a as usize]),
-                Op::Compare { .. } | Op::Piece { .. } | Op::Unary { function: Unary::Sign | Unary::Floor, .. }
-                    if frozen => {}
-                Op::Unary { function, to, a } => v[to as usize] = unary_value(function, v[a as usize]),
-                Op::Binary { function, to, a, b } => {
-                    v[to as usize] = binary_value(function, v[a as usize], v[b as usize]);
-                }
-                Op::Compare { comparison, to, a, b } => {
-                    v[to as usize] = compare(comparison, v[a as usize], v[b as usize]);
-                }
-                Op::And { to, a, b } => v[to as usize] = f64::from(v[a as usize] != 0.0 && v[b as usize] != 0.0),
-                Op::Or { to, a, b } => v[to as usize] = f64::from(v[a as usize] != 0.0 || v[b as usize] != 0.0),
-                Op::Not { to, a } => v[to as usize] = f64::from(v[a as usize] == 0.0),
-                Op::Select { to, condition, a, b } => {
-                    v[to as usize] = if v[condition as usize] == 0.0 { v[b as usize] } else { v[a as usize] };
-                }
-                Op::Either { to, condition, a, b } => {
-                    v[to as usize] = either(v[condition as usize], v[a as usize], v[b as usize]);
-                }
-                Op::Copy { to, a } => v[to as usize] = v[a as usize],
-                Op::Piece { to, table, a } => v[to as usize] = self.piece_in(table, v[a as usize], v),
-                Op::Pick { to, table, column, piece } => {
-                    v[to as usize] = self.pick_in(table, column, v[piece as usize], v);
-                }
-            }
+        let mut numbers = Numbers { tables: &self.tables, v: registers.values.as_mut_slice() };
+        if frozen {
+            let moving = self.stage(stage).iter().filter(|op| op.switched().is_none());
+            moving.for_each(|op| op.run(&mut numbers));
+        } else {
+            self.stage(stage).iter().for_each(|op| op.run(&mut numbers));
         }
     }
 }
 
-/// `a` if the condition holds, else `b`; not a number if either is not.
-#[must_use]
-pub fn either(condition: f64, a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else if condition == 0.0 {
-        b
-    } else {
-        a
+/// Registers that hold numbers.
+struct Numbers<'n> {
+    tables: &'n [TableLayout],
+    v: &'n mut [f64],
+}
+
+#[allow(clippy::inline_always)] // each is an arm of the loop over operations
+impl Machine for Numbers<'_> {
+    type Value = f64;
+
+    #[inline(always)]
+    fn read(&mut self, register: Register) -> f64 {
+        self.v[register as usize]
+    }
+
+    #[inline(always)]
+    fn write(&mut self, register: Register, value: f64) {
+        self.v[register as usize] = value;
+    }
+
+    #[inline(always)]
+    fn add(&mut self, a: f64, b: f64) -> f64 {
+        a + b
+    }
+
+    #[inline(always)]
+    fn sub(&mut self, a: f64, b: f64) -> f64 {
+        a - b
+    }
+
+    #[inline(always)]
+    fn mul(&mut self, a: f64, b: f64) -> f64 {
+        a * b
+    }
+
+    #[inline(always)]
+    fn div(&mut self, a: f64, b: f64) -> f64 {
+        a / b
+    }
+
+    #[inline(always)]
+    fn neg(&mut self, a: f64) -> f64 {
+        -a
+    }
+
+    #[inline(always)]
+    fn recip(&mut self, a: f64) -> f64 {
+        1.0 / a
+    }
+
+    #[inline(always)]
+    fn sin_cos(&mut self, a: f64) -> [f64; 2] {
+        math::sin_cos(a).into()
+    }
+
+    #[inline(always)]
+    fn unary(&mut self, function: Unary, a: f64) -> f64 {
+        unary_value(function, a)
+    }
+
+    #[inline(always)]
+    fn binary(&mut self, function: Binary, a: f64, b: f64) -> f64 {
+        binary_value(function, a, b)
+    }
+
+    #[inline(always)]
+    fn compare(&mut self, comparison: Comparison, a: f64, b: f64) -> f64 {
+        compare(comparison, a, b)
+    }
+
+    #[inline(always)]
+    fn and(&mut self, a: f64, b: f64) -> f64 {
+        truth::and(a, b)
+    }
+
+    #[inline(always)]
+    fn or(&mut self, a: f64, b: f64) -> f64 {
+        truth::or(a, b)
+    }
+
+    #[inline(always)]
+    fn not(&mut self, a: f64) -> f64 {
+        truth::not(a)
+    }
+
+    #[inline(always)]
+    fn select(&mut self, condition: f64, a: f64, b: f64) -> f64 {
+        truth::select(condition, a, b)
+    }
+
+    #[inline(always)]
+    fn either(&mut self, condition: f64, a: f64, b: f64) -> f64 {
+        truth::either(condition, a, b)
+    }
+
+    #[inline(always)]
+    fn piece(&mut self, table: u32, a: f64) -> f64 {
+        piece_in(&self.tables[table as usize], a, self.v)
+    }
+
+    #[inline(always)]
+    fn pick(&mut self, table: u32, column: Column, piece: f64) -> f64 {
+        pick_in(&self.tables[table as usize], column, piece, self.v)
+    }
+}
+
+/// The number of the piece that an argument lies in; what is no number lies nowhere.
+fn piece_in(layout: &TableLayout, x: f64, v: &[f64]) -> f64 {
+    if x.is_nan() {
+        return x;
+    }
+    piece(layout.pieces as usize, |k| v[layout.knots as usize + k], x) as f64
+}
+
+/// The entry of a table's column for a piece.
+fn pick_in(layout: &TableLayout, column: Column, piece: f64, v: &[f64]) -> f64 {
+    if piece.is_nan() {
+        return piece;
+    }
+    let range = layout.column(column);
+    // a piece is a small whole number
+    #[allow(clippy::cast_sign_loss)]
+    let at = range.start as usize + piece as usize;
+    v[at.min(range.end as usize - 1)]
+}
+
+/// Numbers as truths: 0 is false, 1 is true.
+pub mod truth {
+    /// Whether both hold.
+    #[must_use]
+    pub fn and(a: f64, b: f64) -> f64 {
+        f64::from(a != 0.0 && b != 0.0)
+    }
+
+    /// Whether either holds.
+    #[must_use]
+    pub fn or(a: f64, b: f64) -> f64 {
+        f64::from(a != 0.0 || b != 0.0)
+    }
+
+    /// Whether it does not hold.
+    #[must_use]
+    pub fn not(a: f64) -> f64 {
+        f64::from(a == 0.0)
+    }
+
+    /// `a` if the condition holds, else `b`.
+    #[must_use]
+    pub fn select(condition: f64, a: f64, b: f64) -> f64 {
+        if condition == 0.0 { b } else { a }
+    }
+
+    /// The same; not a number if either is not.
+    #[must_use]
+    pub fn either(condition: f64, a: f64, b: f64) -> f64 {
+        if a.is_nan() || b.is_nan() { f64::NAN } else { select(condition, a, b) }
     }
 }

@@ -10,20 +10,23 @@
 //! What depends on parameters alone is computed once, in the prologue; what depends on time alone, once per time and
 //! not once per iteration.
 
+#[allow(missing_docs)] // each is the number of the operation whose name it has
+pub mod codes;
 mod compile;
 mod enclose;
 mod evaluate;
 mod formulas;
+mod op;
 mod ranges;
 mod signals;
 mod tables;
 
 pub use enclose::Enclosure;
-pub use evaluate::{Frozen, Registers, either};
+pub use evaluate::{Frozen, Registers, truth};
+pub use op::{Few, Machine, Op};
 pub use ranges::{Range, Ranges};
 pub use signals::Signal;
 
-use crate::expr::{Binary, Comparison, Unary};
 use rustc_hash::FxHashSet;
 
 /// A place for one number.
@@ -35,88 +38,6 @@ impl Stage {
     #[must_use]
     pub fn can_switch(self) -> bool {
         !matches!(self, Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims)
-    }
-}
-
-impl Op {
-    /// Where an operation leaves its result that goes in jumps, if it does.
-    #[must_use]
-    pub fn switched(self) -> Option<Register> {
-        match self {
-            Op::Compare { to, .. }
-            | Op::Piece { to, .. }
-            | Op::Unary { function: Unary::Sign | Unary::Floor, to, .. } => Some(to),
-            _ => None,
-        }
-    }
-}
-
-impl Op {
-    /// The registers that an operation reads, tables' columns not counted, and how many they are.
-    #[must_use]
-    pub fn reads(self) -> ([Register; 3], usize) {
-        let (mut reads, mut count) = ([0; 3], 0);
-        let read = |register| {
-            reads[count] = register;
-            count += 1;
-            register
-        };
-        let _ = self.renumbered(read, |register| register);
-        (reads, count)
-    }
-
-    /// The registers that it writes, and how many they are.
-    #[must_use]
-    pub fn writes(self) -> ([Register; 2], usize) {
-        let (mut writes, mut count) = ([0; 2], 0);
-        let write = |register| {
-            writes[count] = register;
-            count += 1;
-            register
-        };
-        let _ = self.renumbered(|register| register, write);
-        (writes, count)
-    }
-
-    /// The same with other registers: `read` for those it reads, `write` for those it writes.
-    #[must_use]
-    pub fn renumbered(
-        mut self,
-        mut read: impl FnMut(Register) -> Register,
-        mut write: impl FnMut(Register) -> Register,
-    ) -> Op {
-        match &mut self {
-            Op::Neg { to, a }
-            | Op::Recip { to, a }
-            | Op::Not { to, a }
-            | Op::Copy { to, a }
-            | Op::Unary { to, a, .. }
-            | Op::Piece { to, a, .. }
-            | Op::Pick { to, piece: a, .. } => {
-                *a = read(*a);
-                *to = write(*to);
-            }
-            Op::Add { to, a, b }
-            | Op::Sub { to, a, b }
-            | Op::Mul { to, a, b }
-            | Op::Div { to, a, b }
-            | Op::Binary { to, a, b, .. }
-            | Op::Compare { to, a, b, .. }
-            | Op::And { to, a, b }
-            | Op::Or { to, a, b } => {
-                (*a, *b) = (read(*a), read(*b));
-                *to = write(*to);
-            }
-            Op::Select { to, condition, a, b } | Op::Either { to, condition, a, b } => {
-                (*condition, *a, *b) = (read(*condition), read(*a), read(*b));
-                *to = write(*to);
-            }
-            Op::SinCos { sin, cos, a } => {
-                *a = read(*a);
-                (*sin, *cos) = (write(*sin), write(*cos));
-            }
-        }
-        self
     }
 }
 
@@ -157,107 +78,6 @@ pub const STAGES: [Stage; 9] = [
     Stage::Rims,
 ];
 
-/// One operation: reads registers, writes `to`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[allow(missing_docs)] // operands and results say themselves
-pub enum Op {
-    Add {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Sub {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Mul {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Div {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Neg {
-        to: Register,
-        a: Register,
-    },
-    /// `1 / a`
-    Recip {
-        to: Register,
-        a: Register,
-    },
-    SinCos {
-        sin: Register,
-        cos: Register,
-        a: Register,
-    },
-    Unary {
-        function: Unary,
-        to: Register,
-        a: Register,
-    },
-    Binary {
-        function: Binary,
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Compare {
-        comparison: Comparison,
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    And {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Or {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Not {
-        to: Register,
-        a: Register,
-    },
-    Select {
-        to: Register,
-        condition: Register,
-        a: Register,
-        b: Register,
-    },
-    /// As `Select`, but not a number if either operand is not.
-    Either {
-        to: Register,
-        condition: Register,
-        a: Register,
-        b: Register,
-    },
-    Copy {
-        to: Register,
-        a: Register,
-    },
-    /// The piece of a table that `a` lies in, counted from 0.
-    Piece {
-        to: Register,
-        table: u32,
-        a: Register,
-    },
-    /// An entry of a table's column.
-    Pick {
-        to: Register,
-        table: u32,
-        column: Column,
-        piece: Register,
-    },
-}
-
 /// A column of a table.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
 pub enum Column {
@@ -265,6 +85,21 @@ pub enum Column {
     Knots,
     /// A coefficient of each piece, 0 to 3.
     Coefficient(u8),
+}
+
+impl Column {
+    /// All columns of a table.
+    pub const ALL: [Column; 5] =
+        [Column::Knots, Column::Coefficient(0), Column::Coefficient(1), Column::Coefficient(2), Column::Coefficient(3)];
+
+    /// Its place among all.
+    #[must_use]
+    pub fn number(self) -> u32 {
+        match self {
+            Column::Knots => 0,
+            Column::Coefficient(order) => 1 + u32::from(order),
+        }
+    }
 }
 
 /// Where a table's columns stand: each is a run of registers.
@@ -464,10 +299,9 @@ impl Program {
         for stage in STAGES.into_iter().rev() {
             let mut kept: Vec<Op> = Vec::new();
             for &op in self.stage(stage).iter().rev() {
-                let (reads, writes) = self.operands(op);
                 let is_needed = |&to: &Register| is_read[to as usize] && !signals.contains(&to);
-                if writes.iter().any(is_needed) {
-                    for register in reads {
+                if op.writes().iter().any(is_needed) {
+                    for register in self.reads(op) {
                         is_read[register as usize] = true;
                     }
                     kept.push(op);
@@ -476,7 +310,7 @@ impl Program {
             kept.reverse();
             operations[stage as usize] = kept;
         }
-        let writes = |op: &Op| op.writes().0[0];
+        let writes = |op: &Op| op.writes()[0];
         let written: FxHashSet<Register> = operations.iter().flatten().map(writes).collect();
         let stays = |switch: &Switch| written.contains(&switch.to);
         let switches = self.switches.iter().copied().filter(stays).collect();
@@ -521,8 +355,7 @@ impl Program {
         let mut definitions = vec![None; self.registers];
         for stage in STAGES {
             for &op in self.stage(stage) {
-                let (writes, count) = op.writes();
-                for &register in &writes[..count] {
+                for register in op.writes() {
                     definitions[register as usize] = Some((stage, op));
                 }
             }
@@ -536,15 +369,9 @@ impl Program {
         self.registers
     }
 
-    /// The registers that an operation reads, and those that it writes.
-    #[must_use]
-    pub fn operands(&self, op: Op) -> (Vec<Register>, Vec<Register>) {
-        let cells = match op {
-            Op::Piece { table, .. } => self.tables[table as usize].column(Column::Knots),
-            Op::Pick { table, column, .. } => self.tables[table as usize].column(column),
-            _ => 0..0,
-        };
-        let ((reads, read), (writes, written)) = (op.reads(), op.writes());
-        (cells.chain(reads[..read].iter().copied()).collect(), writes[..written].to_vec())
+    /// The registers that an operation reads, tables' columns too.
+    pub fn reads(&self, op: Op) -> impl Iterator<Item = Register> + use<> {
+        let cells = op.column().map_or(0..0, |(table, column)| self.tables[table as usize].column(column));
+        cells.chain(op.reads())
     }
 }

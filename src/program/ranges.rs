@@ -3,7 +3,7 @@
 //! Unlike an [`Enclosure`](super::Enclosure), which proves that no switch changes, a range is one of all branches that may count: it
 //! holds every value, and tells whether there may be jumps among them.
 
-use super::enclose::{Interval, behind, enclosed, of_one};
+use super::enclose::{Interval, behind, enclose};
 use super::{Op, Program, Register, Registers, Stage};
 use crate::expr::{Binary, Unary};
 use crate::tolerances::results::ranges::{WIDEST, WIDEST_RATIO, WIDEST_VALUE};
@@ -44,9 +44,8 @@ impl Ranges {
         for k in 0..roots.len() {
             let mut own = behind(program, &roots[..=k], &[stage]);
             own.retain(|&op| {
-                let (writes, count) = op.writes();
-                let is_new = writes[..count].iter().any(|&register| !is_known[register as usize]);
-                writes[..count].iter().for_each(|&register| is_known[register as usize] = true);
+                let is_new = op.writes().iter().any(|&register| !is_known[register as usize]);
+                op.writes().iter().for_each(|&register| is_known[register as usize] = true);
                 is_new
             });
             operations.push(own);
@@ -79,23 +78,21 @@ impl Ranges {
         for at in 0..self.operations[k].len() {
             let op = self.operations[k][at];
             is_resolved &= is_resolved_in(op, &self.values);
-            if let Op::SinCos { sin, cos, a } = op {
-                let a = self.values[a as usize];
-                self.values[sin as usize] = of_one(Unary::Sin, a);
-                self.values[cos as usize] = of_one(Unary::Cos, a);
-                continue;
+            enclose(program, op, &mut self.values);
+            if let Some(to) = op.switched() {
+                let value = &mut self.values[to as usize];
+                if self.is_frozen {
+                    let frozen = registers.get(to);
+                    *value = Interval { low: frozen, high: frozen };
+                    continue;
+                }
+                // a spline goes on over its knots
+                may_switch |= !matches!(op, Op::Piece { .. }) && value.low.total_cmp(&value.high).is_ne();
             }
-            let (to, value) = enclosed(program, op, &self.values);
-            let is_switch = op.switched().is_some();
-            if is_switch && self.is_frozen {
-                let value = registers.get(to);
-                self.values[to as usize] = Interval { low: value, high: value };
-                continue;
+            if let Some(to) = bounded(op) {
+                let value = self.values[to as usize];
+                is_resolved &= value.high - value.low <= WIDEST_VALUE;
             }
-            // a spline goes on over its knots
-            may_switch |= is_switch && !matches!(op, Op::Piece { .. }) && value.low.total_cmp(&value.high).is_ne();
-            is_resolved &= value.high - value.low <= WIDEST_VALUE || !is_bounded(op);
-            self.values[to as usize] = value;
         }
         self.found[k] = (may_switch, is_resolved);
         let Interval { low, high } = self.values[self.roots[k] as usize];
@@ -103,13 +100,14 @@ impl Ranges {
     }
 }
 
-/// Whether the values of a function stay within bounds, so that it is resolved where it changes little, however its argument does.
-fn is_bounded(op: Op) -> bool {
-    matches!(
-        op,
-        Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, .. }
-            | Op::Binary { function: Binary::Atan2, .. }
-    )
+/// Where a function leaves its value that stays within bounds, so that it is resolved where it changes little, however its argument
+/// does.
+fn bounded(op: Op) -> Option<Register> {
+    match op {
+        Op::Unary { function: Unary::Tanh | Unary::Asin | Unary::Acos, to, .. }
+        | Op::Binary { function: Binary::Atan2, to, .. } => Some(to),
+        _ => None,
+    }
 }
 
 /// Whether the argument of an operation changes so little that a few terms of its series tell all.

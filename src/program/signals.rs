@@ -24,9 +24,8 @@ impl Program {
         // by register of the position: the signals behind it
         let mut behind: Vec<Vec<usize>> = vec![Vec::new(); self.registers()];
         for &op in self.stage(Stage::Position) {
-            let (reads, writes) = self.operands(op);
             let mut found: Vec<usize> = Vec::new();
-            for register in reads {
+            for register in self.reads(op) {
                 if is_bent[register as usize] {
                     let index = *signal_of[register as usize].get_or_insert_with(|| {
                         signals.push(Signal { register, rows: Vec::new(), checks: Vec::new() });
@@ -39,7 +38,7 @@ impl Program {
             found.sort_unstable();
             found.dedup();
             found.truncate(MOST_IN_A_ROW);
-            for register in writes {
+            for register in op.writes() {
                 behind[register as usize].clone_from(&found);
             }
         }
@@ -60,9 +59,8 @@ impl Program {
         let mut degree: Vec<u32> = vec![0; self.registers()];
         degree[self.inputs.time as usize] = 1;
         for &op in self.stage(Stage::Time) {
-            let (reads, writes) = self.operands(op);
             let of = |register: Register| degree[register as usize];
-            let highest = reads.iter().map(|&register| of(register)).max().unwrap_or(0);
+            let highest = self.reads(op).map(of).max().unwrap_or(0);
             let result = match op {
                 Op::Add { .. } | Op::Sub { .. } | Op::Neg { .. } | Op::Copy { .. } => highest,
                 Op::Mul { a, b, .. } => of(a).saturating_add(of(b)),
@@ -70,7 +68,7 @@ impl Program {
                 _ if highest == 0 => 0,
                 _ => u32::MAX,
             };
-            for register in writes {
+            for register in op.writes() {
                 degree[register as usize] = result;
             }
         }

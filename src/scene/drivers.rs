@@ -29,8 +29,8 @@ pub(super) fn draw(drawing: &mut Drawing) {
     for (number, equation) in model.equations.iter().enumerate() {
         let declaration = drawing.first.equations + number;
         match equation.form {
-            EquationForm::SquaredDistance(p, q, _) if equation.driver => pins::cylinder(drawing, declaration, [p, q]),
-            EquationForm::SquaredDistance(p, q, length) => {
+            EquationForm::Distance(p, q, _) if equation.driver => pins::cylinder(drawing, declaration, [p, q]),
+            EquationForm::Distance(p, q, length) => {
                 let (from, to) = (drawing.features.point(p), drawing.features.point(q));
                 let poses = drawing.motion.poses(0);
                 let apart = super::distance(from.placed(poses), to.placed(poses));
@@ -38,13 +38,13 @@ pub(super) fn draw(drawing: &mut Drawing) {
                 let length = if length.is_finite() { length } else { apart };
                 pins::massless_link(drawing, declaration, [p, q], length);
             }
-            EquationForm::Difference(left, right) if equation.driver => {
+            EquationForm::Equality(left, right) if equation.driver => {
                 let driven = quantity_of(model, left).or_else(|| quantity_of(model, right));
                 if let Some(quantity) = driven {
                     arrow(drawing, declaration, quantity);
                 }
             }
-            EquationForm::Difference(..) => {}
+            EquationForm::Equality(..) => {}
         }
     }
 }

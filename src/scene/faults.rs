@@ -76,18 +76,19 @@ pub(super) fn add(scene: &mut Scene, model: &Mechanism, motion: &Motion, faults:
         Place::Upright(anchor) => Some(anchor.placed(poses)),
         _ => None,
     });
-    Arrows { taken: taken.collect(), straight: Vec::new(), places: places(model, motion) }
+    Arrows { taken: taken.collect(), straight: Vec::new(), places: places(&marks.features, motion) }
         .add(&mut marks, &faults.free);
     let Marks { nodes, features, .. } = marks;
     scene.nodes.extend(nodes);
-    lengths::add(scene, &features, poses, &faults.lengths);
+    let blamed = lengths::Blamed { features: &features, poses, joints, equations };
+    blamed.add(scene, &faults.lengths);
     scene.named.clone_from(&faults.named);
     scene.extent = whole::extent(&scene.nodes, motion, scene.unit);
 }
 
 /// By frame: the places of bodies that joints use; where there is none those that have a name, or the origin.
-fn places(model: &Mechanism, motion: &Motion) -> Vec<Vec<Vector>> {
-    let features = Features::of(model);
+fn places(features: &Features, motion: &Motion) -> Vec<Vec<Vector>> {
+    let model = features.model;
     let mut places = vec![Vec::new(); motion.frames().max(1)];
     for Anchor { frame, at } in whole::places_of_bodies(model).into_iter().map(|id| features.point(id)) {
         places[frame].push(at);
@@ -130,7 +131,7 @@ impl Marks<'_> {
         let of_joints = model.joints.iter().enumerate().map(|(number, _)| (self.joints + number, self.halves(number)));
         let of_lengths = model.equations.iter().enumerate().map(|(number, equation)| {
             let halves = match equation.form {
-                EquationForm::SquaredDistance(p, q, wanted) if !equation.driver => {
+                EquationForm::Distance(p, q, wanted) if !equation.driver => {
                     self.end_of_link([self.features.point(p), self.features.point(q)], self.features.value(wanted))
                 }
                 _ => None,

@@ -3,7 +3,7 @@
 
 use super::features::Features;
 use super::plane::{Path, Pose, Vector, is_finite, plus, times};
-use super::{Anchor, Look, Node, Place, Remark, Scene, Shape, whole};
+use super::{Anchor, Look, Node, Place, Remark, Scene, Shape};
 use crate::model::{EquationForm, PointId};
 
 /// A length that a message blames, between the places that declarations have on a body.
@@ -17,51 +17,55 @@ pub struct Length {
     pub text: String,
 }
 
-/// Says beside lengths what is said of them; at rest, which is when they are blamed.
-pub(super) fn add(scene: &mut Scene, features: &Features, poses: &[Pose], lengths: &[Length]) {
-    for length in lengths {
-        let Some(ends) = ends(features, length) else { continue };
-        let [from, to] = ends.map(|end| end.placed(poses));
-        if !is_finite(from) || !is_finite(to) {
-            continue;
+/// A mechanism at rest, which is when lengths are blamed.
+pub(super) struct Blamed<'m> {
+    pub features: &'m Features<'m>,
+    pub poses: &'m [Pose],
+    /// The declarations of the first joint and of the first equation.
+    pub joints: usize,
+    pub equations: usize,
+}
+
+impl Blamed<'_> {
+    /// Says beside lengths what is said of them.
+    pub fn add(&self, scene: &mut Scene, lengths: &[Length]) {
+        for length in lengths {
+            let Some(ends) = self.ends(length) else { continue };
+            let [from, to] = ends.map(|end| end.placed(self.poses));
+            if !is_finite(from) || !is_finite(to) {
+                continue;
+            }
+            scene.remarks.push(Remark { at: times(0.5, plus(from, to)), text: length.text.clone() });
+            if length.frame == Some(0) {
+                scene.nodes.push(line_of_ground([from, to]));
+            }
         }
-        scene.remarks.push(Remark { at: times(0.5, plus(from, to)), text: length.text.clone() });
-        if length.frame == Some(0) {
-            scene.nodes.push(line_of_ground([from, to]));
+    }
+
+    /// The places that a length runs between.
+    fn ends(&self, length: &Length) -> Option<[Anchor; 2]> {
+        let [first, second] = length.ends;
+        let anchors = |declaration| self.points(declaration).into_iter().map(|point| self.features.point(point));
+        let Some(frame) = length.frame else { return anchors(first).collect::<Vec<_>>().try_into().ok() };
+        let on_frame = |declaration| anchors(declaration).find(|anchor| anchor.frame == frame);
+        Some([on_frame(first)?, on_frame(second)?])
+    }
+
+    /// The points of a joint, or of a distance that is prescribed.
+    fn points(&self, declaration: usize) -> Vec<PointId> {
+        let model = self.features.model;
+        if let Some(equation) = declaration.checked_sub(self.equations).and_then(|number| model.equations.get(number)) {
+            return match equation.form {
+                EquationForm::Distance(p, q, _) => vec![p, q],
+                EquationForm::Equality(..) => Vec::new(),
+            };
         }
+        let joint = declaration.checked_sub(self.joints).and_then(|number| model.joints.get(number));
+        joint.map_or_else(Vec::new, |joint| joint.kind.points(model))
     }
 }
 
 fn line_of_ground(ends: [Vector; 2]) -> Node {
     let shapes = vec![Shape { path: Path::line(ends), look: Look::Named, point: None }];
     Node { declaration: 0, place: Place::Fixed(0), shapes }
-}
-
-/// The places that a length runs between.
-fn ends(features: &Features, length: &Length) -> Option<[Anchor; 2]> {
-    let [first, second] = length.ends;
-    let Some(frame) = length.frame else {
-        let points = points(features, first);
-        let &[p, q] = points.as_slice() else { return None };
-        return Some([p, q].map(|point| features.point(point)));
-    };
-    let on_frame = |declaration: usize| {
-        let anchors = points(features, declaration).into_iter().map(|point| features.point(point));
-        anchors.into_iter().find(|anchor| anchor.frame == frame)
-    };
-    Some([on_frame(first)?, on_frame(second)?])
-}
-
-/// The points of a joint, or of a distance that is prescribed.
-fn points(features: &Features, declaration: usize) -> Vec<PointId> {
-    let model = features.model;
-    let (joints, equations) = whole::first_of_joints_and_equations(model);
-    if let Some(equation) = declaration.checked_sub(equations).and_then(|number| model.equations.get(number)) {
-        return match equation.form {
-            EquationForm::SquaredDistance(p, q, _) => vec![p, q],
-            EquationForm::Difference(..) => Vec::new(),
-        };
-    }
-    let joint = declaration.checked_sub(joints).and_then(|number| model.joints.get(number));
-    joint.map_or_else(Vec::new, |joint| joint.kind.points(model))
 }

@@ -226,6 +226,12 @@ pub enum Held {
 }
 
 impl Place {
+    /// Whether x runs from 0 to 1 between its two places.
+    #[must_use]
+    pub fn is_stretched(&self) -> bool {
+        matches!(self, Place::Between { held: Held::Stretched, .. })
+    }
+
     /// Where its shapes are at a moment, and by what x is stretched.
     #[must_use]
     pub fn pose(&self, poses: &[Pose]) -> (Pose, f64) {

@@ -21,35 +21,25 @@ pub struct Motion {
 }
 
 impl Motion {
-    /// That of a table, whose bodies are the frames behind the ground, in order. Its columns begin with `t` and three for each body; those
-    /// of velocities and accelerations are found by their names.
+    /// That of a table with its time first, whose bodies are the frames behind the ground, in order. Of each body it is told in which
+    /// columns its x, y and phi stand, their first and their second derivatives.
     #[must_use]
-    pub fn of_rows(bodies: usize, columns: &[String], rows: Vec<Vec<f64>>, edges: Vec<f64>) -> Motion {
-        let named: FxHashMap<String, usize> = columns.iter().cloned().enumerate().map(|(k, name)| (name, k)).collect();
-        let column =
-            |k: usize, order: &str| columns.get(k).and_then(|name| named.get(&format!("{name}{order}"))).copied();
-        let placed = |order: &str| -> Vec<Option<[usize; 3]>> {
-            let of_body = |body: usize| {
-                let [x, y, phi] = [1, 2, 3].map(|part| column(3 * body + part, order));
-                Some([x?, y?, phi?])
-            };
-            (0..bodies).map(of_body).collect()
-        };
-        let poses_of = |order: &str| {
-            let places = placed(order);
-            let mut poses = Vec::with_capacity(rows.len() * (bodies + 1));
+    pub fn of_rows(bodies: &[[[usize; 3]; 3]], columns: &[String], rows: Vec<Vec<f64>>, edges: Vec<f64>) -> Motion {
+        let named = columns.iter().cloned().enumerate().map(|(k, name)| (name, k)).collect();
+        let poses_of = |order: usize| {
+            let mut poses = Vec::with_capacity(rows.len() * (bodies.len() + 1));
             for row in &rows {
                 poses.push(Pose::default());
-                poses.extend(places.iter().map(|place| match place {
-                    Some([x, y, phi]) => Pose { at: [row[*x], row[*y]], phi: row[*phi] },
-                    None => Pose::default(),
+                poses.extend(bodies.iter().map(|columns| {
+                    let [x, y, phi] = columns[order].map(|column| row.get(column).copied().unwrap_or(0.0));
+                    Pose { at: [x, y], phi }
                 }));
             }
             poses
         };
         let times = rows.iter().map(|row| row[0]).collect();
-        let (poses, rates, accelerations) = (poses_of(""), poses_of(".d"), poses_of(".dd"));
-        Motion { times, edges, frames: bodies + 1, poses, rates, accelerations, rows, columns: named }
+        let [poses, rates, accelerations] = [0, 1, 2].map(poses_of);
+        Motion { times, edges, frames: bodies.len() + 1, poses, rates, accelerations, rows, columns: named }
     }
 
     /// A single moment without velocities, as a mechanism is drawn.
@@ -63,16 +53,33 @@ impl Motion {
     /// One row of it.
     #[must_use]
     pub fn moment(&self, row: usize) -> Motion {
+        self.moments(&[row])
+    }
+
+    /// Some rows of it.
+    #[must_use]
+    pub fn moments(&self, rows: &[usize]) -> Motion {
+        let of = |list: fn(&Motion, usize) -> &[Pose]| rows.iter().flat_map(|&row| list(self, row)).copied().collect();
         Motion {
-            times: vec![self.times[row]],
+            times: rows.iter().map(|&row| self.times[row]).collect(),
             frames: self.frames,
-            poses: self.poses(row).to_vec(),
-            rates: self.rates(row).to_vec(),
-            accelerations: self.accelerations(row).to_vec(),
-            rows: self.rows.get(row).cloned().into_iter().collect(),
+            poses: of(Motion::poses),
+            rates: of(Motion::rates),
+            accelerations: of(Motion::accelerations),
+            rows: rows.iter().filter_map(|&row| self.rows.get(row).cloned()).collect(),
             edges: Vec::new(),
             columns: self.columns.clone(),
         }
+    }
+
+    /// Adds the last row of another motion of the same frames and columns.
+    pub fn append_last(&mut self, other: &Motion) {
+        let Some(last) = other.len().checked_sub(1) else { return };
+        self.times.push(other.times[last]);
+        self.poses.extend_from_slice(other.poses(last));
+        self.rates.extend_from_slice(other.rates(last));
+        self.accelerations.extend_from_slice(other.accelerations(last));
+        self.rows.extend(other.rows.get(last).cloned());
     }
 
     /// How many rows there are.
@@ -190,6 +197,9 @@ fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> Pose {
 mod tests {
     use super::{Motion, Pose};
 
+    /// Where the pose of the body is, its rates and its accelerations.
+    const BODY: [[[usize; 3]; 3]; 1] = [[[1, 2, 3], [5, 6, 7], [8, 9, 10]]];
+
     fn names() -> Vec<String> {
         ["t", "b.x", "b.y", "b.phi", "m", "b.x.d", "b.y.d", "b.phi.d", "b.x.dd", "b.y.dd", "b.phi.dd"]
             .map(str::to_owned)
@@ -204,7 +214,7 @@ mod tests {
 
     #[test]
     fn between_rows_a_motion_is_the_quintic_through_both() {
-        let motion = Motion::of_rows(1, &names(), vec![row(0.0), row(1.0), row(3.0)], Vec::new());
+        let motion = Motion::of_rows(&BODY, &names(), vec![row(0.0), row(1.0), row(3.0)], Vec::new());
         let mut poses = Vec::new();
         for t in [0.0, 0.25, 1.0, 1.7, 3.0] {
             motion.write_poses(t, &mut poses);
@@ -222,7 +232,7 @@ mod tests {
     fn nothing_is_drawn_across_an_edge() {
         // at rest until 0.5, and at once with a constant acceleration behind that
         let late = vec![1.0, 0.125, 0.0, 0.0, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0, 0.0];
-        let motion = Motion::of_rows(1, &names(), vec![vec![0.0; 11], late], vec![0.5]);
+        let motion = Motion::of_rows(&BODY, &names(), vec![vec![0.0; 11], late], vec![0.5]);
         let mut poses = Vec::new();
         for (t, x) in [(0.4, 0.0), (0.5, 0.0), (0.75, 0.03125)] {
             motion.write_poses(t, &mut poses);
@@ -232,7 +242,7 @@ mod tests {
 
     #[test]
     fn samples_hold_both_ends() {
-        let motion = Motion::of_rows(1, &names(), (0..10).map(|k| row(f64::from(k))).collect(), Vec::new());
+        let motion = Motion::of_rows(&BODY, &names(), (0..10).map(|k| row(f64::from(k))).collect(), Vec::new());
         assert_eq!(motion.sampled(4).collect::<Vec<_>>(), [0, 3, 6, 9]);
         assert_eq!(motion.sampled(99).count(), 10);
         assert_eq!(motion.sampled(1).collect::<Vec<_>>(), [0]);

@@ -111,7 +111,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
         joint.kind.points(model).into_iter().for_each(|point| is_pin[point.index()] = true);
     }
     for equation in &model.equations {
-        if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
+        if let model::EquationForm::Distance(p, q, _) = equation.form {
             for point in [p, q] {
                 is_pin[point.index()] = true;
             }
@@ -133,7 +133,7 @@ fn points(features: &Features) -> (Vec<Point>, Vec<Option<usize>>) {
 pub(super) fn places_of_bodies(model: &Mechanism) -> Vec<PointId> {
     let mut points: Vec<PointId> = model.joints.iter().flat_map(|joint| joint.kind.points(model)).collect();
     for equation in &model.equations {
-        if let model::EquationForm::SquaredDistance(p, q, _) = equation.form {
+        if let model::EquationForm::Distance(p, q, _) = equation.form {
             points.extend([p, q]);
         }
     }

@@ -1,13 +1,13 @@
 //! Running a solver at several times at once. Allocates nothing but the registers, once.
 
 use super::curve::Bend;
-use super::tape::Op;
-use super::{LARGEST_MULTIPLIER, Segment, Solver, Tear};
-use crate::expr::{binary_value, compare, unary_value};
+use super::{Instruction, LARGEST_MULTIPLIER, Segment, Solver, Tear, from_bits};
+use crate::expr::{Binary, Comparison, Unary, binary_value, compare, unary_value};
 use crate::math;
-use crate::program::{self, Program, Register, Registers};
+use crate::program::{Column, Machine, Op, Program, Register, Registers, truth};
 use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
 
+use std::array::from_fn;
 use std::ops::Range;
 
 /// The grid point next to a value, cells being so wide.
@@ -102,19 +102,19 @@ impl<const W: usize> Run<'_, W> {
     fn segments(&mut self, segments: &[Segment]) {
         for segment in segments {
             match segment {
-                Segment::Once(range) => self.operations(range.clone()),
-                Segment::Newton { operations, tears } => self.newton(operations.clone(), tears),
+                Segment::Once(range) => self.instructions(range.clone()),
+                Segment::Newton { instructions, tears } => self.newton(instructions.clone(), tears),
             }
         }
     }
 
     /// Newton from grid point to grid point, until every lane's correction stays in the cell.
-    fn newton(&mut self, operations: Range<usize>, tears: &[Tear]) {
+    fn newton(&mut self, instructions: Range<usize>, tears: &[Tear]) {
         for iteration in 0..ITERATIONS {
             for tear in tears {
                 self.lanes.values[tear.x as usize].0.iter_mut().for_each(|x| *x = on_grid(*x, tear.cell));
             }
-            self.operations(operations.clone());
+            self.instructions(instructions.clone());
             let mut is_settled = true;
             for tear in tears {
                 let delta = self.lanes.values[tear.delta as usize].0;
@@ -150,86 +150,175 @@ impl<const W: usize> Run<'_, W> {
         }
     }
 
-    fn operations(&mut self, range: Range<usize>) {
-        let lanes = &mut *self.lanes;
-        let v = lanes.values.as_mut_slice();
-        for op in &self.solver.operations[range] {
-            match *op {
-                Op::Add { to, a, b } => combine(v, to, a, b, |a, b| a + b),
-                Op::Sub { to, a, b } => combine(v, to, a, b, |a, b| a - b),
-                Op::Mul { to, a, b } => combine(v, to, a, b, |a, b| a * b),
-                Op::MulAdd { to, a, b, c } => combine_three(v, to, a, b, c, |a, b, c| a * b + c),
-                Op::MulLess { to, a, b, c } => combine_three(v, to, a, b, c, |a, b, c| a * b - c),
-                Op::LessMul { to, a, b, c } => combine_three(v, to, a, b, c, |a, b, c| c - a * b),
-                Op::Div { to, a, b } => combine(v, to, a, b, |a, b| a / b),
-                Op::Neg { to, a } => apply(v, to, a, |a| -a),
-                Op::Recip { to, a } => apply(v, to, a, |a| 1.0 / a),
-                Op::SinCos { sin, cos, a } => {
-                    (v[sin as usize].0, v[cos as usize].0) = math::sin_cos_of_each(&v[a as usize].0);
-                }
-                Op::Multiplier { to, a, b, weight } => {
-                    combine(v, to, a, b, |a, b| a * b);
-                    let weight = self.solver.weights[weight as usize];
-                    keep_largest(&mut lanes.multiplier, &v[to as usize].0, weight);
-                }
-                Op::Residual { a, row } => {
-                    keep_largest(&mut lanes.residual, &v[a as usize].0, self.batch.bounds[row as usize]);
-                }
-                Op::Pivot { .. } => {}
-                Op::Number { to, bits: [low, high] } => {
-                    v[to as usize] = Vector([f64::from_bits(u64::from(low) | (u64::from(high) << 32)); W]);
-                }
-                Op::Load { to, from } => v[to as usize] = Vector([self.scalars.get(from); W]),
-                Op::Time { to } => v[to as usize] = Vector(self.batch.times),
-                Op::Column { to, column } => {
-                    let rows = self.rows.chunks_exact(self.solver.layout.stride);
-                    for (value, row) in v[to as usize].0.iter_mut().zip(rows) {
+    fn instructions(&mut self, range: Range<usize>) {
+        let Lanes { values, multiplier, residual, .. } = &mut *self.lanes;
+        let (batch, stride) = (self.batch, self.solver.layout.stride);
+        let mut numbers = Numbers { v: values.as_mut_slice(), program: self.program, scalars: self.scalars };
+        for instruction in &self.solver.instructions[range] {
+            match *instruction {
+                Instruction::Compute(op) => op.run(&mut numbers),
+                Instruction::Number { to, bits } => numbers.write(to, [from_bits(bits); W]),
+                Instruction::Load { to, from } => numbers.write(to, [self.scalars.get(from); W]),
+                Instruction::Time { to } => numbers.write(to, batch.times),
+                Instruction::Column { to, column } => {
+                    let rows = self.rows.chunks_exact(stride);
+                    for (value, row) in numbers.v[to as usize].0.iter_mut().zip(rows) {
                         *value = row[column as usize];
                     }
                 }
-                Op::Store { column, a } => {
-                    let rows = self.rows.chunks_exact_mut(self.solver.layout.stride);
-                    for (value, row) in v[a as usize].0.iter().zip(rows) {
+                Instruction::Store { column, a } => {
+                    let rows = self.rows.chunks_exact_mut(stride);
+                    for (value, row) in numbers.v[a as usize].0.iter().zip(rows) {
                         // −0 would surprise a reader
                         row[column as usize] = value + 0.0;
                     }
                 }
-                Op::Curve { to, tear } => {
-                    let column = self.solver.tears[tear as usize] as usize;
-                    let curve = &self.batch.curve[column];
-                    let bend = self.batch.bends.get(tear as usize).unwrap_or(&Bend::NONE);
-                    let (from, per_second) = (self.batch.from, 1.0 / self.batch.length);
-                    v[to as usize] = Vector(self.batch.times.map(|t| bend.on_curve(curve, (t - from) * per_second)));
+                Instruction::Curve { to, tear } => numbers.write(to, batch.on_curve(self.solver, tear)),
+                Instruction::Multiplier { to, a, b, weight } => {
+                    Op::Mul { to, a, b }.run(&mut numbers);
+                    keep_largest(multiplier, &numbers.v[to as usize].0, self.solver.weights[weight as usize]);
                 }
-                Op::Other(op) => other(v, op, self.program, self.scalars),
+                Instruction::Residual { a, row } => {
+                    keep_largest(residual, &numbers.v[a as usize].0, batch.bounds[row as usize]);
+                }
+                Instruction::Pivot { .. } => {}
             }
         }
     }
 }
 
-fn apply<const W: usize>(v: &mut [Vector<W>], to: Register, a: Register, f: impl Fn(f64) -> f64) {
-    let a = &v[a as usize].0;
-    let result = std::array::from_fn(|k| f(a[k]));
-    v[to as usize].0 = result;
+impl<const W: usize> Batch<'_, W> {
+    /// Where Newton begins with a tear: on the curve of the step.
+    fn on_curve(&self, solver: &Solver, tear: u32) -> [f64; W] {
+        let curve = &self.curve[solver.tears[tear as usize] as usize];
+        let bend = self.bends.get(tear as usize).unwrap_or(&Bend::NONE);
+        let per_second = 1.0 / self.length;
+        self.times.map(|t| bend.on_curve(curve, (t - self.from) * per_second))
+    }
 }
 
-fn combine<const W: usize>(v: &mut [Vector<W>], to: Register, a: Register, b: Register, f: impl Fn(f64, f64) -> f64) {
-    let (a, b) = (&v[a as usize].0, &v[b as usize].0);
-    let result = std::array::from_fn(|k| f(a[k], b[k]));
-    v[to as usize].0 = result;
+/// Registers that hold a number for each lane.
+struct Numbers<'n, const W: usize> {
+    v: &'n mut [Vector<W>],
+    program: &'n Program,
+    scalars: &'n Registers,
 }
 
-fn combine_three<const W: usize>(
-    v: &mut [Vector<W>],
-    to: Register,
-    a: Register,
-    b: Register,
-    c: Register,
-    f: impl Fn(f64, f64, f64) -> f64,
-) {
-    let (a, b, c) = (&v[a as usize].0, &v[b as usize].0, &v[c as usize].0);
-    let result = std::array::from_fn(|k| f(a[k], b[k], c[k]));
-    v[to as usize].0 = result;
+#[allow(clippy::inline_always)] // each is an arm of the loop over instructions
+impl<const W: usize> Machine for Numbers<'_, W> {
+    type Value = [f64; W];
+
+    #[inline(always)]
+    fn read(&mut self, register: Register) -> [f64; W] {
+        self.v[register as usize].0
+    }
+
+    #[inline(always)]
+    fn write(&mut self, register: Register, value: [f64; W]) {
+        self.v[register as usize].0 = value;
+    }
+
+    #[inline(always)]
+    fn add(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] + b[k])
+    }
+
+    #[inline(always)]
+    fn sub(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] - b[k])
+    }
+
+    #[inline(always)]
+    fn mul(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] * b[k])
+    }
+
+    #[inline(always)]
+    fn div(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] / b[k])
+    }
+
+    // in one go, so that no lane's product is put away
+
+    #[inline(always)]
+    fn mul_add(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] * b[k] + c[k])
+    }
+
+    #[inline(always)]
+    fn mul_less(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| a[k] * b[k] - c[k])
+    }
+
+    #[inline(always)]
+    fn less_mul(&mut self, a: [f64; W], b: [f64; W], c: [f64; W]) -> [f64; W] {
+        from_fn(|k| c[k] - a[k] * b[k])
+    }
+
+    #[inline(always)]
+    fn neg(&mut self, a: [f64; W]) -> [f64; W] {
+        a.map(|a| -a)
+    }
+
+    #[inline(always)]
+    fn recip(&mut self, a: [f64; W]) -> [f64; W] {
+        a.map(|a| 1.0 / a)
+    }
+
+    #[inline(always)]
+    fn sin_cos(&mut self, a: [f64; W]) -> [[f64; W]; 2] {
+        math::sin_cos_of_each(&a).into()
+    }
+
+    #[inline(always)]
+    fn unary(&mut self, function: Unary, a: [f64; W]) -> [f64; W] {
+        a.map(|a| unary_value(function, a))
+    }
+
+    #[inline(always)]
+    fn binary(&mut self, function: Binary, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| binary_value(function, a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn compare(&mut self, comparison: Comparison, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| compare(comparison, a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn and(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| truth::and(a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn or(&mut self, a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| truth::or(a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn not(&mut self, a: [f64; W]) -> [f64; W] {
+        a.map(truth::not)
+    }
+
+    #[inline(always)]
+    fn select(&mut self, condition: [f64; W], a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| truth::select(condition[k], a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn either(&mut self, condition: [f64; W], a: [f64; W], b: [f64; W]) -> [f64; W] {
+        from_fn(|k| truth::either(condition[k], a[k], b[k]))
+    }
+
+    #[inline(always)]
+    fn piece(&mut self, table: u32, a: [f64; W]) -> [f64; W] {
+        a.map(|a| self.program.piece(table, a, self.scalars))
+    }
+
+    #[inline(always)]
+    fn pick(&mut self, table: u32, column: Column, piece: [f64; W]) -> [f64; W] {
+        piece.map(|piece| self.program.pick(table, column, piece, self.scalars))
+    }
 }
 
 /// Keeps the larger of what is known and `|value| factor`; what is not a number wins.
@@ -237,36 +326,5 @@ fn keep_largest<const W: usize>(largest: &mut [f64; W], values: &[f64; W], facto
     for (largest, value) in largest.iter_mut().zip(values) {
         let size = value.abs() * factor;
         *largest = if size <= *largest { *largest } else { size };
-    }
-}
-
-/// An operation that has no lanes of its own.
-fn other<const W: usize>(v: &mut [Vector<W>], op: program::Op, program: &Program, scalars: &Registers) {
-    use program::Op as P;
-    let truth = |is_true: bool| f64::from(is_true);
-    match op {
-        P::Unary { function, to, a } => apply(v, to, a, |a| unary_value(function, a)),
-        P::Binary { function, to, a, b } => combine(v, to, a, b, |a, b| binary_value(function, a, b)),
-        P::Compare { comparison, to, a, b } => combine(v, to, a, b, |a, b| compare(comparison, a, b)),
-        P::And { to, a, b } => combine(v, to, a, b, |a, b| truth(a != 0.0 && b != 0.0)),
-        P::Or { to, a, b } => combine(v, to, a, b, |a, b| truth(a != 0.0 || b != 0.0)),
-        P::Not { to, a } => apply(v, to, a, |a| truth(a == 0.0)),
-        P::Select { to, condition, a, b } => {
-            combine_three(v, to, condition, a, b, |condition, a, b| if condition == 0.0 { b } else { a });
-        }
-        P::Either { to, condition, a, b } => combine_three(v, to, condition, a, b, program::either),
-        P::Piece { to, table, a } => apply(v, to, a, |a| program.piece(table, a, scalars)),
-        P::Pick { to, table, column, piece } => {
-            apply(v, to, piece, |piece| program.pick(table, column, piece, scalars));
-        }
-        // these are laid out as operations of lanes
-        P::Add { .. }
-        | P::Sub { .. }
-        | P::Mul { .. }
-        | P::Div { .. }
-        | P::Neg { .. }
-        | P::Recip { .. }
-        | P::SinCos { .. }
-        | P::Copy { .. } => unreachable!("{op:?} is laid out otherwise"),
     }
 }

@@ -15,23 +15,30 @@
 //!
 //! The operations work on several times at once, as [`Lanes`]; each lane has the bits that it would have alone.
 
+mod age;
 mod build;
 mod curve;
+mod elimination;
 mod finish;
+mod folding;
+mod groups;
+mod instruction;
 mod lanes;
 mod order;
 mod pivoting;
+mod rates;
 mod tape;
 mod tear;
+mod terms;
 
 use crate::tolerances::solving::solver::{LARGEST_MULTIPLIER, MOST_OPERATIONS};
 pub use curve::Bend;
+pub use instruction::{Instruction, from_bits};
 pub use lanes::{Batch, Lanes};
 pub use order::{BlockEntry, Order};
 pub use pivoting::{BlockTables, Equations, Pivoting};
-pub use tape::Op;
 
-use crate::ir::ConstraintSystem;
+use crate::layout::RowLayout;
 use crate::program::{Program, Register};
 use crate::structure::Determined;
 use std::ops::Range;
@@ -40,7 +47,7 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub struct Solver {
     /// Those of all components one behind the other: they are read in a row, time and again.
-    operations: Vec<Op>,
+    instructions: Vec<Instruction>,
     /// What there is to run, component by component, and last the measures that join components, from what these have stored.
     segments: Vec<Segment>,
     registers: usize,
@@ -74,36 +81,61 @@ pub struct Turn {
 /// Blocks that depend on each other, in an order of solution, as operations.
 #[derive(Clone, Debug, Default)]
 struct Component {
-    operations: Vec<Op>,
+    instructions: Vec<Instruction>,
     segments: Vec<Segment>,
+    registers: usize,
 }
 
-/// Operations that are run once, or until their tears have settled.
+/// Instructions that are run once, or until their tears have settled.
 #[derive(Clone, Debug)]
 pub enum Segment {
-    /// Operations that are run once.
+    /// Instructions that are run once.
     Once(Range<usize>),
-    /// Operations that are run until the tears stay where they are.
+    /// Instructions that are run until the tears stay where they are.
     Newton {
-        /// The loop's operations.
-        operations: Range<usize>,
+        /// The loop's instructions.
+        instructions: Range<usize>,
         /// What it solves for.
         tears: Vec<Tear>,
     },
 }
 
 impl Segment {
-    /// The same, of operations that stand so many places further on.
+    /// Its instructions.
+    #[must_use]
+    pub fn range(&self) -> Range<usize> {
+        match self {
+            Segment::Once(range) | Segment::Newton { instructions: range, .. } => range.clone(),
+        }
+    }
+
+    /// What it solves for.
+    #[must_use]
+    pub fn tears(&self) -> &[Tear] {
+        match self {
+            Segment::Once(_) => &[],
+            Segment::Newton { tears, .. } => tears,
+        }
+    }
+
+    /// Whether it is run until its tears have settled.
+    #[must_use]
+    pub fn is_loop(&self) -> bool {
+        matches!(self, Segment::Newton { .. })
+    }
+
+    /// The same, of instructions that stand so many places further on.
     fn behind(self, places: usize) -> Segment {
         let moved = |range: Range<usize>| range.start + places..range.end + places;
         match self {
             Segment::Once(range) => Segment::Once(moved(range)),
-            Segment::Newton { operations, tears } => Segment::Newton { operations: moved(operations), tears },
+            Segment::Newton { instructions, tears } => Segment::Newton { instructions: moved(instructions), tears },
         }
     }
 
     /// The same with other registers.
-    fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
+    #[must_use]
+    pub fn renumbered(mut self, own: impl Fn(Register) -> Register) -> Segment {
         if let Segment::Newton { tears, .. } = &mut self {
             for tear in tears {
                 (tear.x, tear.delta) = (own(tear.x), own(tear.delta));
@@ -126,50 +158,13 @@ pub struct Tear {
     pub cell: f64,
 }
 
-/// Where a result row holds what. Rows are in the order of the table, with what only measures need behind.
+/// What a solver is laid out for.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub struct RowLayout {
-    /// First column of `q`, `q̇`, `q̈`, `q⃛`.
-    pub coordinates: [u32; 4],
-    /// First column of the measures, and of their first and second derivatives.
-    pub measures: [u32; 3],
-    /// First of the derivatives that stand behind all other columns of the table.
-    pub appended: u32,
-    /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
-    pub varied: u32,
-    /// Whether there are columns for `q⃛`.
-    pub has_jerk: bool,
-    /// First column of the derivatives of `q` by each signal and parameter, which are behind all others.
-    pub by_signal: u32,
-    /// Columns that the table has.
-    pub printed: usize,
-    /// All columns.
-    pub stride: usize,
-}
-
-impl RowLayout {
-    /// The layout of a system's rows.
-    #[must_use]
-    pub fn new(system: &ConstraintSystem) -> RowLayout {
-        let n = system.coordinates.len() as u32;
-        let count = |having: fn(&crate::ir::Measure) -> bool| {
-            system.measures.iter().filter(|measure| having(measure)).count() as u32
-        };
-        let counts = [count(|_| true), count(|m| m.first.is_some()), count(|m| m.second.is_some())];
-        let (mut next, mut coordinates, mut measures) = (1, [0; 4], [0; 3]);
-        for order in 0..3 {
-            coordinates[order] = next;
-            measures[order] = next + n;
-            next += n + counts[order];
-        }
-        let appended = next;
-        coordinates[3] = next + system.appended().len() as u32;
-        let (printed, has_jerk) = (coordinates[3] as usize, system.jerk.is_some());
-        let by_signal = coordinates[3] + if has_jerk { n } else { 0 };
-        let varied = by_signal + n * (system.by_signal.len() + system.by_param.len()) as u32;
-        let stride = varied as usize + 3 * system.variations().len() * n as usize;
-        RowLayout { coordinates, measures, appended, varied, has_jerk, by_signal, printed, stride }
-    }
+enum Purpose {
+    /// To be run here: registers are used again and again.
+    Lanes,
+    /// To be written as code: with notes of the pivots, which tell branches apart, and a register of its own for every value.
+    Code,
 }
 
 /// What is known of `Φ_q` where the orders of elimination are chosen.
@@ -184,14 +179,14 @@ impl Solver {
     /// Lays the solution of a system out; none where that takes too many operations.
     #[must_use]
     pub fn new(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, false)
+        build::build(determined, program, values, Purpose::Lanes)
     }
 
     /// As [`Solver::new`] to be written as code: with notes of the pivots, which tell branches apart, and with a register of its own
     /// for every value.
     #[must_use]
     pub fn for_code(determined: &Determined, program: &Program, values: &impl Values) -> Option<Solver> {
-        build::build(determined, program, values, true)
+        build::build(determined, program, values, Purpose::Code)
     }
 
     /// What there is to run, in order.
@@ -230,21 +225,15 @@ impl Solver {
         &self.tears
     }
 
-    /// All operations.
+    /// All instructions.
     #[must_use]
-    pub fn all_operations(&self) -> &[Op] {
-        &self.operations
+    pub fn instructions(&self) -> &[Instruction] {
+        &self.instructions
     }
 
     /// How many registers they need.
     #[must_use]
     pub fn registers(&self) -> usize {
         self.registers
-    }
-
-    /// How many operations it has.
-    #[must_use]
-    pub fn operations(&self) -> usize {
-        self.operations.len()
     }
 }

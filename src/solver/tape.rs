@@ -1,185 +1,11 @@
-//! Operations being laid out, and arithmetic on values of which some are numbers already.
+//! Instructions being laid out, and arithmetic on values of which some are numbers already.
 
-use crate::program::{self, Register};
+use super::Instruction;
+use super::age::Age;
+use crate::math;
+use crate::program::{Op, Register};
 use rustc_hash::FxHashMap;
-
-/// One operation on lanes: reads registers, writes `to`.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
-#[allow(missing_docs)] // operands and results say themselves
-pub enum Op {
-    /// A number, by its bits.
-    Number {
-        to: Register,
-        bits: [u32; 2],
-    },
-    /// What stands in a register of the program: it depends on parameters alone, or is a switch.
-    Load {
-        to: Register,
-        from: Register,
-    },
-    /// The time (s).
-    Time {
-        to: Register,
-    },
-    /// What has been stored in a column of the row.
-    Column {
-        to: Register,
-        column: u32,
-    },
-    /// A tear, by its number, on the curve of the step: where Newton begins.
-    Curve {
-        to: Register,
-        tear: u32,
-    },
-    Add {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Sub {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Mul {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    Div {
-        to: Register,
-        a: Register,
-        b: Register,
-    },
-    /// `a b + c`, each rounded.
-    MulAdd {
-        to: Register,
-        a: Register,
-        b: Register,
-        c: Register,
-    },
-    /// `a b − c`, each rounded.
-    MulLess {
-        to: Register,
-        a: Register,
-        b: Register,
-        c: Register,
-    },
-    /// `c − a b`, each rounded.
-    LessMul {
-        to: Register,
-        a: Register,
-        b: Register,
-        c: Register,
-    },
-    Neg {
-        to: Register,
-        a: Register,
-    },
-    /// `1 / a`
-    Recip {
-        to: Register,
-        a: Register,
-    },
-    SinCos {
-        sin: Register,
-        cos: Register,
-        a: Register,
-    },
-    /// Any other operation of a program.
-    Other(program::Op),
-    /// `a b`, a multiplier that is watched, by the number of its weight.
-    Multiplier {
-        to: Register,
-        a: Register,
-        b: Register,
-        weight: u32,
-    },
-    /// One over a pivot, by the pivot's number; the sign of all pivots of a block tells its branches apart.
-    Pivot {
-        a: Register,
-        pivot: u32,
-    },
-    /// What is left of a row of `Φ`, which must be next to nothing.
-    Residual {
-        a: Register,
-        row: u32,
-    },
-    /// A result, by its column.
-    Store {
-        column: u32,
-        a: Register,
-    },
-}
-
-impl Op {
-    /// The registers that it reads, and how many they are.
-    #[must_use]
-    pub fn reads(self) -> ([Register; 3], usize) {
-        let (mut reads, mut count) = ([0; 3], 0);
-        let read = |register| {
-            reads[count] = register;
-            count += 1;
-            register
-        };
-        let _ = self.renumbered(read, |register| register);
-        (reads, count)
-    }
-
-    /// The registers that it writes, and how many they are.
-    #[must_use]
-    pub fn writes(self) -> ([Register; 2], usize) {
-        let (mut writes, mut count) = ([0; 2], 0);
-        let write = |register| {
-            writes[count] = register;
-            count += 1;
-            register
-        };
-        let _ = self.renumbered(|register| register, write);
-        (writes, count)
-    }
-
-    /// The same with other registers: `read` for those it reads, then `write` for those it writes.
-    #[must_use]
-    pub fn renumbered(
-        mut self,
-        mut read: impl FnMut(Register) -> Register,
-        mut write: impl FnMut(Register) -> Register,
-    ) -> Op {
-        match &mut self {
-            Op::Number { to, .. }
-            | Op::Load { to, .. }
-            | Op::Time { to }
-            | Op::Column { to, .. }
-            | Op::Curve { to, .. } => {
-                *to = write(*to);
-            }
-            Op::Add { to, a, b }
-            | Op::Sub { to, a, b }
-            | Op::Mul { to, a, b }
-            | Op::Div { to, a, b }
-            | Op::Multiplier { to, a, b, .. } => {
-                (*a, *b) = (read(*a), read(*b));
-                *to = write(*to);
-            }
-            Op::MulAdd { to, a, b, c } | Op::MulLess { to, a, b, c } | Op::LessMul { to, a, b, c } => {
-                (*a, *b, *c) = (read(*a), read(*b), read(*c));
-                *to = write(*to);
-            }
-            Op::Neg { to, a } | Op::Recip { to, a } => {
-                *a = read(*a);
-                *to = write(*to);
-            }
-            Op::SinCos { sin, cos, a } => {
-                *a = read(*a);
-                (*sin, *cos) = (write(*sin), write(*cos));
-            }
-            Op::Residual { a, .. } | Op::Pivot { a, .. } | Op::Store { a, .. } => *a = read(*a),
-            Op::Other(op) => *op = op.renumbered(read, write),
-        }
-        self
-    }
-}
+use std::ops::Range;
 
 /// A number that is known already, or what an operation gives.
 #[derive(Clone, Copy, PartialEq, Debug)]
@@ -214,24 +40,29 @@ impl Value {
     }
 }
 
-/// The operations of a component so far.
+/// The instructions of a component so far.
 ///
-/// Each value has an *age*: what changes from one iteration of Newton to the next has an odd one, and its operations are put
-/// aside until the loop is closed; all others are done once, before it.
+/// Those whose values change from one iteration of Newton to the next are put aside until the loop is closed; all others are
+/// done once, before it.
 pub(super) struct Tape {
-    pub operations: Vec<Op>,
+    pub instructions: Vec<Instruction>,
     /// Those of the loop that is being written.
-    pub inner: Vec<Op>,
+    in_loop: Vec<Instruction>,
     /// By register.
-    ages: Vec<u32>,
+    ages: Vec<Age>,
     /// The age of what depends on no unknown of this component.
-    pub least_age: u32,
+    first: Age,
     numbers: FxHashMap<u64, Register>,
 }
 
 impl Tape {
-    pub fn new(least_age: u32) -> Tape {
-        Tape { operations: Vec::new(), inner: Vec::new(), ages: Vec::new(), least_age, numbers: FxHashMap::default() }
+    pub fn new(first: Age) -> Tape {
+        Tape { instructions: Vec::new(), in_loop: Vec::new(), ages: Vec::new(), first, numbers: FxHashMap::default() }
+    }
+
+    /// The age of what depends on no unknown of this component.
+    pub fn first(&self) -> Age {
+        self.first
     }
 
     /// How many registers are in use.
@@ -239,56 +70,81 @@ impl Tape {
         self.ages.len()
     }
 
-    /// A register that is written otherwise than by an operation of its own.
-    pub fn fresh(&mut self, age: u32) -> Register {
+    /// A register that is written otherwise than by an instruction of its own.
+    pub fn fresh(&mut self, age: Age) -> Register {
         self.ages.push(age);
         (self.ages.len() - 1) as Register
     }
 
-    pub fn set_age(&mut self, register: Register, age: u32) {
+    pub fn set_age(&mut self, register: Register, age: Age) {
         self.ages[register as usize] = age;
     }
 
-    pub fn age(&self, value: Value) -> u32 {
+    pub fn age(&self, value: Value) -> Age {
         match value {
-            Value::Number(_) => self.least_age,
+            Value::Number(_) => self.first,
             Value::Of { at, .. } => self.ages[at as usize],
         }
     }
 
-    /// Adds an operation without a result.
-    pub fn act(&mut self, op: Op) {
-        let age = self.age_of(op);
-        self.place(op, age);
+    /// Puts the loop behind what is done before it, and gives its instructions' places.
+    pub fn close_loop(&mut self) -> Range<usize> {
+        let from = self.instructions.len();
+        self.instructions.append(&mut self.in_loop);
+        from..self.instructions.len()
     }
 
-    fn age_of(&self, op: Op) -> u32 {
-        let (reads, count) = op.reads();
-        reads[..count].iter().map(|&register| self.ages[register as usize]).fold(self.least_age, u32::max)
+    /// Adds an instruction without a result.
+    pub fn act(&mut self, instruction: Instruction) {
+        let age = self.age_of(instruction);
+        self.place(instruction, age);
     }
 
-    fn place(&mut self, op: Op, age: u32) {
-        if age % 2 == 1 { self.inner.push(op) } else { self.operations.push(op) }
+    /// Leaves a result in a column.
+    pub fn store(&mut self, column: u32, value: Value) {
+        let a = self.register(value);
+        self.act(Instruction::Store { column, a });
     }
 
-    /// Adds an operation that writes a register of its own.
-    pub fn push(&mut self, op: impl FnOnce(Register) -> Op) -> Value {
+    fn age_of(&self, instruction: Instruction) -> Age {
+        instruction.reads().iter().map(|&register| self.ages[register as usize]).fold(self.first, Age::max)
+    }
+
+    fn place(&mut self, instruction: Instruction, age: Age) {
+        if age.is_in_loop() {
+            self.in_loop.push(instruction);
+        } else {
+            self.instructions.push(instruction);
+        }
+    }
+
+    /// Adds an instruction that writes a register of its own.
+    pub fn push(&mut self, instruction: impl FnOnce(Register) -> Instruction) -> Value {
         let to = self.ages.len() as Register;
-        let op = op(to);
-        let age = self.age_of(op);
+        let instruction = instruction(to);
+        let age = self.age_of(instruction);
         self.ages.push(age);
-        self.place(op, age);
+        self.place(instruction, age);
         Value::Of { at: to, negative: false }
     }
 
-    /// Adds an operation that writes two registers of its own.
-    pub fn push_pair(&mut self, op: impl FnOnce(Register, Register) -> Op) -> [Value; 2] {
-        let first = self.ages.len() as Register;
-        let op = op(first, first + 1);
-        let age = self.age_of(op);
+    /// Adds an operation that writes a register of its own.
+    pub fn compute(&mut self, op: impl FnOnce(Register) -> Op) -> Value {
+        self.push(|to| Instruction::Compute(op(to)))
+    }
+
+    pub fn sin_cos(&mut self, a: Value) -> [Value; 2] {
+        if let Value::Number(x) = a {
+            let (sin, cos) = math::sin_cos(x);
+            return [Value::Number(sin), Value::Number(cos)];
+        }
+        let a = self.register(a);
+        let sin = self.ages.len() as Register;
+        let instruction = Instruction::Compute(Op::SinCos { sin, cos: sin + 1, a });
+        let age = self.age_of(instruction);
         self.ages.extend([age, age]);
-        self.place(op, age);
-        [first, first + 1].map(|at| Value::Of { at, negative: false })
+        self.place(instruction, age);
+        [sin, sin + 1].map(|at| Value::Of { at, negative: false })
     }
 
     /// The register of a value, its sign being made right.
@@ -298,15 +154,14 @@ impl Tape {
                 if let Some(&known) = self.numbers.get(&x.to_bits()) {
                     return known;
                 }
-                let bits = x.to_bits();
-                let to = self.fresh(self.least_age);
-                self.operations.push(Op::Number { to, bits: [bits as u32, (bits >> 32) as u32] });
-                self.numbers.insert(bits, to);
+                let to = self.fresh(self.first);
+                self.instructions.push(Instruction::number(to, x));
+                self.numbers.insert(x.to_bits(), to);
                 to
             }
             Value::Of { at, negative: false } => at,
             Value::Of { at, negative: true } => {
-                let turned = self.push(|to| Op::Neg { to, a: at });
+                let turned = self.compute(|to| Op::Neg { to, a: at });
                 self.register(turned)
             }
         }
@@ -319,10 +174,10 @@ impl Tape {
             _ => {
                 let ((a, minus_a), (b, minus_b)) = (self.unsigned(a), self.unsigned(b));
                 match (minus_a, minus_b) {
-                    (false, false) => self.push(|to| Op::Add { to, a, b }),
-                    (false, true) => self.push(|to| Op::Sub { to, a, b }),
-                    (true, false) => self.push(|to| Op::Sub { to, a: b, b: a }),
-                    (true, true) => self.push(|to| Op::Add { to, a, b }).negated(),
+                    (false, false) => self.compute(|to| Op::Add { to, a, b }),
+                    (false, true) => self.compute(|to| Op::Sub { to, a, b }),
+                    (true, false) => self.compute(|to| Op::Sub { to, a: b, b: a }),
+                    (true, true) => self.compute(|to| Op::Add { to, a, b }).negated(),
                 }
             }
         }
@@ -339,7 +194,7 @@ impl Tape {
             (unit, other) | (other, unit) if unit.is_unit() => other.signed_as(unit),
             _ => {
                 let ((a, minus_a), (b, minus_b)) = (self.unsigned(a), self.unsigned(b));
-                let product = self.push(|to| Op::Mul { to, a, b });
+                let product = self.compute(|to| Op::Mul { to, a, b });
                 if minus_a == minus_b { product } else { product.negated() }
             }
         }
@@ -352,7 +207,7 @@ impl Tape {
             (other, unit) if unit.is_unit() => other.signed_as(unit),
             _ => {
                 let ((a, minus_a), (b, minus_b)) = (self.unsigned(a), self.unsigned(b));
-                let quotient = self.push(|to| Op::Div { to, a, b });
+                let quotient = self.compute(|to| Op::Div { to, a, b });
                 if minus_a == minus_b { quotient } else { quotient.negated() }
             }
         }
@@ -363,7 +218,7 @@ impl Tape {
             return Value::Number(1.0 / x);
         }
         let (a, minus) = self.unsigned(a);
-        let inverse = self.push(|to| Op::Recip { to, a });
+        let inverse = self.compute(|to| Op::Recip { to, a });
         if minus { inverse.negated() } else { inverse }
     }
 
@@ -374,7 +229,7 @@ impl Tape {
         };
         let ((a, minus_a), (b, minus_b)) = (self.unsigned(a), self.unsigned(inverse));
         let weight = weight();
-        let product = self.push(|to| Op::Multiplier { to, a, b, weight });
+        let product = self.push(|to| Instruction::Multiplier { to, a, b, weight });
         if minus_a == minus_b { product } else { product.negated() }
     }
 

@@ -2,6 +2,7 @@
 
 use super::asked::Asked;
 use super::lead::Leading;
+use super::lowered::lowered;
 use super::signals::WithSignals;
 use super::used::{self, Used};
 use super::used_at::UsedAt;
@@ -9,7 +10,6 @@ use super::{Compiled, Parsed, Redundant};
 use crate::cancel::Cancel;
 use crate::check::{self, Given, Library, Setting, Surroundings, Symbols, TableFiles};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Fix, nearest};
-use crate::lower;
 use crate::model::Mechanism;
 use crate::source::{FileId, Sources, Span};
 use crate::syntax::{self, ast};
@@ -271,7 +271,7 @@ impl Checked {
     /// Every equation with its derivatives, as a text, be they too many or too few; nothing where it is not sound.
     #[must_use]
     pub fn equations_text(&self) -> Option<String> {
-        self.model.as_ref().map(|model| lower::lower(model).to_string())
+        self.model.as_ref().map(|model| lowered(model).to_string())
     }
 
     /// Proves that it is determined, and compiles it; with what is to be said of that. Nothing where it is not sound, or not
@@ -302,7 +302,7 @@ impl Checked {
 
     fn compiled(&self, model: &Mechanism, redundant: Redundant, cancel: &Cancel) -> (Option<Compiled>, Diagnostics) {
         let (leading, used_at) = (self.leading.clone(), UsedAt::of(model));
-        Compiled::of(self.sources().clone(), lower::lower(model), redundant, leading, used_at, cancel)
+        Compiled::of(self.sources().clone(), lowered(model), redundant, leading, used_at, cancel)
     }
 
     /// The model in which some parts ask for derivatives by their own equations though they move together with what is around them.

@@ -3,11 +3,12 @@
 use super::lead::Leading;
 use super::signals::WithSignals;
 use super::used_at::UsedAt;
-use crate::analysis::{self, ColumnUnit, Horizon, Times};
+use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::Diagnostics;
 use crate::emit;
 use crate::ir::{ConstraintSystem, DeclarationKind};
+use crate::layout::{self, ColumnUnit, RowLayout};
 use crate::program::Program;
 use crate::source::Sources;
 use crate::structure::{self, Determined};
@@ -90,7 +91,7 @@ impl Compiled {
         };
         let mut system = with_signals.system()?;
         system.align_measures(&self.system().measures);
-        if !self.system().by_param.is_empty() {
+        if self.system().by_params().len() > 0 {
             system.derive_by_params();
         }
         let (compiled, said) =
@@ -141,19 +142,26 @@ impl Compiled {
     /// The names of the columns of its rows: `t`; coordinates and measures; their first and second derivatives.
     #[must_use]
     pub fn columns(&self) -> Vec<String> {
-        analysis::columns(self.system())
+        layout::columns(self.system()).into_iter().map(|column| column.name).collect()
     }
 
     /// The units of those columns, in which their numbers are printed; the rows themselves are in SI.
     #[must_use]
     pub fn units(&self) -> Vec<ColumnUnit> {
-        analysis::units(self.system())
+        layout::columns(self.system()).into_iter().map(|column| column.unit).collect()
     }
 
     /// The names of the results, numbers for the whole analysis, with the units in which they are told.
     #[must_use]
     pub fn results(&self) -> Vec<(String, ColumnUnit)> {
-        analysis::results(self.system())
+        layout::results(self.system())
+    }
+
+    /// By body, the columns of its x, y and phi, of their first and of their second time derivatives.
+    #[must_use]
+    pub fn columns_of_poses(&self) -> Vec<[[usize; 3]; 3]> {
+        let (system, layout) = (self.system(), RowLayout::new(self.system()));
+        system.bodies.ids().map(|body| layout.pose(system, body)).collect()
     }
 
     /// What is wrong with results of an analysis from one time to another (s).

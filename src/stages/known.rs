@@ -1,9 +1,9 @@
 //! What an editor asks of a mechanism that was checked, or compiled, one declaration at a time.
 
+use super::lowered::lowered;
 use super::{Assembly, Checked, Compiled};
 use crate::check::{self, Known, NameKind};
 use crate::expr::Symbol;
-use crate::lower;
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{self, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName};
@@ -78,7 +78,7 @@ impl Checked {
     /// sound.
     #[must_use]
     pub fn equations_of(&self, name: &str) -> Option<String> {
-        let lowered = self.asked.lowered.get_or_init(|| self.model.as_ref().map(|model| lower::lower(model)));
+        let lowered = self.asked.lowered.get_or_init(|| self.model.as_ref().map(|model| lowered(model)));
         lowered.as_ref()?.equations_of(name)
     }
 
@@ -154,12 +154,12 @@ impl Compiled {
     #[must_use]
     pub fn place_of(&self, point: &str, assembly: &Assembly) -> Option<[f64; 2]> {
         let system = self.system();
-        let k = (0..system.points.len()).find(|&k| system.point_name(k).as_deref() == Some(point))?;
+        let k = system.points.ids().find(|&k| system.point_name(k).as_deref() == Some(point))?;
         let q: Vec<f64> = assembly.coordinates.iter().map(|(_, value, _)| *value).collect();
         let [x, y] = system.points[k].at.map(|formula| system.value_at(formula, &q));
         let Some(body) = system.points[k].body else { return Some([x, y]) };
-        // the three coordinates of the bodies come first
-        let [origin_x, origin_y, phi] = [*q.get(3 * body)?, *q.get(3 * body + 1)?, *q.get(3 * body + 2)?];
+        let [origin_x, origin_y, phi] = system.pose_of(body).map(|k| q.get(k).copied());
+        let (origin_x, origin_y, phi) = (origin_x?, origin_y?, phi?);
         let (sin, cos) = (crate::math::sin(phi), crate::math::cos(phi));
         Some([origin_x + x * cos - y * sin, origin_y + x * sin + y * cos])
     }

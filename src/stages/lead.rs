@@ -2,12 +2,12 @@
 //! inputs are; the whole where the inputs that it is told lead it, from where it is with its own.
 
 use super::lines::{Line, Target, lines};
+use super::lowered::lowered;
 use crate::analysis::{self, Horizon, LeadOptions, Request};
 use crate::check::{self, Given, Lead, Setting, Surroundings};
 use crate::diag::{Code, Diagnostic, Diagnostics, readable};
 use crate::expr::Symbol;
 use crate::ir::{ConstraintSystem, PartStart};
-use crate::lower;
 use crate::model::{Led, Mechanism};
 use crate::program::Program;
 use crate::source::{Sources, Span};
@@ -148,7 +148,7 @@ impl<'s> Starts<'s> {
     fn compiled(&self, tree: &ast::Mechanism, surroundings: &Surroundings) -> Option<(Whole, Vec<Led>, Span)> {
         let (model, _) = check::check(tree, surroundings, self.sources);
         let model = model?;
-        let system = lower::lower(&model);
+        let system = lowered(&model);
         let horizon = Horizon::of_analysis(system.analysis);
         let (determined, _) = analysis::determine(system, self.leave_out_redundant, horizon).ok()?;
         let program = Arc::new(Program::new(determined.system()));
@@ -305,7 +305,7 @@ impl<'s> Starts<'s> {
         let model = model?;
         let t = model.analysis.map_or(0.0, |analysis| analysis.from);
         let inputs = own_inputs(&model, t);
-        let system = lower::lower(&model);
+        let system = lowered(&model);
         let drawn = |system: &ConstraintSystem| -> Vec<f64> {
             system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect()
         };

@@ -17,6 +17,7 @@ mod imported;
 mod known;
 mod lead;
 mod lines;
+mod lowered;
 mod outputs;
 mod parsed;
 mod run;

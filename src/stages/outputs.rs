@@ -1,7 +1,7 @@
 //! A mechanism without those of its outputs that are wrong: what is measured and told has no part in how it moves.
 
 use super::{Checked, Choice};
-use crate::diag::{Diagnostic, Severity};
+use crate::diag::Diagnostic;
 use crate::source::Span;
 use crate::syntax::ast::{Item, ItemKind};
 use crate::world::World;
@@ -42,7 +42,7 @@ impl Checked {
 
     /// The places of the outputs that are wrong; nothing where anything else is, or nothing at all.
     fn wrong_outputs(&self) -> Option<BTreeSet<Span>> {
-        let errors = self.diagnostics().iter().filter(|said| said.severity() == Severity::Error);
+        let errors = self.diagnostics().iter().filter(|said| said.is_error());
         let places: Option<BTreeSet<Span>> = errors.map(|error| self.output_of(error)).collect();
         places.filter(|places| !places.is_empty())
     }

@@ -2,9 +2,10 @@
 
 use super::Compiled;
 use super::used_at::UsedAt;
-use crate::analysis::{self, Answers, Asked, ColumnUnit, Horizon, LeadOptions, Motion, Started, Times};
+use crate::analysis::{self, Answers, Asked, Horizon, LeadOptions, Motion, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::layout::ColumnUnit;
 use crate::program::Program;
 use crate::structure::Determined;
 use std::sync::Arc;

@@ -1,11 +1,13 @@
 //! What there is to see of a mechanism: its scene, its motion as a table, its texts. The one door to those who draw.
 
+use super::lowered::lowered;
 use super::run::{Run, RunOptions};
 use super::{Checked, Compiled};
-use crate::analysis::{self, ColumnKind, ColumnUnit, FreeMotion, Horizon, Times};
+use crate::analysis::{self, FreeMotion, Horizon, Times};
 use crate::check::{self, Library};
-use crate::diag::{Code, Diagnostic, Diagnostics, Severity};
-use crate::lower;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::ir::{BodyId, ConstraintSystem};
+use crate::layout::{self, Column, ColumnKind, ColumnUnit};
 use crate::model::Mechanism;
 use crate::scene::{Declaration, Faults, Joints, Length, Motion, Pose, Scene, drawn_poses};
 use crate::source::{FileId, Span};
@@ -74,7 +76,7 @@ impl Checked {
         let motion = if found.kept.is_empty() {
             Motion::still(drawn_poses(model))
         } else {
-            Motion::of_rows(model.bodies.len(), &columns, found.kept, found.edges)
+            Motion::of_rows(&compiled.columns_of_poses(), &columns, found.kept, found.edges)
         };
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
@@ -83,7 +85,7 @@ impl Checked {
         let results =
             compiled.results().into_iter().zip(values).map(|((name, unit), value)| (name, unit, value)).collect();
         let (all_rows, stopped, texts) = (found.all, found.stopped, self.texts());
-        let kinds = analysis::kinds(compiled.system());
+        let kinds = layout::columns(compiled.system()).into_iter().map(|column| column.kind).collect();
         (
             Some(Seen { scene, motion, columns, units, kinds, all_rows, stopped, said: said.clone(), results, texts }),
             said,
@@ -111,11 +113,11 @@ impl Checked {
         said: &Diagnostics,
     ) -> Option<Seen> {
         let model = self.model()?;
-        let lowered = if compiled.is_none() { Some(lower::lower(model)) } else { None };
+        let lowered = if compiled.is_none() { Some(lowered(model)) } else { None };
         let system = compiled.map(Compiled::system).or(lowered.as_ref())?;
         let nearest = compiled.and_then(|compiled| compiled.nearest(t, options));
         let joints = if nearest.is_some() { Joints::Open } else { Joints::Drawn };
-        let motion = Motion::still(nearest.map_or_else(|| drawn_poses(model), |q| poses(model, &q)));
+        let motion = Motion::still(nearest.map_or_else(|| drawn_poses(model), |q| poses(system, &q)));
         let mut scene = Scene::of(model, &motion);
         self.widen_places(&mut scene);
         let is_left_free = said.iter().any(|said| matches!(said.code, Code::E0502 | Code::E0503));
@@ -135,13 +137,19 @@ impl Checked {
         named.dedup();
         let faults = Faults { named, free, joints, lengths };
         scene.show_faults(model, &motion, &faults);
-        let results = analysis::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
+        let results = layout::results(system).into_iter().map(|(name, unit)| (name, unit, None)).collect();
+        let (mut columns, mut units, mut kinds) = (Vec::new(), Vec::new(), Vec::new());
+        for Column { name, unit, kind } in layout::columns(system) {
+            columns.push(name);
+            units.push(unit);
+            kinds.push(kind);
+        }
         Some(Seen {
             scene,
             motion,
-            columns: analysis::columns(system),
-            units: analysis::units(system),
-            kinds: analysis::kinds(system),
+            columns,
+            units,
+            kinds,
             all_rows: 0,
             stopped: None,
             said: said.clone(),
@@ -159,11 +167,12 @@ impl Checked {
         options: &RunOptions,
     ) -> (Option<(Motion, Option<Diagnostic>)>, Diagnostics) {
         let (run, mut said) = compiled.run(times, options);
-        let (Some(run), Some(model)) = (run, self.model()) else { return (None, said) };
+        let Some(run) = run else { return (None, said) };
         let columns = run.columns().to_vec();
         let found = rows(run, usize::MAX);
         said.extend(found.said);
-        (Some((Motion::of_rows(model.bodies.len(), &columns, found.kept, found.edges), found.stopped)), said)
+        let motion = Motion::of_rows(&compiled.columns_of_poses(), &columns, found.kept, found.edges);
+        (Some((motion, found.stopped)), said)
     }
 
     /// Declarations have the places of their names; here they get those of all that is written of them.
@@ -226,15 +235,17 @@ fn rows(mut run: Run, most: usize) -> Rows {
 }
 
 /// Where frames are by the coordinates [m, rad], the ground first.
-fn poses(model: &Mechanism, q: &[f64]) -> Vec<Pose> {
-    let of_body = |body: &[f64]| Pose { at: [body[0], body[1]], phi: body[2] };
-    let bodies = q.chunks_exact(3).take(model.bodies.len()).map(of_body);
-    std::iter::once(Pose::default()).chain(bodies).collect()
+fn poses(system: &ConstraintSystem, q: &[f64]) -> Vec<Pose> {
+    let of_body = |body: BodyId| {
+        let [x, y, phi] = system.pose_of(body).map(|coordinate| q[coordinate]);
+        Pose { at: [x, y], phi }
+    };
+    std::iter::once(Pose::default()).chain(system.bodies.ids().map(of_body)).collect()
 }
 
 /// A free motion as one of frames, of which the ground is the first.
 fn of_frames(motion: &FreeMotion) -> Vec<(usize, Pose)> {
-    let of_body = |&(body, [x, y, phi]): &(usize, [f64; 3])| (body + 1, Pose { at: [x, y], phi });
+    let of_body = |&(body, [x, y, phi]): &(BodyId, [f64; 3])| (body.index() + 1, Pose { at: [x, y], phi });
     motion.bodies.iter().map(of_body).collect()
 }
 
@@ -272,7 +283,7 @@ fn blamed_length(scene: &Scene, told: &serde_json::Value) -> Option<Length> {
 /// The declarations that errors name: those that they call redundant, else those that their places are in.
 fn named<'d>(scene: &Scene, said: impl Iterator<Item = &'d Diagnostic>) -> Vec<usize> {
     let mut named: Vec<usize> = Vec::new();
-    for error in said.filter(|said| said.severity() == Severity::Error) {
+    for error in said.filter(|said| said.is_error()) {
         let redundant =
             error.data.get("redundant").and_then(|names| names.as_array()).filter(|names| !names.is_empty());
         match redundant {

@@ -1,10 +1,10 @@
 //! A mechanism once more, with its inputs as signals: made from its text when somebody asks for it.
 
 use super::Parsed;
+use super::lowered::lowered;
 use crate::check::{self, Surroundings};
 use crate::diag::Diagnostics;
 use crate::ir::ConstraintSystem;
-use crate::lower;
 use std::sync::Arc;
 
 /// What it takes to have a mechanism once more, with its inputs as signals.
@@ -25,6 +25,6 @@ impl WithSignals {
     pub fn system(&self) -> Result<ConstraintSystem, Diagnostics> {
         let tree = &self.parsed.tree().mechanisms[self.number];
         let (model, said) = check::check(tree, &self.surroundings, self.parsed.sources());
-        model.as_ref().map(lower::lower).ok_or(said)
+        model.as_ref().map(lowered).ok_or(said)
     }
 }

@@ -3,7 +3,10 @@
 use super::Part;
 use super::count::table;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, Owner};
+use crate::ir::{
+    AskingPart, ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, Owner,
+    PointId,
+};
 use rustc_hash::FxHashMap;
 
 /// Names that one message lists before it stops.
@@ -44,10 +47,9 @@ pub fn count(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diag
 }
 
 /// Two joints of one kind at the same points.
-fn said_twice(system: &ConstraintSystem) -> Option<[usize; 2]> {
-    let mut known: FxHashMap<(DeclarationKind, Vec<usize>), usize> = FxHashMap::default();
-    let joints =
-        system.declarations.iter().enumerate().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
+fn said_twice(system: &ConstraintSystem) -> Option<[DeclarationId; 2]> {
+    let mut known: FxHashMap<(DeclarationKind, Vec<PointId>), DeclarationId> = FxHashMap::default();
+    let joints = system.declarations.pairs().filter(|(_, one)| matches!(one.kind, DeclarationKind::Joint(_)));
     for (k, joint) in joints.filter(|(_, joint)| joint.points.len() == 2) {
         let mut points = joint.points.clone();
         points.sort_unstable();
@@ -66,8 +68,8 @@ fn free_quantities(system: &ConstraintSystem, free: &[u32]) -> Vec<String> {
         let rows = first_row..first_row + declaration.rows;
         first_row = rows.end;
         let wanted = match declaration.kind {
-            DeclarationKind::Joint("revolute") => CoordinateKind::Angle,
-            DeclarationKind::Joint("translational") => CoordinateKind::Length,
+            DeclarationKind::Joint(JointKind::Revolute) => CoordinateKind::Angle,
+            DeclarationKind::Joint(JointKind::Translational) => CoordinateKind::Length,
             _ => continue,
         };
         // a pin at a body's origin leaves its angle out of the equations, but it is what turns
@@ -148,7 +150,8 @@ pub fn structure(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> 
 
 /// The declarations among whose equations there is one too many.
 fn competing<'s>(system: &'s ConstraintSystem, too_many: &Part) -> Vec<&'s Declaration> {
-    let mut declarations: Vec<usize> = too_many.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
+    let mut declarations: Vec<DeclarationId> =
+        too_many.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
     declarations.dedup();
     declarations.into_iter().map(|k| &system.declarations[k]).collect()
 }

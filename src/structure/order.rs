@@ -1,7 +1,7 @@
 //! The order of solution in words: which bodies follow from which equations, and which are solved for together.
 
 use super::Determined;
-use crate::ir::{ConstraintSystem, Owner};
+use crate::ir::{ConstraintSystem, DeclarationId, Owner};
 use rustc_hash::FxHashMap;
 use std::collections::BTreeSet;
 
@@ -67,15 +67,12 @@ impl Planner {
             }
         }
         let (mut group, mut members): (Vec<usize>, Vec<Vec<usize>>) = (Vec::new(), Vec::new());
-        let mut group_of_owner = FxHashMap::<(bool, usize), usize>::default();
+        let mut group_of_owner = FxHashMap::<Owner, usize>::default();
         let (mut needs, mut needed_by) = (Vec::new(), vec![Vec::new(); blocks.len()]);
         for (number, block) in blocks.iter().enumerate() {
             let chosen = match block.columns.as_slice() {
                 [column] => {
-                    let owner = match system.coordinates[*column as usize].owner {
-                        Owner::Body(body) => (true, body),
-                        Owner::Joint(joint) => (false, joint),
-                    };
+                    let owner = system.coordinates[*column as usize].owner;
                     *group_of_owner.entry(owner).or_insert(members.len())
                 }
                 _ => members.len(),
@@ -167,7 +164,8 @@ pub fn order_of_solution(determined: &Determined) -> String {
     let width = heads.iter().map(|(head, _)| head.chars().count()).max().unwrap_or(0);
     let mut text = String::new();
     for ((head, count), step) in heads.iter().zip(shown) {
-        let mut equations: Vec<usize> = step.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
+        let mut equations: Vec<DeclarationId> =
+            step.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
         equations.sort_unstable();
         equations.dedup();
         let equations: Vec<&str> = equations.into_iter().map(|k| system.declarations[k].name.as_str()).collect();

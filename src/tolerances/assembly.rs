@@ -1,6 +1,6 @@
 //! Assembly, and the way to a start.
 
-/// Estimates of contacts (`lower/estimates.rs`).
+/// Estimates of contacts (`estimates.rs`).
 pub mod estimates {
     /// Places on one turn that are looked at for one argument.
     pub const PLACES: usize = 720;

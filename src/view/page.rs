@@ -215,7 +215,7 @@ mod tests {
         let columns = ["t", "b.x", "b.y", "b.phi"].map(str::to_owned);
         let row =
             |k: u32| vec![f64::from(k) * 0.1, f64::from(k.wrapping_mul(2_654_435_761)), f64::NAN, f64::from(k) / 3.0];
-        Motion::of_rows(1, &columns, (0..rows).map(row).collect(), vec![0.25])
+        Motion::of_rows(&[[[1, 2, 3], [4, 5, 6], [7, 8, 9]]], &columns, (0..rows).map(row).collect(), vec![0.25])
     }
 
     /// The page of a motion, and the data in it.

@@ -2,7 +2,44 @@
 
 use super::{Category, Example, Word};
 
-/// A kind of joint.
+/// The kinds of joints.
+#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
+#[allow(missing_docs)] // `JOINTS` says what each is
+pub enum JointKind {
+    Revolute,
+    Translational,
+    Weld,
+    RevoluteRevolute,
+    RevoluteTranslational,
+    Gear,
+    InternalGear,
+    RackPinion,
+    PointFollower,
+    Cam,
+    FlatFollower,
+}
+
+impl JointKind {
+    /// The word of the language.
+    #[must_use]
+    pub const fn word(self) -> &'static str {
+        match self {
+            JointKind::Revolute => "revolute",
+            JointKind::Translational => "translational",
+            JointKind::Weld => "weld",
+            JointKind::RevoluteRevolute => "revolute_revolute",
+            JointKind::RevoluteTranslational => "revolute_translational",
+            JointKind::Gear => "gear",
+            JointKind::InternalGear => "internal_gear",
+            JointKind::RackPinion => "rack_pinion",
+            JointKind::PointFollower => "point_follower",
+            JointKind::Cam => "cam",
+            JointKind::FlatFollower => "flat_follower",
+        }
+    }
+}
+
+/// What is told of a kind of joint.
 #[derive(Debug)]
 pub struct JointWord {
     /// What is told of it.
@@ -32,7 +69,7 @@ pub const NOTATION: &str = "Here i is the body of the first argument and j that 
 pub static JOINTS: &[JointWord] = &[
     JointWord {
         word: Word {
-            name: "revolute",
+            name: JointKind::Revolute.word(),
             category: Category::Joint,
             forms: &["revolute(P, Q)"],
             letters: "",
@@ -46,7 +83,7 @@ pub static JOINTS: &[JointWord] = &[
     },
     JointWord {
         word: Word {
-            name: "translational",
+            name: JointKind::Translational.word(),
             category: Category::Joint,
             forms: &["translational(a, b)"],
             letters: "a and b axes",
@@ -70,7 +107,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
     },
     JointWord {
         word: Word {
-            name: "weld",
+            name: JointKind::Weld.word(),
             category: Category::Joint,
             forms: &["weld(P, Q)", "weld(P, Q, angle)"],
             letters: "",
@@ -99,7 +136,7 @@ driver motor: rotation(main) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "revolute_revolute",
+            name: JointKind::RevoluteRevolute.word(),
             category: Category::Joint,
             forms: &["revolute_revolute(P, Q, length)"],
             letters: "",
@@ -131,7 +168,7 @@ driver motor: rotation(main) = 90 deg + 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "revolute_translational",
+            name: JointKind::RevoluteTranslational.word(),
             category: Category::Joint,
             forms: &["revolute_translational(P, a)", "revolute_translational(P, a, offset)"],
             letters: "",
@@ -163,7 +200,7 @@ driver motor: rotation(main) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "gear",
+            name: JointKind::Gear.word(),
             category: Category::Joint,
             forms: &["gear(c, d)", "gear(c, d, phase)"],
             letters: "c and d circles",
@@ -197,7 +234,7 @@ driver motor: rotation(axle) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "internal_gear",
+            name: JointKind::InternalGear.word(),
             category: Category::Joint,
             forms: &["internal_gear(c, d)", "internal_gear(c, d, phase)"],
             letters: "c and d circles",
@@ -231,7 +268,7 @@ driver motor: rotation(axle) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "rack_pinion",
+            name: JointKind::RackPinion.word(),
             category: Category::Joint,
             forms: &["rack_pinion(c, a)", "rack_pinion(c, a, phase)", "rack_pinion(c, a, phase, left)"],
             letters: "c a circle and a an axis",
@@ -264,7 +301,7 @@ driver motor: rotation(axle) = 30 deg/s * t",
     },
     JointWord {
         word: Word {
-            name: "point_follower",
+            name: JointKind::PointFollower.word(),
             category: Category::Joint,
             forms: &["point_follower(P, k)"],
             letters: "k a curve or circle",
@@ -296,7 +333,7 @@ driver motor: rotation(axle) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "cam",
+            name: JointKind::Cam.word(),
             category: Category::Joint,
             forms: &["cam(k, m)"],
             letters: "k and m curves or circles",
@@ -332,7 +369,7 @@ driver motor: rotation(axle) = 60 rpm * t",
     },
     JointWord {
         word: Word {
-            name: "flat_follower",
+            name: JointKind::FlatFollower.word(),
             category: Category::Joint,
             forms: &["flat_follower(k, a)"],
             letters: "k a curve or circle and a an axis",

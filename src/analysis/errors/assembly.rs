@@ -5,7 +5,7 @@ use crate::analysis::assembly::Moved;
 use crate::analysis::branches::{Doubt, Off};
 use crate::analysis::open_loop::{Link, LinkOf, OpenLoop};
 use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
-use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationKind, Fit};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Fit, JointKind};
 use crate::math;
 use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
 use serde_json::{Value, json};
@@ -32,7 +32,7 @@ pub fn open_loop(system: &ConstraintSystem, open: &OpenLoop, t: f64) -> Diagnost
         .datum("t", t)
         .datum("residual", open.residual)
         .datum("lengths", open.links.iter().map(|link| link_as_data(system, link)).collect::<Vec<_>>());
-    let others: Vec<usize> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
+    let others: Vec<DeclarationId> = open.declarations.iter().copied().filter(|&k| k != open.at).collect();
     diagnostic = with_places(diagnostic, system, &others, ["beside this", "the loop goes through these"]);
     for (too_short, what) in [(true, "too short"), (false, "too long")] {
         let links = open.links.iter().filter(|link| link.too_short == too_short);
@@ -158,17 +158,15 @@ pub fn far_estimates(
 /// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
 fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
     let mut edits = Vec::new();
-    for (k, body) in system.bodies.iter().enumerate() {
-        let own: Vec<usize> =
-            (0..system.coordinates.len()).filter(|&column| system.body_of(column) == Some(k)).collect();
+    for (id, body) in system.bodies.pairs() {
+        let pose @ [x, y, phi] = system.pose_of(id);
         let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates[column].scale;
-        let [x, y, phi] = own.as_slice() else { continue };
-        if !own.iter().any(has_moved) {
+        if !pose.iter().any(has_moved) {
             continue;
         }
         let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
-        let [x, y] = [x, y].map(|&column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
-        let phi = if to[*phi].abs() < 1e-12 { 0.0 } else { nine(to[*phi].to_degrees()) };
+        let [x, y] = [x, y].map(|column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[phi].abs() < 1e-12 { 0.0 } else { nine(to[phi].to_degrees()) };
         let pose = format!("({x} mm, {y} mm, {phi} deg)");
         let written = match body.pose_span {
             Some(span) => Fix::replace(span, pose, "", Applies::Probably),
@@ -198,8 +196,8 @@ pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option
         );
     }
     let (what, why, other) = match joint.kind {
-        DeclarationKind::Joint("gear") => ("centres", "the sum of the radii", Some("internal_gear")),
-        DeclarationKind::Joint("internal_gear") => ("centres", "the difference of the radii", Some("gear")),
+        DeclarationKind::Joint(JointKind::Gear) => ("centres", "the sum of the radii", Some("internal_gear")),
+        DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
         _ => ("centre and axis", "the radius", None),
     };
     // the sum of the radii, of gears whose difference was asked for, and the other way round

@@ -4,7 +4,7 @@ use super::{LISTED, at, degrees, gap_kind, length, with_places};
 use crate::analysis::freedom::Freedom;
 use crate::analysis::redundancy::Dependent;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, JointKind, PointId};
 
 /// Equations that depend on others: a message for each declaration that wrote them.
 pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnostics {
@@ -21,7 +21,10 @@ pub fn too_many(system: &ConstraintSystem, dependents: &[Dependent]) -> Diagnost
 
 /// The groups of dependent rows by declaration, each with the drivers that have nothing left to move because of it: they
 /// are not told by themselves.
-fn told_together<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) -> Vec<(&'d [Dependent], Vec<usize>)> {
+fn told_together<'d>(
+    system: &ConstraintSystem,
+    dependents: &'d [Dependent],
+) -> Vec<(&'d [Dependent], Vec<DeclarationId>)> {
     let groups = by_declaration(system, dependents);
     let reason_of = |group: &[Dependent]| {
         let on = depends_on(system, group);
@@ -44,11 +47,11 @@ fn by_declaration<'d>(system: &ConstraintSystem, dependents: &'d [Dependent]) ->
 }
 
 /// The declaration of a group of rows of one declaration.
-fn declaration_of(system: &ConstraintSystem, group: &[Dependent]) -> usize {
-    group.first().map_or(0, |one| system.rows[one.row].declaration)
+fn declaration_of(system: &ConstraintSystem, group: &[Dependent]) -> DeclarationId {
+    system.rows[group[0].row].declaration
 }
 
-fn is_driver(system: &ConstraintSystem, declaration: usize) -> bool {
+fn is_driver(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
     system.declarations[declaration].kind == DeclarationKind::Driver
 }
 
@@ -60,16 +63,16 @@ fn is_stuck(system: &ConstraintSystem, group: &[Dependent]) -> bool {
 }
 
 /// The declarations that a group of rows of one declaration depends on, in order.
-fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<usize> {
+fn depends_on(system: &ConstraintSystem, group: &[Dependent]) -> Vec<DeclarationId> {
     let own = declaration_of(system, group);
     let rows = group.iter().flat_map(|one| &one.on).map(|&row| system.rows[row].declaration);
-    let mut declarations: Vec<usize> = rows.filter(|&declaration| declaration != own).collect();
+    let mut declarations: Vec<DeclarationId> = rows.filter(|&declaration| declaration != own).collect();
     declarations.sort_unstable();
     declarations.dedup();
     declarations
 }
 
-fn count_data(diagnostic: Diagnostic, system: &ConstraintSystem, declaration: usize) -> Diagnostic {
+fn count_data(diagnostic: Diagnostic, system: &ConstraintSystem, declaration: DeclarationId) -> Diagnostic {
     let (n, m) = (system.coordinates.len(), system.rows.len());
     diagnostic
         .note(format!("{n} coordinates, {m} equations: NDOF = {}", system.ndof()))
@@ -90,7 +93,7 @@ fn headline_of_redundant(system: &ConstraintSystem, group: &[Dependent]) -> Stri
 }
 
 /// Where drivers are stuck it is by this that nothing can move.
-fn redundant(system: &ConstraintSystem, group: &[Dependent], stuck: &[usize]) -> Diagnostic {
+fn redundant(system: &ConstraintSystem, group: &[Dependent], stuck: &[DeclarationId]) -> Diagnostic {
     let on = depends_on(system, group);
     let index = declaration_of(system, group);
     let declaration = &system.declarations[index];
@@ -122,27 +125,29 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
         return whole;
     }
     match declaration.kind {
-        DeclarationKind::Joint("revolute") => sliding_pin(system, index).unwrap_or_else(|| {
+        DeclarationKind::Joint(JointKind::Revolute) => sliding_pin(system, index).unwrap_or_else(|| {
             format!(
                 "let the pin of `{name}` slide along the line between the pins of its link: \
                  `joint {name}: revolute_translational(P, axis)`, with an axis along that line"
             )
         }),
-        DeclarationKind::Joint("translational") => match (gap_kind(system, one.row), declaration.axes.as_slice()) {
-            (CoordinateKind::Length, [a, b]) => {
-                format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
-            }
-            (_, [_, b]) if system.point_name(declaration.points[0]).is_some() => format!(
-                "let `{name}` hold a point on the axis, and not the angle too: \
+        DeclarationKind::Joint(JointKind::Translational) => {
+            match (gap_kind(system, one.row), declaration.axes.as_slice()) {
+                (CoordinateKind::Length, [a, b]) => {
+                    format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
+                }
+                (_, [_, b]) if system.point_name(declaration.points[0]).is_some() => format!(
+                    "let `{name}` hold a point on the axis, and not the angle too: \
                  `joint {name}: revolute_translational({}, {b})`",
-                system.point_name(declaration.points[0]).unwrap_or_default()
-            ),
-            _ => format!(
-                "let `{name}` hold a point on the axis, and not the angle too: \
+                    system.point_name(declaration.points[0]).unwrap_or_default()
+                ),
+                _ => format!(
+                    "let `{name}` hold a point on the axis, and not the angle too: \
                  `joint {name}: revolute_translational(P, axis)`"
-            ),
-        },
-        DeclarationKind::Joint("weld") => {
+                ),
+            }
+        }
+        DeclarationKind::Joint(JointKind::Weld) => {
             let names: Option<Vec<String>> = declaration.points.iter().map(|&k| system.point_name(k)).collect();
             let points = names.map_or("P, Q".to_owned(), |names| names.join(", "));
             format!("let `{name}` hold the point, and not the angle too: `joint {name}: revolute({points})`")
@@ -152,17 +157,17 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
 }
 
 /// A link of two pins, one of which is a redundant joint: its length is what says nothing new, so let the pin slide along it.
-fn sliding_pin(system: &ConstraintSystem, index: usize) -> Option<String> {
+fn sliding_pin(system: &ConstraintSystem, index: DeclarationId) -> Option<String> {
     let joint = &system.declarations[index];
     let &[p, q] = joint.points.as_slice() else {
         return None;
     };
     [(p, q), (q, p)].into_iter().find_map(|(own, other)| {
         let body = system.points[own].body?;
-        let on_body = |point: &&usize| system.points[**point].body == Some(body);
-        let pins: Vec<usize> =
+        let on_body = |point: &&PointId| system.points[**point].body == Some(body);
+        let pins: Vec<PointId> =
             system.declarations.iter().filter_map(|one| one.points.iter().find(on_body)).copied().collect();
-        let &[far] = pins.iter().copied().filter(|&pin| pin != own).collect::<Vec<usize>>().as_slice() else {
+        let &[far] = pins.iter().copied().filter(|&pin| pin != own).collect::<Vec<PointId>>().as_slice() else {
             return None;
         };
         let (body, from, to) =
@@ -208,7 +213,7 @@ fn headline_of_conflict(system: &ConstraintSystem, group: &[Dependent]) -> Strin
 }
 
 /// Joints, constraints and drivers by their names.
-fn by_kinds(system: &ConstraintSystem, declarations: &[usize]) -> String {
+fn by_kinds(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String {
     let kinds =
         declarations.chunk_by(|&a, &b| system.declarations[a].kind.noun() == system.declarations[b].kind.noun());
     let parts: Vec<String> = kinds
@@ -276,7 +281,8 @@ pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &
 /// Equations too many beside coordinates that nothing fixes.
 pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent], freedom: &Freedom) -> Diagnostic {
     let groups = told_together(system, dependents);
-    let faults: Vec<(usize, String, String)> = groups.iter().map(|(group, _)| fault_of(system, group)).collect();
+    let faults: Vec<(DeclarationId, String, String)> =
+        groups.iter().map(|(group, _)| fault_of(system, group)).collect();
     let left = match freedom.degrees() {
         1 => "1 degree of freedom is left".to_owned(),
         n => format!("{n} degrees of freedom are left"),
@@ -292,8 +298,8 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
         let span = system.declarations[*declaration].span;
         diagnostic = if k == 0 { diagnostic.at(span, label) } else { diagnostic.also(span, label) };
     }
-    let named: Vec<usize> = faults.iter().map(|fault| fault.0).collect();
-    let on: Vec<usize> =
+    let named: Vec<DeclarationId> = faults.iter().map(|fault| fault.0).collect();
+    let on: Vec<DeclarationId> =
         groups.iter().flat_map(|(group, _)| depends_on(system, group)).filter(|k| !named.contains(k)).collect();
     let is_conflict = groups.iter().any(|(group, _)| group.iter().any(|one| one.open.is_some()));
     let label = if is_conflict {
@@ -321,7 +327,8 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
     for help in freedom.helps() {
         diagnostic = diagnostic.help(help);
     }
-    let names = |list: Vec<usize>| list.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
+    let names =
+        |list: Vec<DeclarationId>| list.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
     let free = freedom.moving().iter().map(|&body| system.bodies[body].name.clone()).collect::<Vec<String>>();
     diagnostic
         .drives(freedom.drives().to_vec())
@@ -333,7 +340,7 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
 }
 
 /// The declaration of a group of dependent rows, what is the matter with it, and a word beside its place.
-fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> (usize, String, String) {
+fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> (DeclarationId, String, String) {
     let index = declaration_of(system, group);
     let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
     match widest {

@@ -13,7 +13,7 @@ pub(super) use results::*;
 pub(super) use singularity::*;
 
 use crate::diag::{Diagnostic, readable};
-use crate::ir::{ConstraintSystem, CoordinateKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, DeclarationId};
 
 /// Labels of one message at most.
 const LISTED: usize = 8;
@@ -68,7 +68,7 @@ fn named(system: &ConstraintSystem, row: usize) -> String {
 }
 
 /// `joint `contact``, `driver `motor` and `brake``.
-fn named_all(system: &ConstraintSystem, declarations: &[usize]) -> String {
+fn named_all(system: &ConstraintSystem, declarations: &[DeclarationId]) -> String {
     let names: Vec<String> = declarations
         .iter()
         .take(LISTED)
@@ -87,7 +87,7 @@ pub fn gap_kind(system: &ConstraintSystem, row: usize) -> CoordinateKind {
 fn with_places(
     mut diagnostic: Diagnostic,
     system: &ConstraintSystem,
-    declarations: &[usize],
+    declarations: &[DeclarationId],
     [of_one, of_all]: [&str; 2],
 ) -> Diagnostic {
     for (k, &declaration) in declarations.iter().take(LISTED).enumerate() {

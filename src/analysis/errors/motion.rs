@@ -4,7 +4,7 @@ use super::{at, ceases_to_hold, in_units, named_all, no_contact, short, with_pla
 use crate::analysis::kinematics::Fault;
 use crate::diag::{Code, Diagnostic};
 use crate::expr::TableId;
-use crate::ir::{ConditionKind, ConstraintSystem, DeclarationKind};
+use crate::ir::{ConditionKind, ConstraintSystem, DeclarationId, DeclarationKind, JointKind};
 
 /// Columns that one message names at most.
 const MOST_COLUMNS: usize = 12;
@@ -23,7 +23,7 @@ pub fn no_value(system: &ConstraintSystem, fault: Fault, t: f64) -> Diagnostic {
 }
 
 /// A formula of some declarations that has no value, or a derivative that has none.
-pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[usize], t: f64) -> Diagnostic {
+pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[DeclarationId], t: f64) -> Diagnostic {
     let named = named_all(system, declarations);
     let message = format!("the formula of {named} or a derivative of it is not finite at {}", at(t));
     with_places(Diagnostic::new(Code::E0605, message), system, declarations, ["infinite or not a number"; 2])
@@ -31,8 +31,8 @@ pub fn formula_not_finite(system: &ConstraintSystem, declarations: &[usize], t: 
 }
 
 /// Whether a declaration is a contact that needs a tangent of its curve.
-pub fn has_tangent(system: &ConstraintSystem, declaration: usize) -> bool {
-    matches!(system.declarations[declaration].kind, DeclarationKind::Joint("cam" | "flat_follower"))
+pub fn has_tangent(system: &ConstraintSystem, declaration: DeclarationId) -> bool {
+    matches!(system.declarations[declaration].kind, DeclarationKind::Joint(JointKind::Cam | JointKind::FlatFollower))
 }
 
 /// A warning that a measure has no value in some rows, the first of them at `t` (s).
@@ -103,14 +103,12 @@ fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
 /// It is a corner if only the tangents of a contact do not agree.
 pub fn position_jump(
     system: &ConstraintSystem,
-    behind: &[usize],
+    behind: &[DeclarationId],
     is_corner: bool,
     (column, by): (usize, f64),
     t: f64,
 ) -> Diagnostic {
-    let is_contact =
-        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
-    if let Some(&joint) = behind.iter().find(|k| is_corner && is_contact(k)) {
+    if let Some(&joint) = behind.iter().find(|&&k| is_corner && has_tangent(system, k)) {
         let joint = &system.declarations[joint];
         let message = format!("the contact of `{}` comes to a corner of its curve at {}", joint.name, at(t));
         return Diagnostic::new(Code::E0609, message)
@@ -128,7 +126,7 @@ pub fn position_jump(
 /// A velocity that would have to change in no time.
 pub fn velocity_jump(
     system: &ConstraintSystem,
-    behind: &[usize],
+    behind: &[DeclarationId],
     column: usize,
     [before, after]: [f64; 2],
     t: f64,
@@ -142,15 +140,18 @@ pub fn velocity_jump(
 }
 
 /// An acceleration that has two values at one time.
-pub fn acceleration_jump(system: &ConstraintSystem, behind: &[usize], columns: &[String], t: f64) -> Diagnostic {
+pub fn acceleration_jump(
+    system: &ConstraintSystem,
+    behind: &[DeclarationId],
+    columns: &[String],
+    t: f64,
+) -> Diagnostic {
     let message = format!("the acceleration of {} jumps at {}", named_all(system, behind), at(t));
     let mut shown: Vec<String> = columns.iter().take(MOST_COLUMNS).map(|name| format!("`{name}`")).collect();
     if columns.len() > MOST_COLUMNS {
         shown.push(format!("{} more", columns.len() - MOST_COLUMNS));
     }
-    let of_contact =
-        |k: &usize| matches!(system.declarations[*k].kind, DeclarationKind::Joint("cam" | "flat_follower"));
-    let help = if behind.iter().any(of_contact) {
+    let help = if behind.iter().any(|&k| has_tangent(system, k)) {
         "at such a time a row holds the later side; a curve under a cam or flat follower needs a third derivative: `step7`"
     } else {
         "at such a time a row holds the later side; smooth to the acceleration are `step5`, `cycloidal`, `modsine`, `spline`"

@@ -3,7 +3,7 @@
 use super::{at, named, names, owners, with_places};
 use crate::analysis::singular::StartVerdict;
 use crate::diag::{Code, Diagnostic};
-use crate::ir::{ConstraintSystem, DeclarationKind, WatchKind};
+use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, JointKind, WatchKind};
 
 /// A contact where a tangent vanishes, or gears whose centres meet.
 pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
@@ -31,10 +31,10 @@ pub fn no_contact(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic
 }
 
 /// Why a contact is singular, and what to do about it.
-pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: usize) -> Diagnostic {
+pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint: DeclarationId) -> Diagnostic {
     let name = &system.declarations[joint].name;
     match system.declarations[joint].kind {
-        DeclarationKind::Joint("flat_follower") => {
+        DeclarationKind::Joint(JointKind::FlatFollower) => {
             diagnostic.note(format!("at the contact `{name}` the curve is as flat as the face")).help(
                 "a flat face needs a curve that is round all the way it touches it: without hollows and straight parts",
             )
@@ -45,7 +45,13 @@ pub fn equal_curvatures(diagnostic: Diagnostic, system: &ConstraintSystem, joint
     }
 }
 
-pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
+pub fn lock_up(
+    system: &ConstraintSystem,
+    driver: usize,
+    joints: &[DeclarationId],
+    columns: &[usize],
+    t: f64,
+) -> Diagnostic {
     let declaration = system.declaration_of(driver);
     let diagnostic = Diagnostic::new(
         Code::E0602,
@@ -58,7 +64,7 @@ pub fn lock_up(system: &ConstraintSystem, driver: usize, joints: &[usize], colum
         .datum("t", t)
 }
 
-pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
+pub fn bifurcation(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[usize], t: f64) -> Diagnostic {
     let diagnostic = Diagnostic::new(
         Code::E0603,
         format!("two branches of the motion meet at {}, and nothing decides between them", at(t)),
@@ -76,7 +82,13 @@ pub fn bifurcation(system: &ConstraintSystem, joints: &[usize], columns: &[usize
 }
 
 /// A driver that turns back exactly in a dead point.
-pub fn driver_rests(system: &ConstraintSystem, driver: usize, joints: &[usize], t: f64, passed: bool) -> Diagnostic {
+pub fn driver_rests(
+    system: &ConstraintSystem,
+    driver: usize,
+    joints: &[DeclarationId],
+    t: f64,
+    passed: bool,
+) -> Diagnostic {
     let declaration = system.declaration_of(driver);
     let code = if passed { Code::W0602 } else { Code::E0602 };
     let message =
@@ -93,7 +105,7 @@ pub fn driver_rests(system: &ConstraintSystem, driver: usize, joints: &[usize], 
 }
 
 /// A bifurcation beyond which the motion was followed.
-pub fn passed(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t: f64) -> Diagnostic {
+pub fn passed(system: &ConstraintSystem, joints: &[DeclarationId], columns: &[usize], t: f64) -> Diagnostic {
     let message = format!("two branches of the motion meet at {}; the one that continues smoothly was taken", at(t));
     with_places(Diagnostic::new(Code::W0602, message), system, joints, ["this leaves it open", "these leave it open"])
         .note(owners(system, columns, "could have gone either way"))
@@ -101,7 +113,7 @@ pub fn passed(system: &ConstraintSystem, joints: &[usize], columns: &[usize], t:
 }
 
 /// A position whose derivatives are more rounding than digits.
-pub fn uncertain(system: &ConstraintSystem, joints: &[usize], t: f64) -> Diagnostic {
+pub fn uncertain(system: &ConstraintSystem, joints: &[DeclarationId], t: f64) -> Diagnostic {
     let message = format!("the position at {} is too near to a singular one for its accelerations to be known", at(t));
     with_places(
         Diagnostic::new(Code::E0610, message),
@@ -125,7 +137,7 @@ pub fn without_effect(system: &ConstraintSystem, row: usize, t: f64) -> Diagnost
 
 pub fn singular_start(
     system: &ConstraintSystem,
-    joints: &[usize],
+    joints: &[DeclarationId],
     columns: &[usize],
     verdict: StartVerdict,
     t: f64,

@@ -122,7 +122,7 @@ impl Cell {
 impl Formula {
     /// A formula of a graph over the parameters, coordinates and variations of a system.
     pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
-        let has_jerk = system.jerk.is_some();
+        let has_jerk = system.jerk().is_some();
         let dependence = graph.dependence(value);
         let holds_rates = dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some();
         let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);

@@ -51,7 +51,7 @@ impl Smooth {
         let first = system.coordinates.len();
         for (k, &(id, order)) in found.iter().enumerate() {
             known.insert(id, own.symbol(Symbol::Coordinate { index: (first + k) as u32, order }));
-            towers.push(tower(graph, id, order, system.jerk.is_some()));
+            towers.push(tower(graph, id, order, system.jerk().is_some()));
         }
         own.import(graph, &[value], &mut known, Graph::symbol);
         (own, known[&value], Smooth::new(graph, &towers, system))

@@ -20,7 +20,6 @@ use crate::view::dxf;
 use crate::view::svg::{self, Options, Plot};
 use form::Form;
 use frames::Frames;
-use std::io::Write;
 use std::mem::ManuallyDrop;
 use std::path::Path;
 
@@ -117,12 +116,7 @@ impl Target<'_> {
 
     fn write(&self, file: Option<Output>, drawn: &Drawn, reporter: &Reporter) -> Result<(), Failure> {
         match (file, &self.frames) {
-            (Some(mut file), _) => {
-                let text = drawn.text(self.form, reporter)?;
-                file.writer().write_all(text.as_bytes()).map_err(|error| file.failure(&error))?;
-                file.close()?;
-                Ok(())
-            }
+            (Some(file), _) => file.close_with_text(&drawn.text(self.form, reporter)?),
             (None, Some(frames)) => drawn.write_frames(frames, reporter),
             (None, None) => Ok(()),
         }
@@ -146,10 +140,7 @@ impl Target<'_> {
         if let Some(why) = why {
             let help = "name a `.svg` or `.html` file to see what is the matter with it";
             said.push(unusable(format!("{}: {why}", self.not_written())).help(help));
-        }
-        let is_drawn = matches!(self.form, Form::Page | Form::Picture);
-        let seen = if is_drawn { checked.seen_at_rest(compiled, at, &said) } else { None };
-        if let Some(mut seen) = seen {
+        } else if let Some(mut seen) = checked.seen_at_rest(compiled, at, &said) {
             self.leave_alone(&mut seen)?;
             let pictured = wanted::pictured(self.arguments, &seen)?;
             self.write(file, &Drawn { seen: &seen, moments: None, pictured: &pictured }, reporter)?;
@@ -229,15 +220,10 @@ fn moments(
 ) -> Result<(Motion, Option<Diagnostic>), Failure> {
     // what there is to remark has been said of the whole motion
     let (found, said) = checked.moments(compiled, times, options);
-    let Some((motion, stopped)) = found else { return Err(said.into()) };
-    let last = seen.motion.len().saturating_sub(1);
-    match seen.motion.times.get(last) {
+    let Some((mut motion, stopped)) = found else { return Err(said.into()) };
+    if stopped.is_some() && motion.times.last() < seen.motion.times.last() {
         // it is shown up to where it stops
-        Some(last) if stopped.is_some() && motion.times.last().is_none_or(|shown| shown < last) => {
-            let shown = motion.times.iter().copied().chain([*last]).collect();
-            let (found, _) = checked.moments(compiled, &Times::listed(times.from(), shown), options);
-            Ok((found.map_or(motion, |(motion, _)| motion), stopped))
-        }
-        _ => Ok((motion, stopped)),
+        motion.append_last(&seen.motion);
     }
+    Ok((motion, stopped))
 }

@@ -1,6 +1,6 @@
 //! The page of what was seen: what each room knows, put together.
 
-use crate::analysis::{ColumnKind, ColumnUnit};
+use crate::layout::{ColumnKind, ColumnUnit};
 use crate::source::Sources;
 use crate::stages::Seen;
 use crate::view::page::{Column, Page, Variant, Vary};

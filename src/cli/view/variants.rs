@@ -9,12 +9,11 @@ use crate::cli::input;
 use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
 use crate::cli::times::Bounds;
-use crate::diag::{Diagnostic, Diagnostics, Severity};
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::scene::{Motion, Pose, bounds};
 use crate::source::Sources;
 use crate::stages::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};
 use crate::view::page::{LONGEST, Variant, Vary};
-use std::io::Write;
 use std::mem::ManuallyDrop;
 
 /// So many numbers all tables have together at the most, which is more than goes into a page; the rest need not be kept.
@@ -28,19 +27,18 @@ pub(super) fn view(arguments: &ViewArguments, output: &str, reporter: &mut Repor
         reporter.sources = sources;
         said
     })?;
-    let mut file = Output::open(output, &reporter.spared())?;
+    let file = Output::open(output, &reporter.spared())?;
     let solver = Solver { arguments, parsed: &parsed, choice: &choice, world: &world, varied: &varied };
     let (variants, first) = solver.all(reporter)?;
     let text = solver.page(&variants, first, &reporter.sources)?;
-    file.writer().write_all(text.as_bytes()).map_err(|error| file.failure(&error))?;
-    file.close()?;
+    file.close_with_text(&text)?;
     solver.tell(&variants, text.len(), reporter);
     match &variants[first].stopped {
         Some((sources, why)) => {
             reporter.sources = sources.clone();
             let with = solver.settings(first).join(", ");
             let told =
-                why.iter().cloned().map(|why| if is_error(&why) { why.note(format!("with {with}")) } else { why });
+                why.iter().cloned().map(|why| if why.is_error() { why.note(format!("with {with}")) } else { why });
             let mut said = Diagnostics::default();
             said.extend(told);
             Err(said.into())
@@ -198,7 +196,7 @@ impl Solver<'_> {
         if let Some((variant, (_, said))) = why {
             let with = self.settings(variant).join(", ");
             told += &format!("{} of them cannot be shown whole; the first is that with {with}:\n", broken.len());
-            if let Some(error) = said.iter().find(|said| is_error(said)) {
+            if let Some(error) = said.iter().find(|said| said.is_error()) {
                 told += &format!("  {}[{}]: {}\n", error.severity().as_str(), error.code, error.message);
             }
         }
@@ -211,13 +209,9 @@ fn has_moved(seen: &Seen) -> bool {
     !seen.motion.rows().is_empty()
 }
 
-fn is_error(said: &Diagnostic) -> bool {
-    said.severity() == Severity::Error
-}
-
 fn errors_of(said: &Diagnostics) -> Diagnostics {
     let mut errors = Diagnostics::default();
-    for error in said.iter().filter(|said| is_error(said)) {
+    for error in said.iter().filter(|said| said.is_error()) {
         errors.push(error.clone());
     }
     errors

@@ -2,7 +2,7 @@
 
 use crate::cli::arguments::{ThemeChoice, ViewArguments};
 use crate::cli::failure::{Failure, unusable};
-use crate::diag::{Code, Diagnostic, Severity, nearest};
+use crate::diag::{Code, Diagnostic, nearest};
 use crate::scene::{Anchor, Scene};
 use crate::stages::Seen;
 use crate::view::svg::{Options, Theme};
@@ -16,7 +16,7 @@ pub(super) fn pictured(arguments: &ViewArguments, seen: &Seen) -> Result<Options
         ThemeChoice::Dark => Theme::Dark,
     };
     let traces = arguments.trace.iter().map(|path| trace(scene, path)).collect::<Result<Vec<_>, Failure>>()?;
-    let errors = seen.messages().filter(|said| said.severity() == Severity::Error);
+    let errors = seen.messages().filter(|said| said.is_error());
     let said = errors.flat_map(in_lines).collect();
     let ViewArguments { size, scale, vectors, labels, .. } = *arguments;
     Ok(Options { size, scale, theme, traces, vectors, labels, captions: Vec::new(), said })

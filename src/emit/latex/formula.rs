@@ -679,8 +679,8 @@ pub(super) fn coordinate(system: &ConstraintSystem, index: usize, order: u8) -> 
         order => format!(r"\{}ot{{{letter}}}", "d".repeat(usize::from(order))),
     };
     let number = match system.coordinates[index].owner {
-        Owner::Body(body) => body,
-        Owner::Joint(joint) => system.bodies.len() + joint,
+        Owner::Body(body) => body.index(),
+        Owner::Joint(joint) => system.bodies.len() + joint.index(),
     };
     let owner = symbol(system.owner_name(index), Style::Upright, number);
     Set { text: format!("{dotted}_{{{}}}", owner.text), width: 0.7 + 0.72 * owner.width }

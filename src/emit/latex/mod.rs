@@ -8,7 +8,7 @@ mod formula;
 mod letters;
 
 use crate::expr::{ExprId, Node, Table};
-use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationKind};
+use crate::ir::{ConstraintSystem, CoordinateKind, Declaration, DeclarationId, DeclarationKind, IdVec};
 use formula::{Formulas, coordinate, param};
 use letters::{Set, Style, numeral, symbol, words};
 
@@ -74,7 +74,7 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
     let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
     roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
-    roots.extend(system.nu.iter().chain(&system.gamma));
+    roots.extend(system.nu().iter().chain(system.gamma()));
     roots.extend(system.inputs.iter().map(|input| input.formulas[0]));
     roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
     roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
@@ -199,22 +199,20 @@ impl Writer<'_> {
     /// Element by element, in the order of declaration.
     fn equations(&mut self) {
         self.section("Equations");
-        let mut rows = vec![Vec::new(); self.system.declarations.len()];
+        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations.map(|_| Vec::new());
         for (k, row) in self.system.rows.iter().enumerate() {
-            if let Some(list) = rows.get_mut(row.declaration) {
-                list.push(k);
-            }
+            rows[row.declaration].push(k);
         }
-        for (declaration, rows) in self.system.declarations.iter().zip(rows) {
+        for (declaration, rows) in self.system.declarations.iter().zip(&rows) {
             if !rows.is_empty() {
-                self.element(declaration, &rows);
+                self.element(declaration, rows);
             }
         }
     }
 
     fn element(&mut self, declaration: &Declaration, rows: &[usize]) {
         let kind = match declaration.kind {
-            DeclarationKind::Joint(word) => format!("joint, {}", words(word)),
+            DeclarationKind::Joint(kind) => format!("joint, {}", words(kind.word())),
             other => other.noun().to_owned(),
         };
         self.text += &format!("\n\\element{{{}}}{{{kind}}}\n", words(&declaration.name));
@@ -224,8 +222,8 @@ impl Writer<'_> {
         }
         self.terms();
         self.matrix(rows);
-        self.right_sides(r"\nu", rows, &self.system.nu);
-        self.right_sides(r"\gamma", rows, &self.system.gamma);
+        self.right_sides(r"\nu", rows, self.system.nu());
+        self.right_sides(r"\gamma", rows, self.system.gamma());
         self.terms();
     }
 

@@ -1,6 +1,10 @@
 //! What goes along with emitted code, compiled and tested here as it stands.
 
 #![allow(dead_code)] // each mechanism has its part of it
+// halving ends where two times are neighbours, and a piece is a whole number
+#![allow(clippy::float_cmp, clippy::cast_sign_loss)]
+// what an associated type gives is asked for by a closure, which names no trait
+#![allow(clippy::redundant_closure_for_method_calls, clippy::struct_field_names)]
 
 pub mod assemble;
 pub mod branches;
@@ -56,6 +60,7 @@ mod tests;
 
 use crate::emit::limits::values as limits;
 use crate::math::blocks;
+use crate::program::codes;
 
 /// The sine and cosine as they go along.
 mod sine_and_cosine {

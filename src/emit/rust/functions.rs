@@ -175,7 +175,7 @@ impl Writer<'_> {
         if system.measures.is_empty() {
             return;
         }
-        let (has_jerk, has_varied) = (system.jerk.is_some(), self.equations.has_varied());
+        let (has_jerk, has_varied) = (system.jerk().is_some(), self.equations.has_varied());
         let p = if self.equations.is_led { "&Way" } else { "&Params" };
         let given = [("q", "&Q", true), ("qd", "&Qd", true), ("qdd", "&Qdd", true), ("qddd", "&[f64; N]", has_jerk)];
         let given =

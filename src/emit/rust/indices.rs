@@ -3,7 +3,7 @@
 use super::Writer;
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
-use crate::ir::{Measure, Owner, Units};
+use crate::ir::{Measure, Units};
 
 impl Writer<'_> {
     pub fn indices(&self, page: &mut Page) {
@@ -80,9 +80,8 @@ impl Writer<'_> {
             let head = Head { kind: "pub fn", name: "of", arguments: &of, result: "Self" };
             page.function(&head, |page| {
                 page.block("match body", |page| {
-                    for (k, name) in names.iter().enumerate() {
-                        let first = system.coordinates.iter().position(|c| c.owner == Owner::Body(k)).unwrap_or(0);
-                        let [x, y, phi] = [first, first + 1, first + 2];
+                    for ((id, _), name) in system.bodies.pairs().zip(&names) {
+                        let [x, y, phi] = system.pose_of(id);
                         page.line(&format!("Body::{name} => Self {{ x: q[{x}], y: q[{y}], phi: q[{phi}] }},"));
                     }
                 });

@@ -20,9 +20,9 @@ use super::names::Names;
 use super::params::Params;
 use super::print::Page;
 use super::solution::Solution;
-use super::tables::{COLUMNS, Tables, numbers};
+use super::tables::{Tables, numbers};
 use super::text::one_line;
-use crate::program::STAGES;
+use crate::program::{Column, STAGES};
 use crate::source::Span;
 use std::cell::RefCell;
 
@@ -91,11 +91,11 @@ fn equations<'u>(unit: &Unit<'u>, names: &'u Names, tables: &'u Tables, is_led: 
 #[must_use]
 pub fn is_large(unit: &Unit<'_>) -> bool {
     let of_program: usize = STAGES.iter().map(|stage| unit.program.stage(*stage).len()).sum();
-    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).operations();
+    let of_motion = |motion: &super::Motion| motion.sensitive.as_ref().unwrap_or(&motion.solver).instructions().len();
     let of_solver = unit.motion.as_ref().map_or(0, of_motion);
     let constants = unit.program.constants().iter().copied().collect();
     let is_constant =
-        |table: u32| COLUMNS.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
+        |table: u32| Column::ALL.iter().all(|&column| numbers(unit.program, &constants, table, column).is_some());
     of_program + of_solver > unit.largest_straight && (0..unit.program.tables().len() as u32).all(is_constant)
 }
 

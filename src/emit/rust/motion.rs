@@ -5,7 +5,7 @@ use crate::emit::equations::{Given, Wanted};
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::expr::ExprId;
-use crate::solver::RowLayout;
+use crate::layout::RowLayout;
 
 impl Writer<'_> {
     /// What follows the motion.

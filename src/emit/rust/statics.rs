@@ -1,14 +1,12 @@
 //! Constants: the columns of tables, and what coordinates are judged against.
 
 use super::Writer;
-use crate::emit::code::column_of;
 use crate::emit::print::Page;
 use crate::emit::solution::Solution;
-use crate::emit::tables::{COLUMNS, numbers};
+use crate::emit::tables::numbers;
 use crate::emit::text::{constant, literal, one_line};
 use crate::expr::VARIED_TABLE;
 use crate::program::{Column, STAGES};
-use crate::solver::Op;
 use crate::tolerances::steps::march::{FEWEST_STEPS, SMALLEST_STEP};
 
 /// More coordinates that Newton solves for are looked up in a table.
@@ -19,7 +17,7 @@ impl Writer<'_> {
     pub fn tables(&self, page: &mut Page) {
         let program = self.unit.program;
         for (number, table) in program.tables().iter().enumerate() {
-            for column in COLUMNS {
+            for column in Column::ALL {
                 let number = number as u32;
                 // how a table varies has the pieces of that table
                 let is_left_out = table.name.ends_with(VARIED_TABLE) && !self.is_looked_into(number, column);
@@ -44,7 +42,7 @@ impl Writer<'_> {
     /// Whether some operation looks into a column of a table, or may by its number.
     fn is_looked_into(&self, table: u32, column: Column) -> bool {
         let all = || STAGES.iter().flat_map(|stage| self.unit.program.stage(*stage));
-        self.equations.book.is_some() || all().any(|&op| column_of(Op::Other(op)) == Some((table, column)))
+        self.equations.book.is_some() || all().any(|&op| op.column() == Some((table, column)))
     }
 
     /// The times of the file's analysis.

@@ -4,7 +4,7 @@
 use super::nodes::degrees;
 use super::picture::Picture;
 use super::picture::{DEGREES, PIXELS};
-use crate::scene::{Held, Motion, Node, Place, Pose, Vector, distance, times};
+use crate::scene::{Motion, Node, Place, Pose, Vector, distance, times};
 use crate::view::text::number;
 use rustc_hash::FxHashMap;
 
@@ -190,13 +190,13 @@ impl Picture<'_> {
     fn key(&self, mover: &Mover, poses: &[Pose]) -> Key {
         let (pose, stretch) = mover.place.pose(poses);
         let at = self.placed(pose.placed(mover.origin));
-        let is_stretched = matches!(mover.place, Place::Between { held: Held::Stretched, .. });
+        let is_stretched = mover.place.is_stretched();
         Key { at, turn: degrees(pose.phi), stretch: if is_stretched { [stretch * self.scale, 1.0] } else { [1.0; 2] } }
     }
 
     /// Places that a mover shows, before its transform (px).
     fn shown_by(&self, mover: &Mover) -> Vec<Vector> {
-        let is_stretched = matches!(mover.place, Place::Between { held: Held::Stretched, .. });
+        let is_stretched = mover.place.is_stretched();
         let own = self.scene.nodes.iter().filter(|node| node.place == mover.place);
         let places = own.flat_map(|node| &node.shapes).flat_map(|shape| shape.path.places());
         let local = places.map(|[x, y]| {

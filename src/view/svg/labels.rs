@@ -2,9 +2,8 @@
 //! shown, and on lines only where there is no room beside them. One that finds no place is left out; bodies tell their names as titles too.
 
 use super::letters::{COLUMN, columns, letters};
-use super::picture::PIXELS;
-use super::picture::Picture;
-use crate::scene::{Anchor, Held, Look, Node, Path, Place, Pose, Vector, bounds, distance, plus, times};
+use super::picture::{PIXELS, Picture};
+use crate::scene::{Anchor, Look, Node, Path, Place, Pose, Vector, bounds, distance, plus, times};
 use crate::view::text::{escaped, number};
 
 /// Longer names are cut.
@@ -277,7 +276,7 @@ impl Picture<'_> {
 
     /// The pins of a node by their middles, and its lines by places on them.
     fn shown(&self, node: &Node) -> Vec<Shown> {
-        let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
+        let is_stretched = node.place.is_stretched();
         let shown = |(path, look): (&Path, Look)| {
             let places = match (path, look) {
                 (Path::Circle { at, .. }, Look::Pin | Look::Dot) => vec![*at],

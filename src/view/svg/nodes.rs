@@ -2,7 +2,7 @@
 
 use super::picture::Picture;
 use super::style::TINTS;
-use crate::scene::{Held, Look, Motion, Node, Path, Place, Pose, Shape, Vector};
+use crate::scene::{Look, Motion, Node, Path, Place, Pose, Shape, Vector};
 use crate::view::path::written;
 use crate::view::text::{escaped, number};
 
@@ -27,7 +27,7 @@ impl Picture<'_> {
         let (pose, stretch) = node.place.pose(poses);
         let mut transform = String::new();
         if node.place != Place::Fixed(0) {
-            let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
+            let is_stretched = node.place.is_stretched();
             let stretched = || format!(" scale({} 1)", number(stretch * self.scale, self.pixels));
             let scale = if is_stretched { stretched() } else { String::new() };
             transform = format!(" transform=\"{}{scale}\"", self.transform(&pose));
@@ -93,7 +93,7 @@ impl Picture<'_> {
         if is_body {
             self.body += &format!("<title>{name}</title>");
         }
-        let is_stretched = matches!(node.place, Place::Between { held: Held::Stretched, .. });
+        let is_stretched = node.place.is_stretched();
         for shape in &node.shapes {
             self.add_shape(shape, origin, [node.place == Place::Fixed(0), is_stretched]);
         }

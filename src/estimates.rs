@@ -2,19 +2,10 @@
 //!
 //! A search needs numbers, and so it is made with the parameters' values; what comes out is an estimate and no more.
 
-use super::Lowering;
 use crate::expr::{ExprId, Graph, Node, Symbol};
-use crate::model::{Mechanism, Profile};
+use crate::ir::{ConstraintSystem, OpenContact};
 use crate::tolerances::assembly::estimates::{CANDIDATES, MOST_STEPS, PLACES, PLACES_OF_TWO, REFINED, SAME};
 use std::f64::consts::PI;
-
-/// The numbers of a graph with all coordinates at their estimates, kept as the graph grows.
-#[derive(Default)]
-pub(super) struct Numbers {
-    values: Vec<f64>,
-    /// The estimates.
-    q: Vec<f64>,
-}
 
 /// The sum of squares of a joint's rows, as its arguments go, all else being as drawn.
 struct Mismatch<'l> {
@@ -27,59 +18,39 @@ struct Mismatch<'l> {
     /// What depends on the last argument, and what depends only on the others.
     inner: Vec<ExprId>,
     outer: Vec<ExprId>,
+    /// The numbers of the graph with all coordinates at their estimates.
     values: &'l mut [f64],
 }
 
-impl Lowering<'_> {
-    /// Sets those estimates of a joint's arguments that its curves do not give to the smallest sum of squares of its rows
-    /// in the written poses, over one turn (−π to π), where the curves' conditions hold.
-    pub(super) fn search(&mut self, rows: &[ExprId], arguments: &[(ExprId, Profile)], first_condition: usize) {
-        let mut numbers = std::mem::take(&mut self.numbers);
-        numbers.extend(self.model, &self.graph, self.coordinates.iter().map(|coordinate| coordinate.estimate));
-        let open = arguments.iter().filter(|(_, profile)| !self.has_estimate(*profile));
-        let wanted: Vec<u32> = open.filter_map(|&(u, _)| self.index(u)).collect();
-        if !wanted.is_empty() {
-            let conditions: Vec<ExprId> = self.conditions[first_condition..].iter().map(|c| c.positive).collect();
-            let best = Mismatch::new(&self.graph, rows, &conditions, &wanted, &mut numbers.values).best();
-            for (&index, value) in wanted.iter().zip(best) {
-                self.coordinates[index as usize].estimate = self.graph.constant(value);
-                numbers.q[index as usize] = value;
-            }
-        }
-        self.numbers = numbers;
+/// Sets the estimates of contacts' arguments that nobody gave: each joint's to the smallest sum of squares of its rows in the written
+/// poses, over one turn (−π to π), where the conditions of its curves hold.
+pub fn complete(system: &mut ConstraintSystem) {
+    if system.open_contacts.is_empty() {
+        return;
     }
-
-    fn has_estimate(&self, profile: Profile) -> bool {
-        matches!(profile, Profile::Curve(curve) if self.model[curve].estimate.is_some())
-    }
-
-    fn index(&self, u: ExprId) -> Option<u32> {
-        match self.graph.node(u) {
-            Node::Symbol(Symbol::Coordinate { index, .. }) => Some(index),
-            _ => None,
+    let mut values = values_as_drawn(system);
+    for OpenContact { declaration, arguments, conditions } in std::mem::take(&mut system.open_contacts) {
+        let own = system.rows.iter().filter(|row| row.declaration == declaration);
+        let rows: Vec<ExprId> = own.map(|row| row.phi).collect();
+        let best = Mismatch::new(&system.graph, &rows, &conditions, &arguments, &mut values).best();
+        for (&argument, value) in arguments.iter().zip(best) {
+            system.coordinates[argument as usize].estimate = system.graph.constant(value);
         }
     }
 }
 
-impl Numbers {
-    /// Takes in what the graph and the coordinates have grown by. Values that hold the argument of a contact are of no use
-    /// to others.
-    fn extend(&mut self, model: &Mechanism, graph: &Graph, estimates: impl Iterator<Item = ExprId>) {
-        let param = |symbol: Symbol| match symbol {
-            Symbol::Param(k) => model.params[k as usize].value,
-            Symbol::Shift(_) => 0.0,
-            _ => f64::NAN,
-        };
-        for estimate in estimates.skip(self.q.len()) {
-            self.q.push(graph.value(estimate, param));
-        }
-        // a measure may name a contact's argument before its joint has an estimate
-        let q = &self.q;
-        graph.extend_values(&mut self.values, |symbol| match symbol {
-            Symbol::Coordinate { index, order: 0 } => q.get(index as usize).copied().unwrap_or(f64::NAN),
-            other => param(other),
-        });
-    }
+/// The numbers of the graph with all coordinates at their estimates, which are of no use where they hold an argument that is open.
+fn values_as_drawn(system: &ConstraintSystem) -> Vec<f64> {
+    let estimates = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[]));
+    let q: Vec<f64> = estimates.collect();
+    let mut values = Vec::new();
+    system.graph.extend_values(&mut values, |symbol| match symbol {
+        Symbol::Param(k) => system.params[k as usize].value,
+        Symbol::Shift(_) => 0.0,
+        Symbol::Coordinate { index, order: 0 } => q[index as usize],
+        _ => f64::NAN,
+    });
+    values
 }
 
 impl<'l> Mismatch<'l> {

@@ -1,0 +1,159 @@
+//! Where a row holds what.
+
+use crate::ir::{BodyId, ConstraintSystem};
+
+/// Columns that stand together in a row.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+enum Stretch {
+    /// Time.
+    Time,
+    /// All coordinates, differentiated so many times by time.
+    Coordinates(usize),
+    /// The measures that can be differentiated so many times by time, likewise.
+    Measures(usize),
+    /// Derivatives that were asked for as columns of their own.
+    Appended,
+    /// The derivatives of `q` by each signal, and then by each parameter.
+    BySignal,
+    /// The variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    Varied,
+}
+
+/// The stretches of the table, in their order.
+const PRINTED: [Stretch; 8] = [
+    Stretch::Time,
+    Stretch::Coordinates(0),
+    Stretch::Measures(0),
+    Stretch::Coordinates(1),
+    Stretch::Measures(1),
+    Stretch::Coordinates(2),
+    Stretch::Measures(2),
+    Stretch::Appended,
+];
+
+/// What only measures need, behind the table.
+const UNPRINTED: [Stretch; 3] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied];
+
+/// What a column of the table holds.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Holds {
+    /// Time.
+    Time,
+    /// A coordinate, differentiated so many times by time.
+    Coordinate {
+        /// Its number.
+        index: usize,
+        /// How many times.
+        order: usize,
+    },
+    /// A measure, likewise.
+    Measure {
+        /// Its number.
+        index: usize,
+        /// How many times.
+        order: usize,
+    },
+    /// A derivative that was asked for as a column of its own, by its number.
+    Appended(usize),
+}
+
+/// What the columns of the table hold, in order.
+#[must_use]
+pub fn holds(system: &ConstraintSystem) -> Vec<Holds> {
+    PRINTED.into_iter().flat_map(|stretch| stretch.holds(system)).collect()
+}
+
+/// The measures that have a time derivative of some order.
+fn measures_with(system: &ConstraintSystem, order: usize) -> impl Iterator<Item = usize> {
+    (0..system.measures.len()).filter(move |&index| system.measures[index].has(order))
+}
+
+impl Stretch {
+    /// How many columns it has.
+    fn length(self, system: &ConstraintSystem) -> usize {
+        let n = system.coordinates.len();
+        match self {
+            Stretch::Time => 1,
+            Stretch::Coordinates(3) if system.jerk().is_none() => 0,
+            Stretch::Coordinates(_) => n,
+            Stretch::Measures(order) => measures_with(system, order).count(),
+            Stretch::Appended => system.appended().len(),
+            Stretch::BySignal => n * (system.by_inputs().len() + system.by_params().len()),
+            Stretch::Varied => 3 * n * system.variations().len(),
+        }
+    }
+
+    fn holds(self, system: &ConstraintSystem) -> Vec<Holds> {
+        match self {
+            Stretch::Time => vec![Holds::Time],
+            Stretch::Coordinates(order) => {
+                (0..system.coordinates.len()).map(|index| Holds::Coordinate { index, order }).collect()
+            }
+            Stretch::Measures(order) => {
+                measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
+            }
+            Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
+            // these are not of the table
+            Stretch::BySignal | Stretch::Varied => Vec::new(),
+        }
+    }
+}
+
+/// Where a row holds what. Rows are in the order of the table, with what only measures need behind.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct RowLayout {
+    /// First column of `q`, `q̇`, `q̈`, `q⃛`.
+    pub coordinates: [u32; 4],
+    /// First column of the measures, and of their first and second derivatives.
+    pub measures: [u32; 3],
+    /// First of the derivatives that stand behind all other columns of the table.
+    pub appended: u32,
+    /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
+    pub varied: u32,
+    /// Whether there are columns for `q⃛`.
+    pub has_jerk: bool,
+    /// First column of the derivatives of `q` by each signal and parameter.
+    pub by_signal: u32,
+    /// Columns that the table has.
+    pub printed: usize,
+    /// All columns.
+    pub stride: usize,
+}
+
+impl RowLayout {
+    /// The layout of a system's rows.
+    #[must_use]
+    pub fn new(system: &ConstraintSystem) -> RowLayout {
+        let mut layout = RowLayout {
+            coordinates: [0; 4],
+            measures: [0; 3],
+            appended: 0,
+            varied: 0,
+            has_jerk: system.jerk().is_some(),
+            by_signal: 0,
+            printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
+            stride: 0,
+        };
+        for stretch in PRINTED.into_iter().chain(UNPRINTED) {
+            let first = layout.stride as u32;
+            match stretch {
+                Stretch::Time => {}
+                Stretch::Coordinates(order) => layout.coordinates[order] = first,
+                Stretch::Measures(order) => layout.measures[order] = first,
+                Stretch::Appended => layout.appended = first,
+                Stretch::BySignal => layout.by_signal = first,
+                Stretch::Varied => layout.varied = first,
+            }
+            layout.stride += stretch.length(system);
+        }
+        layout
+    }
+
+    /// The columns of x, y and phi of a body; of their first, and of their second time derivatives.
+    #[must_use]
+    pub fn pose(&self, system: &ConstraintSystem, body: BodyId) -> [[usize; 3]; 3] {
+        let [places, rates, accelerations, _] = self.coordinates;
+        let pose = system.pose_of(body);
+        [places, rates, accelerations].map(|first| pose.map(|coordinate| first as usize + coordinate))
+    }
+}

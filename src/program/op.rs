@@ -1,0 +1,405 @@
+//! The operations, each declared once: what it reads and writes, what it does, and what it is called where it is written as a
+//! number.
+//!
+//! What an operation does is said in terms of a [`Machine`]. Numbers, several numbers at once, intervals, expressions that fold,
+//! and the text of code are machines: each says what a sum or a sine is to it, and none needs to know the list of operations.
+
+use super::{Column, Register, codes};
+use crate::expr::{Binary, Comparison, Unary};
+
+/// One operation: reads registers, writes `to`.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[allow(missing_docs)] // operands and results say themselves
+pub enum Op {
+    Add {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Sub {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Mul {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Div {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    /// `a b + c`, each rounded.
+    MulAdd {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `a b − c`, each rounded.
+    MulLess {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    /// `c − a b`, each rounded.
+    LessMul {
+        to: Register,
+        a: Register,
+        b: Register,
+        c: Register,
+    },
+    Neg {
+        to: Register,
+        a: Register,
+    },
+    /// `1 / a`
+    Recip {
+        to: Register,
+        a: Register,
+    },
+    SinCos {
+        sin: Register,
+        cos: Register,
+        a: Register,
+    },
+    Unary {
+        function: Unary,
+        to: Register,
+        a: Register,
+    },
+    Binary {
+        function: Binary,
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Compare {
+        comparison: Comparison,
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    And {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Or {
+        to: Register,
+        a: Register,
+        b: Register,
+    },
+    Not {
+        to: Register,
+        a: Register,
+    },
+    Select {
+        to: Register,
+        condition: Register,
+        a: Register,
+        b: Register,
+    },
+    /// As `Select`, but not a number if either operand is not.
+    Either {
+        to: Register,
+        condition: Register,
+        a: Register,
+        b: Register,
+    },
+    Copy {
+        to: Register,
+        a: Register,
+    },
+    /// The piece of a table that `a` lies in, counted from 0.
+    Piece {
+        to: Register,
+        table: u32,
+        a: Register,
+    },
+    /// An entry of a table's column.
+    Pick {
+        to: Register,
+        table: u32,
+        column: Column,
+        piece: Register,
+    },
+}
+
+/// What operations are carried out on.
+pub trait Machine {
+    /// What stands in a register.
+    type Value;
+
+    fn read(&mut self, register: Register) -> Self::Value;
+    fn write(&mut self, register: Register, value: Self::Value);
+
+    fn add(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn sub(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn mul(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn div(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// `a b + c`, each rounded.
+    #[inline]
+    fn mul_add(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.add(product, c)
+    }
+    /// `a b − c`, each rounded.
+    #[inline]
+    fn mul_less(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(product, c)
+    }
+    /// `c − a b`, each rounded.
+    #[inline]
+    fn less_mul(&mut self, a: Self::Value, b: Self::Value, c: Self::Value) -> Self::Value {
+        let product = self.mul(a, b);
+        self.sub(c, product)
+    }
+    fn neg(&mut self, a: Self::Value) -> Self::Value;
+    fn recip(&mut self, a: Self::Value) -> Self::Value;
+    /// Sine and cosine.
+    fn sin_cos(&mut self, a: Self::Value) -> [Self::Value; 2];
+    fn unary(&mut self, function: Unary, a: Self::Value) -> Self::Value;
+    fn binary(&mut self, function: Binary, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// 1 where it holds, else 0.
+    fn compare(&mut self, comparison: Comparison, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn and(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn or(&mut self, a: Self::Value, b: Self::Value) -> Self::Value;
+    fn not(&mut self, a: Self::Value) -> Self::Value;
+    /// `a` where the condition is not 0, else `b`.
+    fn select(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// The same, but not a number if either is not.
+    fn either(&mut self, condition: Self::Value, a: Self::Value, b: Self::Value) -> Self::Value;
+    /// The piece of a table that a value lies in.
+    fn piece(&mut self, table: u32, a: Self::Value) -> Self::Value;
+    /// The entry of a table's column for a piece.
+    fn pick(&mut self, table: u32, column: Column, piece: Self::Value) -> Self::Value;
+}
+
+impl Op {
+    /// Carries the operation out.
+    #[inline(always)]
+    #[allow(clippy::inline_always)] // what a machine does is to become one with the choice of it
+    pub fn run<M: Machine>(self, m: &mut M) {
+        macro_rules! of {
+            ($to:ident = $does:ident($($operand:ident),+)) => {{
+                $(let $operand = m.read($operand);)+
+                let value = m.$does($($operand),+);
+                m.write($to, value);
+            }};
+        }
+        match self {
+            Op::Add { to, a, b } => of!(to = add(a, b)),
+            Op::Sub { to, a, b } => of!(to = sub(a, b)),
+            Op::Mul { to, a, b } => of!(to = mul(a, b)),
+            Op::Div { to, a, b } => of!(to = div(a, b)),
+            Op::MulAdd { to, a, b, c } => of!(to = mul_add(a, b, c)),
+            Op::MulLess { to, a, b, c } => of!(to = mul_less(a, b, c)),
+            Op::LessMul { to, a, b, c } => of!(to = less_mul(a, b, c)),
+            Op::Neg { to, a } => of!(to = neg(a)),
+            Op::Recip { to, a } => of!(to = recip(a)),
+            Op::SinCos { sin, cos, a } => {
+                let a = m.read(a);
+                let [sine, cosine] = m.sin_cos(a);
+                m.write(sin, sine);
+                m.write(cos, cosine);
+            }
+            Op::Unary { function, to, a } => {
+                let a = m.read(a);
+                let value = m.unary(function, a);
+                m.write(to, value);
+            }
+            Op::Binary { function, to, a, b } => {
+                let [a, b] = [a, b].map(|register| m.read(register));
+                let value = m.binary(function, a, b);
+                m.write(to, value);
+            }
+            Op::Compare { comparison, to, a, b } => {
+                let [a, b] = [a, b].map(|register| m.read(register));
+                let value = m.compare(comparison, a, b);
+                m.write(to, value);
+            }
+            Op::And { to, a, b } => of!(to = and(a, b)),
+            Op::Or { to, a, b } => of!(to = or(a, b)),
+            Op::Not { to, a } => of!(to = not(a)),
+            Op::Select { to, condition, a, b } => of!(to = select(condition, a, b)),
+            Op::Either { to, condition, a, b } => of!(to = either(condition, a, b)),
+            Op::Copy { to, a } => {
+                let a = m.read(a);
+                m.write(to, a);
+            }
+            Op::Piece { to, table, a } => {
+                let a = m.read(a);
+                let value = m.piece(table, a);
+                m.write(to, value);
+            }
+            Op::Pick { to, table, column, piece } => {
+                let piece = m.read(piece);
+                let value = m.pick(table, column, piece);
+                m.write(to, value);
+            }
+        }
+    }
+
+    /// The same with other registers: `read` for those it reads, then `write` for those it writes.
+    #[must_use]
+    pub fn renumbered(
+        mut self,
+        mut read: impl FnMut(Register) -> Register,
+        mut write: impl FnMut(Register) -> Register,
+    ) -> Op {
+        match &mut self {
+            Op::Neg { to, a }
+            | Op::Recip { to, a }
+            | Op::Not { to, a }
+            | Op::Copy { to, a }
+            | Op::Unary { to, a, .. }
+            | Op::Piece { to, a, .. }
+            | Op::Pick { to, piece: a, .. } => {
+                *a = read(*a);
+                *to = write(*to);
+            }
+            Op::Add { to, a, b }
+            | Op::Sub { to, a, b }
+            | Op::Mul { to, a, b }
+            | Op::Div { to, a, b }
+            | Op::Binary { to, a, b, .. }
+            | Op::Compare { to, a, b, .. }
+            | Op::And { to, a, b }
+            | Op::Or { to, a, b } => {
+                (*a, *b) = (read(*a), read(*b));
+                *to = write(*to);
+            }
+            Op::MulAdd { to, a, b, c }
+            | Op::MulLess { to, a, b, c }
+            | Op::LessMul { to, a, b, c }
+            | Op::Select { to, condition: a, a: b, b: c }
+            | Op::Either { to, condition: a, a: b, b: c } => {
+                (*a, *b, *c) = (read(*a), read(*b), read(*c));
+                *to = write(*to);
+            }
+            Op::SinCos { sin, cos, a } => {
+                *a = read(*a);
+                (*sin, *cos) = (write(*sin), write(*cos));
+            }
+        }
+        self
+    }
+
+    /// The registers that it reads, tables' columns not counted.
+    #[must_use]
+    pub fn reads(self) -> Few<3> {
+        let mut reads = Few::default();
+        let _ = self.renumbered(|register| reads.note(register), |register| register);
+        reads
+    }
+
+    /// The registers that it writes.
+    #[must_use]
+    pub fn writes(self) -> Few<2> {
+        let mut writes = Few::default();
+        let _ = self.renumbered(|register| register, |register| writes.note(register));
+        writes
+    }
+
+    /// Where it leaves its result if that goes in jumps.
+    #[must_use]
+    pub fn switched(self) -> Option<Register> {
+        match self {
+            Op::Compare { to, .. }
+            | Op::Piece { to, .. }
+            | Op::Unary { function: Unary::Sign | Unary::Floor, to, .. } => Some(to),
+            _ => None,
+        }
+    }
+
+    /// The column of a table that it looks into.
+    #[must_use]
+    pub fn column(self) -> Option<(u32, Column)> {
+        match self {
+            Op::Piece { table, .. } => Some((table, Column::Knots)),
+            Op::Pick { table, column, .. } => Some((table, column)),
+            _ => None,
+        }
+    }
+
+    /// Its number, where operations are written as numbers: it is followed by what is written, what is read, and last by what it
+    /// is about, if that is not in the number.
+    #[must_use]
+    pub fn code(self) -> (u32, Option<u32>) {
+        let about = match self {
+            Op::Unary { function, .. } => Some(function as u32),
+            Op::Binary { function, .. } => Some(function as u32),
+            _ => self.column().map(|(table, column)| table * Column::ALL.len() as u32 + column.number()),
+        };
+        let number = match self {
+            Op::Add { .. } => codes::ADD,
+            Op::Sub { .. } => codes::SUB,
+            Op::Mul { .. } => codes::MUL,
+            Op::Div { .. } => codes::DIV,
+            Op::MulAdd { .. } => codes::MUL_ADD,
+            Op::MulLess { .. } => codes::MUL_LESS,
+            Op::LessMul { .. } => codes::LESS_MUL,
+            Op::Neg { .. } => codes::NEG,
+            Op::Recip { .. } => codes::RECIP,
+            Op::SinCos { .. } => codes::SIN_COS,
+            Op::Unary { .. } => codes::UNARY,
+            Op::Binary { .. } => codes::BINARY,
+            Op::Compare { comparison: Comparison::Less, .. } => codes::LESS,
+            Op::Compare { comparison: Comparison::LessEqual, .. } => codes::LESS_EQUAL,
+            Op::Compare { comparison: Comparison::Equal, .. } => codes::EQUAL,
+            Op::And { .. } => codes::AND,
+            Op::Or { .. } => codes::OR,
+            Op::Not { .. } => codes::NOT,
+            Op::Select { .. } => codes::SELECT,
+            Op::Either { .. } => codes::EITHER,
+            Op::Copy { .. } => codes::COPY,
+            Op::Piece { .. } => codes::PIECE,
+            Op::Pick { .. } => codes::PICK,
+        };
+        (number, about)
+    }
+}
+
+/// A few registers.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub struct Few<const N: usize> {
+    registers: [Register; N],
+    count: usize,
+}
+
+impl<const N: usize> Default for Few<N> {
+    fn default() -> Few<N> {
+        Few { registers: [0; N], count: 0 }
+    }
+}
+
+impl<const N: usize> Few<N> {
+    /// Adds one, and gives it back.
+    pub fn note(&mut self, register: Register) -> Register {
+        self.registers[self.count] = register;
+        self.count += 1;
+        register
+    }
+}
+
+impl<const N: usize> std::ops::Deref for Few<N> {
+    type Target = [Register];
+
+    fn deref(&self) -> &[Register] {
+        &self.registers[..self.count]
+    }
+}
+
+impl<const N: usize> IntoIterator for Few<N> {
+    type Item = Register;
+    type IntoIter = std::iter::Take<std::array::IntoIter<Register, N>>;
+
+    fn into_iter(self) -> Self::IntoIter {
+        self.registers.into_iter().take(self.count)
+    }
+}

@@ -1,0 +1,192 @@
+//! The elimination of a block's part of `Φ_q`, laid out in an order that was chosen before.
+
+use super::order::Order;
+use super::tape::{Tape, Value};
+
+/// A row of a block: the columns of its entries within the block, and their values.
+pub(super) type Line = Vec<(u32, Value)>;
+
+/// The factors of a block's part of `Φ_q`, by places within the block.
+pub(super) struct Factors {
+    pivots: Vec<(u32, u32)>,
+    inverses: Vec<Value>,
+    /// For each pivot the rows below it with their multipliers, and the rest of its row.
+    lower: Vec<Line>,
+    upper: Vec<Line>,
+    /// The last two unknowns, where they are found together.
+    pair: Option<TwoByTwo>,
+}
+
+/// Two equations for two unknowns, by rows, with one over their determinant (G. Cramer, 1750): one division instead of two, one
+/// after the other.
+struct TwoByTwo {
+    rows: [u32; 2],
+    columns: [u32; 2],
+    entries: [[Value; 2]; 2],
+    inverse: Value,
+}
+
+/// One over a pivot, or over the determinant of the last two, with the rows and columns that it stands for.
+pub(super) struct Inverse {
+    pub value: Value,
+    pub places: Vec<(u32, u32)>,
+}
+
+impl Factors {
+    /// Of one equation for one unknown.
+    pub fn of_one(tape: &mut Tape, slope: Value) -> Factors {
+        Factors {
+            pivots: vec![(0, 0)],
+            inverses: vec![tape.recip(slope)],
+            lower: vec![Line::new()],
+            upper: vec![Line::new()],
+            pair: None,
+        }
+    }
+
+    /// Eliminates rows in an order. Multipliers of one row for another are watched where there are weights for them.
+    pub fn new(
+        tape: &mut Tape,
+        mut rows: Vec<Line>,
+        order: &Order,
+        mut weight: Option<impl FnMut(u32, u32) -> u32>,
+    ) -> Factors {
+        let mut factors = Factors {
+            pivots: order.pivots.clone(),
+            inverses: Vec::with_capacity(rows.len()),
+            lower: Vec::with_capacity(rows.len()),
+            upper: Vec::with_capacity(rows.len()),
+            pair: None,
+        };
+        for (k, (&(row, column), below)) in order.pivots.iter().zip(&order.below).enumerate() {
+            if k + 2 == order.pivots.len() {
+                factors.pair = TwoByTwo::new(tape, order, &rows);
+                if factors.pair.is_some() {
+                    break;
+                }
+            }
+            let mut line = std::mem::take(&mut rows[row as usize]);
+            let pivot = taken(&mut line, column);
+            let inverse = tape.recip(pivot.unwrap_or(Value::ZERO));
+            let mut lower = Vec::with_capacity(below.len());
+            for &other in below {
+                let target = &mut rows[other as usize];
+                let Some(entry) = taken(target, column) else {
+                    continue;
+                };
+                let multiplier = match &mut weight {
+                    Some(weight) => tape.multiplier(entry, inverse, || weight(row, other)),
+                    None => tape.mul(entry, inverse),
+                };
+                subtract(tape, target, multiplier, &line);
+                lower.push((other, multiplier));
+            }
+            factors.inverses.push(inverse);
+            factors.lower.push(lower);
+            factors.upper.push(line);
+        }
+        factors
+    }
+
+    /// One over each pivot, and last over the determinant of the two that are found together.
+    pub fn inverses(&self) -> Vec<Inverse> {
+        let singles = self.pivots.iter().zip(&self.inverses);
+        let mut all: Vec<Inverse> = singles.map(|(&place, &value)| Inverse { value, places: vec![place] }).collect();
+        if let Some(TwoByTwo { rows, columns, inverse, .. }) = self.pair {
+            let places = rows.into_iter().zip(columns).collect();
+            all.push(Inverse { value: inverse, places });
+        }
+        all
+    }
+
+    /// Solves: `right` by rows becomes the solution by columns.
+    pub fn solve(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
+        for (&(row, _), lower) in self.pivots.iter().zip(&self.lower) {
+            let own = right[row as usize];
+            for &(other, multiplier) in lower {
+                let product = tape.mul(multiplier, own);
+                right[other as usize] = tape.sub(right[other as usize], product);
+            }
+        }
+        let mut solution = vec![Value::ZERO; right.len()];
+        if let Some(pair) = &self.pair {
+            pair.solve(tape, &right, &mut solution);
+        }
+        for (k, &(row, column)) in self.pivots[..self.inverses.len()].iter().enumerate().rev() {
+            let mut sum = right[row as usize];
+            for &(other, value) in &self.upper[k] {
+                let product = tape.mul(value, solution[other as usize]);
+                sum = tape.sub(sum, product);
+            }
+            solution[column as usize] = tape.mul(sum, self.inverses[k]);
+        }
+        solution
+    }
+
+    /// Whether the order of rows with their columns takes an odd number of exchanges to make.
+    pub fn is_odd(&self) -> bool {
+        is_odd(&self.pivots)
+    }
+}
+
+impl TwoByTwo {
+    /// The last two unknowns of an elimination, where either equation holds both and no pivot is a number.
+    fn new(tape: &mut Tape, order: &Order, rows: &[Line]) -> Option<TwoByTwo> {
+        let &[.., (upper, first), (lower, second)] = order.pivots.as_slice() else {
+            return None;
+        };
+        let entry = |row: u32, column: u32| {
+            let found = rows[row as usize].iter().find(|(own, _)| *own == column).map(|(_, value)| *value);
+            found.filter(|value| matches!(value, Value::Of { .. }))
+        };
+        let entries = [[entry(upper, first)?, entry(upper, second)?], [entry(lower, first)?, entry(lower, second)?]];
+        let (down, up) = (tape.mul(entries[0][0], entries[1][1]), tape.mul(entries[0][1], entries[1][0]));
+        let determinant = tape.sub(down, up);
+        let inverse = tape.recip(determinant);
+        Some(TwoByTwo { rows: [upper, lower], columns: [first, second], entries, inverse })
+    }
+
+    fn solve(&self, tape: &mut Tape, right: &[Value], solution: &mut [Value]) {
+        let [[a, b], [c, d]] = self.entries;
+        let [upper, lower] = self.rows.map(|row| right[row as usize]);
+        let products = [[(d, upper), (b, lower)], [(a, lower), (c, upper)]];
+        for (column, [(x, p), (y, q)]) in self.columns.into_iter().zip(products) {
+            let (plus, minus) = (tape.mul(x, p), tape.mul(y, q));
+            let difference = tape.sub(plus, minus);
+            solution[column as usize] = tape.mul(difference, self.inverse);
+        }
+    }
+}
+
+/// Takes the entry of a column out of a row.
+fn taken(line: &mut Line, column: u32) -> Option<Value> {
+    line.iter().position(|(own, _)| *own == column).map(|at| line.swap_remove(at).1)
+}
+
+/// Takes a multiple of one row from another.
+fn subtract(tape: &mut Tape, target: &mut Line, multiplier: Value, line: &[(u32, Value)]) {
+    for &(own, value) in line {
+        let product = tape.mul(multiplier, value);
+        match target.iter_mut().find(|(known, _)| *known == own) {
+            Some((_, entry)) => *entry = tape.sub(*entry, product),
+            None => target.push((own, product.negated())),
+        }
+    }
+}
+
+/// Whether an order of rows with their columns takes an odd number of exchanges to make.
+fn is_odd(pivots: &[(u32, u32)]) -> bool {
+    let mut column_of = vec![0; pivots.len()];
+    for &(row, column) in pivots {
+        column_of[row as usize] = column as usize;
+    }
+    let mut is_odd = false;
+    for row in 0..column_of.len() {
+        while column_of[row] != row {
+            let other = column_of[row];
+            column_of.swap(row, other);
+            is_odd = !is_odd;
+        }
+    }
+    is_odd
+}

@@ -1,0 +1,86 @@
+//! Blocks that depend on each other, and what depends on one group of them alone.
+
+use crate::expr::{ExprId, Symbol};
+use crate::ir::ConstraintSystem;
+use crate::structure::Determined;
+
+/// Blocks that depend on each other.
+pub(super) struct Groups {
+    /// Each group's blocks, in an order of solution.
+    pub blocks: Vec<Vec<usize>>,
+    group_of_column: Vec<usize>,
+    pub block_of_column: Vec<usize>,
+}
+
+impl Groups {
+    pub fn new(determined: &Determined) -> Groups {
+        let (system, blocks) = (determined.system(), determined.blocks());
+        let mut block_of_column = vec![0; system.coordinates.len()];
+        for (k, block) in blocks.iter().enumerate() {
+            for &column in &block.columns {
+                block_of_column[column as usize] = k;
+            }
+        }
+        let mut parent: Vec<usize> = (0..blocks.len()).collect();
+        for (k, block) in blocks.iter().enumerate() {
+            for &row in &block.rows {
+                for &(column, _) in system.phi_q.row(row as usize) {
+                    let (a, b) = (root(&mut parent, k), root(&mut parent, block_of_column[column as usize]));
+                    parent[a.max(b)] = a.min(b);
+                }
+            }
+        }
+        let mut number = vec![usize::MAX; blocks.len()];
+        let mut groups: Vec<Vec<usize>> = Vec::new();
+        for k in 0..blocks.len() {
+            let root = root(&mut parent, k);
+            if number[root] == usize::MAX {
+                number[root] = groups.len();
+                groups.push(Vec::new());
+            }
+            groups[number[root]].push(k);
+        }
+        let group_of_column = block_of_column.iter().map(|&block| number[root(&mut parent, block)]).collect();
+        Groups { blocks: groups, group_of_column, block_of_column }
+    }
+
+    /// The measures of each group, and behind these the ones that join groups.
+    pub fn measures(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
+        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+        for (k, measure) in system.measures.iter().enumerate() {
+            let formulas = [Some(measure.value), measure.first, measure.second];
+            of_group[self.of(system, formulas.into_iter().flatten())].push(k);
+        }
+        of_group
+    }
+
+    /// The same of the columns of derivatives.
+    pub fn appended(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
+        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+        for (k, column) in system.appended().iter().enumerate() {
+            of_group[self.of(system, [column.value])].push(k);
+        }
+        of_group
+    }
+
+    /// The group that some formulas speak of; where there are several, the number behind the last one.
+    fn of(&self, system: &ConstraintSystem, formulas: impl IntoIterator<Item = ExprId>) -> usize {
+        let symbols = formulas.into_iter().flat_map(|id| system.graph.symbols(id));
+        let mut groups = symbols.filter_map(|symbol| match symbol {
+            Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
+                Some(self.group_of_column[index as usize])
+            }
+            _ => None,
+        });
+        let first = groups.next();
+        first.filter(|first| groups.all(|group| group == *first)).unwrap_or(self.blocks.len())
+    }
+}
+
+fn root(parent: &mut [usize], mut k: usize) -> usize {
+    while parent[k] != k {
+        parent[k] = parent[parent[k]];
+        k = parent[k];
+    }
+    k
+}
