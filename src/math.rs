@@ -6,6 +6,8 @@
 
 /// Linear equations in blocks, with partial pivoting.
 pub mod blocks;
+mod curve;
+mod search;
 mod sin_cos;
 mod sin_cos_of_each;
 mod without_branches {
@@ -13,6 +15,8 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
+pub use curve::{about, along, farthest, parabola, predicted, quintic};
+pub use search::{GOLDEN, GoldenSection, Halving, bisect, boundary};
 pub use sin_cos::sin_cos;
 pub use sin_cos_of_each::sin_cos_of_each;
 

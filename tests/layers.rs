@@ -15,8 +15,14 @@ use support::files;
 
 /// Each room with the rooms that it may name, as the table of the page has them.
 fn rooms() -> Vec<(String, Vec<String>)> {
+    rooms_of("room")
+}
+
+/// The same of a table whose first column is headed so.
+fn rooms_of(what: &str) -> Vec<(String, Vec<String>)> {
     let page = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("ARCHITECTURE.md")).expect("the page");
-    let (_, behind) = page.split_once("| room | what it is for | may use |\n").expect("the table of rooms");
+    let head = format!("| {what} | what it is for | may use |\n");
+    let (_, behind) = page.split_once(&head).expect("the table of rooms");
     let rows = behind.lines().skip(1).take_while(|line| line.starts_with('|'));
     let room = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
@@ -47,14 +53,6 @@ const COMMAND_LINE: &[&str] = &[
 
 /// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
 const CIRCLES: &[(&str, &str)] = &[
-    ("analysis/determine", "analysis/freedom"),
-    ("analysis/edges", "analysis/march"),
-    ("analysis/finer", "analysis/bridge"),
-    ("analysis/march", "analysis/bridge"),
-    ("analysis/march", "analysis/rims"),
-    ("analysis/march", "analysis/signals"),
-    ("analysis/march", "analysis/touch"),
-    ("analysis/rows", "analysis/march"),
     ("check/errors", "check/names"),
     ("emit/tape", "emit/equations"),
     ("import/errors", "import/json"),
@@ -93,13 +91,36 @@ fn rooms_know_only_those_that_they_may_use() {
     assert!(unused.is_empty(), "the table allows what nobody needs: {unused:?}");
 }
 
+/// The same of the rooms within a room.
+#[test]
+fn rooms_of_analysis_know_only_those_that_they_may_use() {
+    let (all, rooms) = (read(), rooms_of("room of `analysis`"));
+    let mut unused: Vec<(&str, &str)> =
+        rooms.iter().flat_map(|(room, used)| used.iter().map(move |used| (room.as_str(), used.as_str()))).collect();
+    let mut seen = 0;
+    for (module, file) in all.files.iter().filter(|(module, _)| module.len() > 1 && module[0] == "analysis") {
+        let room = module[1].as_str();
+        let known = rooms.iter().find(|(name, _)| name == room);
+        let (_, allowed) = known.unwrap_or_else(|| panic!("the room `analysis/{room}` is not in the table"));
+        seen += 1;
+        let links = all.links(module).into_iter().filter(|other| other[0] == "analysis");
+        for used in links.map(|other| other.get(1).cloned().unwrap_or_default()).filter(|used| used != room) {
+            assert!(allowed.contains(&used), "{}: `{room}` must not know `{used}`", file.place);
+            unused.retain(|known| *known != (room, used.as_str()));
+        }
+    }
+    assert!(seen > 30, "only {seen} files were looked at");
+    assert!(unused.is_empty(), "the table allows what nobody needs: {unused:?}");
+}
+
 #[test]
 fn rooms_are_listed_behind_those_that_they_know() {
-    let rooms = rooms();
-    assert!(rooms.len() > 15, "only {} rooms", rooms.len());
-    for (k, (room, allowed)) in rooms.iter().enumerate() {
-        let later = allowed.iter().find(|name| !rooms[..k].iter().any(|(before, _)| before == *name));
-        assert!(later.is_none(), "`{room}` knows {later:?}, which does not stand before it");
+    assert!(rooms().len() > 15, "only {} rooms", rooms().len());
+    for rooms in [rooms(), rooms_of("room of `analysis`")] {
+        for (k, (room, allowed)) in rooms.iter().enumerate() {
+            let later = allowed.iter().find(|name| !rooms[..k].iter().any(|(before, _)| before == *name));
+            assert!(later.is_none(), "`{room}` knows {later:?}, which does not stand before it");
+        }
     }
 }
 
@@ -181,7 +202,7 @@ fn a_circle_is_found() {
 }
 
 /// What a file may use of the platform: threads, which are gone without their feature.
-const PLATFORM: &[(&str, &str)] = &[("analysis/rows.rs", "std::thread")];
+const PLATFORM: &[(&str, &str)] = &[("analysis/follow/rows/leap.rs", "std::thread")];
 
 #[test]
 fn rooms_know_no_files_threads_clock_or_environment() {

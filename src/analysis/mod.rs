@@ -5,253 +5,29 @@
 //! Determined ──start──▶ Started ──follow──▶ a row per output time, or why it cannot go on
 //! ```
 //!
-//! Steps are chosen by the solver's own error (`march`), so that output times only decide what is printed. A row is
-//! handed out only if the residual of the full `Φ`, scaled, is below the tolerance there; equations that were solved for a
-//! coordinate hold by that.
+//! Its own rooms, each of which knows only those before it:
+//!
+//! | room | what it is for |
+//! | --- | --- |
+//! | `state` | everything that can be said of one state: residuals, factors, derivatives, nearness to a singular position |
+//! | `explain` | why a mechanism is not determined, not assembled, or does not go on: in words |
+//! | `assemble` | the position at the first time |
+//! | `follow` | from there on, in steps that the solver chooses by its own error: output times only decide what is printed |
+//! | `results` | numbers for the whole analysis |
+//!
+//! A row is handed out only if the residual of the full `Φ`, scaled, is below the tolerance there; equations that were solved for
+//! a coordinate hold by that.
 
-mod assembly;
-mod branches;
-mod bridge;
-mod dense;
-mod determinant;
-mod determine;
-mod doubt;
-mod edges;
-mod errors;
-mod evaluator;
-mod finer;
-mod freedom;
-mod kinematics;
-mod lead;
-mod least_squares;
-mod limits;
-mod linear;
-mod march;
-mod open_loop;
-mod parts;
-mod reach;
-mod redundancy;
+mod assemble;
+mod explain;
+mod follow;
 mod results;
-mod rims;
-mod rows;
-mod scoped;
-mod search;
-mod signals;
-mod singular;
-mod sparse;
-mod stretches;
-mod times;
-mod touch;
-mod trust;
-mod yardstick;
+mod state;
 
-pub use assembly::Moved;
-pub use determine::{determine, free_motions};
-pub use errors::length as length_in_words;
-pub use freedom::FreeMotion;
-pub use lead::{LeadOptions, Way, lead};
-pub use march::Motion;
-pub use parts::{Request, with_parts};
-pub use results::{Answers, Asked};
-pub use times::{Horizon, Times};
-
-use crate::cancel::Cancel;
-use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{ConstraintSystem, ReductionKind};
-use crate::program::Program;
-use crate::solver::Solver;
-use crate::structure::Determined;
 pub use crate::tolerances::TOLERANCE;
-use branches::Doubt;
-use kinematics::{Kinematics, State};
-use std::sync::Arc;
-
-/// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
-const GOLDEN: f64 = 0.618_033_988_749_894_9;
-
-/// How far a coordinate goes where all are moved at once, from 0.5 to 1.5: another way for each, so that nothing cancels.
-fn aslant(column: usize) -> f64 {
-    0.5 + (GOLDEN * column as f64).fract()
-}
-
-/// What is wrong with the results that an analysis from one time to another (s) is asked for.
-#[must_use]
-pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
-    let mut diagnostics = Diagnostics::default();
-    for reduction in &system.results.reductions {
-        if let ReductionKind::At(at) = reduction.kind {
-            let t = system.value_at(at, &[]);
-            if !(from <= t && t <= to) {
-                diagnostics.push(errors::at_outside(reduction, t, interval));
-            }
-        }
-    }
-    diagnostics
-}
-
-/// A mechanism that is assembled at its first time, in a position of full rank.
-pub struct Started {
-    kinematics: Kinematics,
-    state: State,
-    moved: Moved,
-    /// Why this may not be the position that the estimates mean.
-    doubt: Option<Doubt>,
-    /// What solves for the rows; none where it would be too large, or nobody asks for them.
-    solver: Option<Arc<Solver>>,
-}
-
-/// Assembles a mechanism at the first time of a horizon.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    start_from(determined, program, horizon, None, tolerance, cancel)
-}
-
-/// As [`start`], from other estimates [m, rad] than those of the file, if there are any.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn start_from(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), horizon, estimates, (tolerance, cancel), Kinematics::solver)
-}
-
-/// As [`start_from`], without what solves for rows, which takes longer than all else: for who only asks for the position.
-///
-/// # Errors
-/// It cannot be assembled, starts in a singular position, or a formula has no value there.
-pub fn assemble_from(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    tolerance: f64,
-    cancel: &Cancel,
-) -> Result<Started, Box<Diagnostic>> {
-    started((determined, program), horizon, estimates, (tolerance, cancel), |_| None)
-}
-
-/// Where the bodies of a mechanism that cannot be assembled at the first time of a horizon come nearest to that, from the file's estimates or
-/// from others: all is closed but what is told to be open. None where that is not known, or hopeless [m, rad].
-#[must_use]
-pub fn nearest(
-    determined: Arc<Determined>,
-    program: Arc<Program>,
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    cancel: &Cancel,
-) -> Option<Vec<f64>> {
-    let mut kinematics = kinematics((determined, program), horizon, estimates, (TOLERANCE, cancel));
-    assembly::nearest(&mut kinematics, horizon.from)
-}
-
-/// A mechanism before it is assembled, which begins at estimates.
-fn kinematics(
-    (determined, program): (Arc<Determined>, Arc<Program>),
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    (tolerance, cancel): (f64, &Cancel),
-) -> Kinematics {
-    let mut kinematics = Kinematics::new(determined, program, horizon.span, tolerance, cancel.clone());
-    if let Some(estimates) = estimates {
-        kinematics.begin_from(estimates);
-    }
-    kinematics
-}
-
-fn started(
-    (determined, program): (Arc<Determined>, Arc<Program>),
-    horizon: Horizon,
-    estimates: Option<&[f64]>,
-    (tolerance, cancel): (f64, &Cancel),
-    solver: impl FnOnce(&Kinematics) -> Option<Solver>,
-) -> Result<Started, Box<Diagnostic>> {
-    let mut kinematics = kinematics((determined, program), horizon, estimates, (tolerance, cancel));
-    let (state, moved) = assembly::assemble(&mut kinematics, horizon.from)?;
-    // by the position at the start, which is what was factored last
-    kinematics.choose_orders();
-    let solver = solver(&kinematics).map(Arc::new);
-    let estimates = kinematics.estimates();
-    let doubt = if moved.perturbed { None } else { branches::doubt(&mut kinematics, &estimates, &state) };
-    Ok(Started { kinematics, state, moved, doubt, solver })
-}
-
-impl Started {
-    /// What is to be said of the assembly: whether it moved bodies far, and whether gears fit.
-    #[must_use]
-    pub fn remarks(&self) -> Diagnostics {
-        let (system, state) = (self.kinematics.system(), &self.state);
-        let mut diagnostics = self.far_estimates_at(state.t);
-        diagnostics.extend(system.fits.iter().filter_map(|fit| errors::misfit(system, fit, &state.q, state.t)));
-        diagnostics
-    }
-
-    /// Whether the assembly moved bodies far, said of a time (s).
-    fn far_estimates_at(&self, t: f64) -> Diagnostics {
-        let (system, from) = (self.kinematics.system(), self.kinematics.estimates());
-        let ends = [from.as_slice(), &self.state.q];
-        let mut diagnostics = Diagnostics::default();
-        diagnostics.extend(errors::far_estimates(system, self.moved.perturbed, self.doubt, ends, t));
-        diagnostics
-    }
-
-    /// How far assembly moved the bodies from their estimates.
-    #[must_use]
-    pub fn moved(&self) -> &Moved {
-        &self.moved
-    }
-
-    /// The assembled coordinates [m, rad].
-    #[must_use]
-    pub fn q(&self) -> &[f64] {
-        &self.state.q
-    }
-
-    /// The smallest singular value of any block of the scaled `Φ_q` at the start: 1 is best, 0 a singular position.
-    #[must_use]
-    pub fn conditioning(&mut self) -> f64 {
-        self.kinematics.restore(&self.state);
-        self.kinematics.worst().sigma
-    }
-
-    /// What solves for rows; none where it would be too large, or is left out.
-    #[must_use]
-    pub fn solver(&self) -> Option<&Solver> {
-        self.solver.as_deref()
-    }
-
-    /// The same operations, to be written as code; by a program that may leave inputs open, and has the same registers.
-    #[must_use]
-    pub fn solver_for_code_of(&mut self, program: &Program) -> Option<Solver> {
-        self.kinematics.restore(&self.state);
-        self.kinematics.solver_for_code_of(program)
-    }
-
-    /// By row of `Φ`: what may be left of it at the start.
-    #[must_use]
-    pub fn bounds(&mut self) -> Vec<f64> {
-        self.kinematics.restore(&self.state);
-        let mut inverses = vec![0.0; self.state.q.len()];
-        self.kinematics.write_bounds(&mut inverses);
-        inverses.iter().map(|inverse| 1.0 / inverse).collect()
-    }
-
-    /// The motion from the start on, a row for each of some times, which do not come before the start.
-    #[must_use]
-    pub fn into_motion(self, times: &Times) -> Motion {
-        Motion::new(self.kinematics, self.state, self.solver, times.clone())
-    }
-}
+pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, with_parts};
+pub use explain::errors::length as length_in_words;
+pub use explain::{FreeMotion, determine, free_motions};
+pub use follow::{LeadOptions, Motion, Way, lead};
+pub use results::{Answers, Asked, refused_results};
+pub use state::{Horizon, Times};

@@ -30,6 +30,7 @@ mod right_sides;
 mod rims;
 mod scopes;
 mod signals;
+mod sparse;
 mod validate;
 mod variations;
 
@@ -40,6 +41,7 @@ pub use right_sides::{RightSide, With};
 pub use rims::Rim;
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
 pub use signals::CheckSlopes;
+pub use sparse::SparseRows;
 pub use variations::{Appended, Variable, Variation, Variations};
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL, TableId};
@@ -76,7 +78,7 @@ pub struct ConstraintSystem {
     /// `Φ_q`, by rows.
     pub phi_q: SparseRows,
     /// The right sides of the equations that follow from `Φ = 0`.
-    pub right_sides: Vec<RightSide>,
+    right_sides: Vec<RightSide>,
     /// Derivatives by inputs and parameters, where there are any.
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
@@ -427,68 +429,41 @@ pub enum ConditionKind {
     Samples(TableId),
 }
 
-/// A sparse matrix of expressions, row by row.
-#[derive(Clone, Debug, Default)]
-pub struct SparseRows {
-    starts: Vec<usize>,
-    entries: Vec<(u32, ExprId)>,
-}
-
-impl SparseRows {
-    /// One without rows.
-    #[must_use]
-    pub fn new() -> SparseRows {
-        SparseRows { starts: vec![0], entries: Vec::new() }
-    }
-
-    /// Adds a row; columns in ascending order.
-    pub fn push(&mut self, row: impl IntoIterator<Item = (u32, ExprId)>) {
-        self.entries.extend(row);
-        self.starts.push(self.entries.len());
-    }
-
-    /// The entries of a row: column and expression.
-    #[must_use]
-    pub fn row(&self, row: usize) -> &[(u32, ExprId)] {
-        &self.entries[self.range(row)]
-    }
-
-    /// Positions of a row's entries in [`SparseRows::entries`].
-    #[must_use]
-    pub fn range(&self, row: usize) -> std::ops::Range<usize> {
-        self.starts[row]..self.starts[row + 1]
-    }
-
-    /// Some of its rows.
-    #[must_use]
-    pub fn of_rows(&self, rows: &[usize]) -> SparseRows {
-        let mut kept = SparseRows::new();
-        for &row in rows {
-            kept.push(self.row(row).iter().copied());
-        }
-        kept
-    }
-
-    /// The row that a position in [`SparseRows::entries`] belongs to.
-    #[must_use]
-    pub fn row_of(&self, position: usize) -> usize {
-        self.starts.partition_point(|&start| start <= position) - 1
-    }
-
-    /// How many rows it has.
-    #[must_use]
-    pub fn rows(&self) -> usize {
-        self.starts.len().saturating_sub(1)
-    }
-
-    /// All entries, row by row.
-    #[must_use]
-    pub fn entries(&self) -> &[(u32, ExprId)] {
-        &self.entries
-    }
-}
-
 impl ConstraintSystem {
+    /// One with nothing in it, of a name and its place.
+    #[must_use]
+    pub fn empty(name: String, span: Span) -> ConstraintSystem {
+        ConstraintSystem {
+            name,
+            span,
+            graph: Graph::new(),
+            params: Vec::new(),
+            inputs: Vec::new(),
+            has_signals: false,
+            check_slopes: CheckSlopes::default(),
+            bodies: IdVec::default(),
+            points: IdVec::default(),
+            coordinates: Vec::new(),
+            declarations: IdVec::default(),
+            rows: Vec::new(),
+            phi_q: SparseRows::new(),
+            right_sides: Vec::new(),
+            variations: None,
+            measures: Vec::new(),
+            results: Results::default(),
+            conditions: Vec::new(),
+            checks: Vec::new(),
+            watches: Vec::new(),
+            rims: Vec::new(),
+            open_contacts: Vec::new(),
+            fits: Vec::new(),
+            parts: Vec::new(),
+            asking_parts: Vec::new(),
+            length: 0.0,
+            analysis: None,
+        }
+    }
+
     /// The total time derivative of expressions: `t ↦ 1`, `q ↦ q̇` and so on, up to the given order of `q`, the
     /// derivatives above which are taken to be zero.
     pub fn time_derivatives(graph: &mut Graph, roots: &[ExprId], highest: u8) -> Vec<ExprId> {

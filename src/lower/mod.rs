@@ -20,7 +20,7 @@ mod velocities;
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, SparseRows, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, Units, Variations, Watch,
 };
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
@@ -36,92 +36,28 @@ const HOLDS_JERK: u8 = 2;
 /// The equations of a mechanism. Cannot fail: what could make it fail has been refused by `check`.
 #[must_use]
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
-    let sizes = size::of_bodies(model);
-    let mut lowering = Lowering {
-        model,
-        numbering: Numbering::of(model),
-        graph: Graph::new(),
-        known: FxHashMap::default(),
-        named: Vec::new(),
-        as_drawn: false,
-        view: None,
-        part_sizes: size::of_parts(model, &sizes),
-        largest_size: sizes.iter().copied().fold(0.0, f64::max),
-        sizes,
-        open_contacts: Vec::new(),
-        coordinates: Vec::new(),
-        rows: Vec::new(),
-        declarations: IdVec::default(),
-        conditions: Vec::new(),
-        known_conditions: FxHashSet::default(),
-        watches: Vec::new(),
-        fits: Vec::new(),
-        variations: variations::variables(model),
-        over_leaves: scopes::OverLeaves::default(),
-    };
-    lowering.tables();
-    lowering.open_scopes();
-    lowering.named_up_to(model.named_before_results);
-    lowering.body_coordinates();
-    lowering.joint_rows();
-    lowering.equation_rows();
-    lowering.rows_of_scopes();
-    lowering.conditions();
-    let points = lowering.points();
-    let measures = lowering.measures();
-    let (parts, asking_parts) = (lowering.part_starts(), lowering.asking_parts());
-    lowering.append_derivatives(&measures);
-    let needs_jerk = measures.iter().any(|measure| {
-        [Some(measure.value), measure.first, measure.second]
-            .into_iter()
-            .flatten()
-            .any(|id| lowering.graph.dependence(id).highest_order() == Some(3))
-    }) || model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
-    let mut system = ConstraintSystem {
-        name: model.declared.name.clone(),
-        span: model.declared.span,
-        params: params(model),
-        inputs: Vec::new(),
-        has_signals: model.has_signals,
-        check_slopes: ir::CheckSlopes::default(),
-        bodies: lowering.bodies(),
-        points,
-        coordinates: std::mem::take(&mut lowering.coordinates),
-        declarations: std::mem::take(&mut lowering.declarations),
-        rows: std::mem::take(&mut lowering.rows),
-        graph: std::mem::take(&mut lowering.graph),
-        phi_q: SparseRows::new(),
-        right_sides: Vec::new(),
-        variations: lowering.variations.take().map(Box::new),
-        measures,
-        conditions: std::mem::take(&mut lowering.conditions),
-        results: ir::Results::default(),
-        checks: Vec::new(),
-        watches: std::mem::take(&mut lowering.watches),
-        rims: Vec::new(),
-        open_contacts: std::mem::take(&mut lowering.open_contacts),
-        fits: std::mem::take(&mut lowering.fits),
-        parts,
-        asking_parts,
-        length: lowering.largest_size,
-        analysis: model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]),
-    };
-    system.derive(needs_jerk && !model.has_signals);
+    let mut lowering = Lowering::of(model);
+    let mut system = lowering.written();
+    let with_jerk = needs_jerk(model, &system);
+    system.derive(with_jerk);
     system.derive_variations();
     system.find_rims();
     // late, so that what is there already is as it would be without
     inputs::add(model, &mut system);
     if !model.outcomes.is_empty() {
-        // what is asked of the whole analysis changes nothing above
-        lowering.graph = std::mem::take(&mut system.graph);
-        lowering.coordinates.clone_from(&system.coordinates);
-        lowering.variations = system.variations.as_deref().map(Variations::without_columns);
-        system.results = lowering.results();
-        system.graph = lowering.graph;
-        system.derive_variations_of_results();
+        lowering.ask_of_the_whole(&mut system);
     }
     debug_assert_eq!(system.validate(), Ok(()));
     system
+}
+
+/// Whether measures or results hold third derivatives of the coordinates, which only a system of time alone has.
+fn needs_jerk(model: &Mechanism, system: &ConstraintSystem) -> bool {
+    let is_third = |id: ExprId| system.graph.dependence(id).highest_order() == Some(3);
+    let mut measures = system.measures.iter();
+    let is_measured = measures.any(|measure| (0..3).filter_map(|order| measure.derivative(order)).any(is_third));
+    let is_asked_for = model.reductions.iter().any(|reduction| reduction.order >= HOLDS_JERK);
+    (is_measured || is_asked_for) && !model.has_signals
 }
 
 /// The parameters; of each, how much of its name says in which part it is.
@@ -208,7 +144,79 @@ fn units(of: &model::Units) -> Units {
     Units { si, printed, scale }
 }
 
+impl<'m> Lowering<'m> {
+    fn of(model: &'m Mechanism) -> Lowering<'m> {
+        let sizes = size::of_bodies(model);
+        Lowering {
+            model,
+            numbering: Numbering::of(model),
+            graph: Graph::new(),
+            known: FxHashMap::default(),
+            named: Vec::new(),
+            as_drawn: false,
+            view: None,
+            part_sizes: size::of_parts(model, &sizes),
+            largest_size: sizes.iter().copied().fold(0.0, f64::max),
+            sizes,
+            open_contacts: Vec::new(),
+            coordinates: Vec::new(),
+            rows: Vec::new(),
+            declarations: IdVec::default(),
+            conditions: Vec::new(),
+            known_conditions: FxHashSet::default(),
+            watches: Vec::new(),
+            fits: Vec::new(),
+            variations: variations::variables(model),
+            over_leaves: scopes::OverLeaves::default(),
+        }
+    }
+}
+
 impl Lowering<'_> {
+    /// The system as far as it is written: nothing is derived yet.
+    fn written(&mut self) -> ConstraintSystem {
+        let model = self.model;
+        self.tables();
+        self.open_scopes();
+        self.named_up_to(model.named_before_results);
+        self.body_coordinates();
+        self.joint_rows();
+        self.equation_rows();
+        self.rows_of_scopes();
+        self.conditions();
+        let mut system = ConstraintSystem::empty(model.declared.name.clone(), model.declared.span);
+        system.points = self.points();
+        system.measures = self.measures();
+        system.parts = self.part_starts();
+        system.asking_parts = self.asking_parts();
+        self.append_derivatives(&system.measures);
+        system.params = params(model);
+        system.has_signals = model.has_signals;
+        system.bodies = self.bodies();
+        system.coordinates = std::mem::take(&mut self.coordinates);
+        system.declarations = std::mem::take(&mut self.declarations);
+        system.rows = std::mem::take(&mut self.rows);
+        system.graph = std::mem::take(&mut self.graph);
+        system.variations = self.variations.take().map(Box::new);
+        system.conditions = std::mem::take(&mut self.conditions);
+        system.watches = std::mem::take(&mut self.watches);
+        system.open_contacts = std::mem::take(&mut self.open_contacts);
+        system.fits = std::mem::take(&mut self.fits);
+        system.length = self.largest_size;
+        system.analysis = model.analysis.map(|analysis| [analysis.from, analysis.to, analysis.every]);
+        system
+    }
+
+    /// What is asked of the whole analysis, which changes nothing of what is there.
+    fn ask_of_the_whole(&mut self, system: &mut ConstraintSystem) {
+        self.graph = std::mem::take(&mut system.graph);
+        self.coordinates.clone_from(&system.coordinates);
+        self.variations = system.variations.as_deref().map(Variations::without_columns);
+        system.results = self.results();
+        system.graph = std::mem::take(&mut self.graph);
+        system.derive_variations_of_results();
+    }
+
     /// A formula of the model in this graph.
     fn formula(&mut self, id: ExprId) -> ExprId {
         carry(&mut self.graph, self.model, &mut self.known, &self.named, id)

@@ -184,7 +184,7 @@ impl Op {
     /// Carries the operation out.
     #[inline(always)]
     #[allow(clippy::inline_always)] // what a machine does is to become one with the choice of it
-    pub fn run<M: Machine>(self, m: &mut M) {
+    pub fn run<M: Machine>(&self, m: &mut M) {
         macro_rules! of {
             ($to:ident = $does:ident($($operand:ident),+)) => {{
                 $(let $operand = m.read($operand);)+
@@ -192,7 +192,7 @@ impl Op {
                 m.write($to, value);
             }};
         }
-        match self {
+        match *self {
             Op::Add { to, a, b } => of!(to = add(a, b)),
             Op::Sub { to, a, b } => of!(to = sub(a, b)),
             Op::Mul { to, a, b } => of!(to = mul(a, b)),

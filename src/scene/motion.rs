@@ -1,6 +1,7 @@
 //! Where all frames are, row by row and between the rows.
 
 use super::plane::{Pose, Vector, plus, times};
+use crate::math;
 use rustc_hash::FxHashMap;
 
 /// The poses of all frames at some times, with their first and second derivatives, and what else a picture asks of the table.
@@ -174,21 +175,15 @@ impl Motion {
 
 /// A pose so much time (s) later, by its velocity and acceleration.
 fn taylor([pose, rate, acceleration]: [Pose; 3], h: f64) -> Pose {
-    let along = |q: f64, qd: f64, qdd: f64| q + h * (qd + 0.5 * h * qdd);
     let at = plus(pose.at, times(h, plus(rate.at, times(0.5 * h, acceleration.at))));
-    Pose { at, phi: along(pose.phi, rate.phi, acceleration.phi) }
+    Pose { at, phi: math::predicted([pose.phi, rate.phi, acceleration.phi], h) }
 }
 
 /// The quintic through two poses with velocities and accelerations, `h` (s) apart, at a part of the way.
 fn quintic(from: [Pose; 3], to: [Pose; 3], h: f64, part: f64) -> Pose {
     let coordinate = |of: fn(&Pose) -> f64| {
-        let [p0, p1] = [of(&from[0]), of(&to[0])];
-        let [v0, v1] = [h * of(&from[1]), h * of(&to[1])];
-        let [a0, a1] = [0.5 * h * h * of(&from[2]), 0.5 * h * h * of(&to[2])];
-        let [d, dv] = [p1 - p0 - v0 - a0, v1 - v0 - 2.0 * a0];
-        let da = a1 - a0;
-        let (c3, c4, c5) = (10.0 * d - 4.0 * dv + da, -15.0 * d + 7.0 * dv - 2.0 * da, 6.0 * d - 3.0 * dv + da);
-        p0 + part * (v0 + part * (a0 + part * (c3 + part * (c4 + part * c5))))
+        let [from, to] = [&from, &to].map(|end| end.each_ref().map(of));
+        math::along(&math::quintic(from, to, h), part)
     };
     Pose { at: [coordinate(|pose| pose.at[0]), coordinate(|pose| pose.at[1])], phi: coordinate(|pose| pose.phi) }
 }

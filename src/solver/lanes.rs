@@ -155,8 +155,13 @@ impl<const W: usize> Run<'_, W> {
         let (batch, stride) = (self.batch, self.solver.layout.stride);
         let mut numbers = Numbers { v: values.as_mut_slice(), program: self.program, scalars: self.scalars };
         for instruction in &self.solver.instructions[range] {
+            // most are operations: one choice of many, and not two
+            if let Instruction::Compute(op) = instruction {
+                op.run(&mut numbers);
+                continue;
+            }
             match *instruction {
-                Instruction::Compute(op) => op.run(&mut numbers),
+                Instruction::Compute(_) | Instruction::Pivot { .. } => {}
                 Instruction::Number { to, bits } => numbers.write(to, [from_bits(bits); W]),
                 Instruction::Load { to, from } => numbers.write(to, [self.scalars.get(from); W]),
                 Instruction::Time { to } => numbers.write(to, batch.times),
@@ -181,7 +186,6 @@ impl<const W: usize> Run<'_, W> {
                 Instruction::Residual { a, row } => {
                     keep_largest(residual, &numbers.v[a as usize].0, batch.bounds[row as usize]);
                 }
-                Instruction::Pivot { .. } => {}
             }
         }
     }

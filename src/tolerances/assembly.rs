@@ -16,7 +16,7 @@ pub mod estimates {
     pub const SAME: f64 = 1e-12;
 }
 
-/// Newton from the estimates, and singular starts (`analysis/assembly.rs`).
+/// Newton from the estimates, and singular starts (`analysis/assemble/assembly.rs`).
 pub mod newton {
     /// Passes over the explicit coordinates at most; each settles what depends on the one before.
     pub const EXPLICIT_STEPS: usize = 50;
@@ -48,7 +48,7 @@ pub mod newton {
     pub const WITHOUT_SLOPE: f64 = 1e-5;
 }
 
-/// Damped least squares (`analysis/least_squares.rs`).
+/// Damped least squares (`analysis/state/least_squares.rs`).
 pub mod least_squares {
     /// Steps at most.
     pub const STEPS: usize = 300;
@@ -62,7 +62,7 @@ pub mod least_squares {
     pub const LEAST_GAIN: f64 = 1e-10;
 }
 
-/// Equations looked at one by one (`analysis/evaluator.rs`).
+/// Equations looked at one by one (`analysis/explain/evaluator.rs`).
 pub mod evaluator {
     /// An equation that is off by more than this, scaled, by its slope is one whose slope vanishes.
     pub const HOPELESS: f64 = 30.0;
@@ -70,7 +70,7 @@ pub mod evaluator {
     pub const NUDGE: f64 = 0.02;
 }
 
-/// Estimates that are far off (`analysis/branches.rs`).
+/// Estimates that are far off (`analysis/assemble/branches.rs`).
 pub mod branches {
     /// A body of a loop that turned by more than this (rad) was drawn the other way round.
     pub const TURNED_OVER: f64 = std::f64::consts::FRAC_PI_2;
@@ -87,13 +87,13 @@ pub mod branches {
     pub const RANDOM_STARTS: usize = 8;
 }
 
-/// Starts of parts (`analysis/parts.rs`).
+/// Starts of parts (`analysis/assemble/parts.rs`).
 pub mod parts {
     /// Blocks up to this size are solved for the sake of parts.
     pub const LARGEST: usize = 300;
 }
 
-/// The way of inputs from their own values to those that are told (`analysis/lead.rs`).
+/// The way of inputs from their own values to those that are told (`analysis/follow/lead.rs`).
 pub mod lead {
     /// How far before and behind a kink, as a part of the way, the mechanism is looked at.
     pub const BESIDE_A_KINK: f64 = 1e-9;

@@ -1,12 +1,12 @@
 //! Why a mechanism is not determined, or cannot be assembled.
 
-/// The part that is refused (`analysis/determine.rs`).
+/// The part that is refused (`analysis/explain/determine.rs`).
 pub mod determine {
     /// Larger parts are not looked at with values: their equations would be a dense matrix.
     pub const LARGEST: usize = 600;
 }
 
-/// Equations that depend on others (`analysis/redundancy.rs`).
+/// Equations that depend on others (`analysis/explain/redundancy.rs`).
 pub mod redundancy {
     /// Equations that are this nearly dependent are so: an assembled position is known to the root of rounding.
     pub const DEPENDENT: f64 = 1e-6;
@@ -18,7 +18,7 @@ pub mod redundancy {
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 }
 
-/// Free motions, and what is proposed to take them (`analysis/freedom.rs`).
+/// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`).
 pub mod freedom {
     /// A residual above this is not assembled: motions would be told of no position.
     pub const ASSEMBLED: f64 = 1e-8;
@@ -42,7 +42,7 @@ pub mod freedom {
     pub const MOST_POINTS: usize = 1000;
 }
 
-/// Loops that cannot be closed (`analysis/open_loop.rs`).
+/// Loops that cannot be closed (`analysis/explain/open_loop.rs`).
 pub mod open_loop {
     /// Larger systems are looked at block by block.
     pub const LARGEST: usize = 600;
@@ -65,7 +65,7 @@ pub mod velocities {
     pub const NOTHING: f64 = 1e-9;
 }
 
-/// Gears that do not reach each other (`analysis/errors/assembly.rs`).
+/// Gears that do not reach each other (`analysis/assemble/errors.rs`).
 pub mod fits {
     /// Gears may be off by this part of the larger radius.
     pub const LARGEST_MISFIT: f64 = 1e-6;

@@ -12,7 +12,7 @@ pub mod size {
     pub const PLACES_ON_CURVE: u32 = 16;
 }
 
-/// Nearness to a singular position, and orders of elimination (`analysis/linear.rs`).
+/// Nearness to a singular position, and orders of elimination (`analysis/state/linear/mod.rs`).
 pub mod linear {
     /// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
     /// overestimate it by little.
@@ -27,7 +27,7 @@ pub mod linear {
     pub const PLANS: u32 = 4;
 }
 
-/// The second set of scales (`analysis/yardstick.rs`).
+/// The second set of scales (`analysis/state/yardstick.rs`).
 pub mod yardstick {
     /// Sweeps over rows and columns: what is left after them is a factor that does not matter.
     pub const SWEEPS: usize = 12;
@@ -42,7 +42,7 @@ pub mod yardstick {
     pub const ROUNDING: f64 = 1e-10;
 }
 
-/// Residuals, and rows that are bent (`analysis/kinematics.rs`).
+/// Residuals, and rows that are bent (`analysis/state/kinematics/mod.rs`).
 pub mod kinematics {
     /// What rounding makes of a term.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;

@@ -1,6 +1,6 @@
 //! Singular positions on the way.
 
-/// Why steps vanish (`analysis/singular.rs`).
+/// Why steps vanish (`analysis/explain/singular.rs`).
 pub mod reasons {
     /// Below this the position is called singular, or as near to one as the steps could come.
     pub const NEAR: f64 = 1e-2;
@@ -16,7 +16,7 @@ pub mod reasons {
     pub const TAKES_PART: f64 = 1e-3;
 }
 
-/// The way over a singular position (`analysis/bridge.rs`).
+/// The way over a singular position (`analysis/follow/crossing/mod.rs`).
 pub mod bridge {
     /// A state nearer than this to a singular position is not clear of it.
     ///
@@ -55,7 +55,7 @@ pub mod bridge {
     pub const SPREAD: f64 = 0.08;
 }
 
-/// The finer curve of a bridge (`analysis/finer.rs`).
+/// The finer curve of a bridge (`analysis/follow/crossing/finer.rs`).
 pub mod finer {
     /// The outer states are so far from the ends of the bridge, as a part of its length.
     pub const OUTWARD: f64 = 0.7;
@@ -65,7 +65,7 @@ pub mod finer {
     pub const EXACT: f64 = 2e-9;
 }
 
-/// Whether there are positions all the way (`analysis/reach.rs`).
+/// Whether there are positions all the way (`analysis/follow/crossing/reach.rs`).
 pub mod reach {
     /// Corrections of a position beside the curve at most; each must come down to this part of the one before.
     pub const CORRECTIONS: usize = 60;

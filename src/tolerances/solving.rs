@@ -48,7 +48,7 @@ pub mod pivoting {
     pub const LARGEST_BLOCK: usize = 100;
 }
 
-/// Output times, solved for together (`analysis/rows.rs`).
+/// Output times, solved for together (`analysis/follow/rows/leap.rs`).
 pub mod rows {
     /// Times that are solved at once.
     pub const LANES: usize = 16;
@@ -67,7 +67,7 @@ pub mod rows {
     pub const STEPS_AHEAD: usize = 1_000;
 }
 
-/// Rows that are in doubt (`analysis/trust.rs`).
+/// Rows that are in doubt (`analysis/state/trust.rs`).
 pub mod trust {
     /// Where a row is printed, what rounding makes of it must stay below the accuracy promised.
     pub const ACCURACY: f64 = 1e-9;
@@ -80,7 +80,7 @@ pub mod trust {
     pub const FAR: f64 = 1.5e-3;
 }
 
-/// Rows solved for again, for they are in doubt (`analysis/doubt.rs`).
+/// Rows solved for again, for they are in doubt (`analysis/follow/march/doubt.rs`).
 pub mod doubt {
     /// A row is right if it differs from one that is exact by no more, beside its size or 1: in place, velocity and acceleration.
     pub const RIGHT: [f64; 3] = [1e-9, 1e-8, 1e-6];

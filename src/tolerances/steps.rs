@@ -1,6 +1,6 @@
 //! Steps, and what happens between their ends.
 
-/// Steps (`analysis/march.rs`).
+/// Steps (`analysis/follow/step/mod.rs`).
 pub mod march {
     /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
     /// from other coordinates: the upper end of a tall lift goes far.
@@ -27,7 +27,7 @@ pub mod march {
     pub const MOST_STEPS: u64 = 1_000_000;
 }
 
-/// Values that time alone decides (`analysis/signals.rs`).
+/// Values that time alone decides (`analysis/follow/edges/signals.rs`).
 pub mod signals {
     /// A signal may leave the values at the ends of a part of a step by as much as moves the mechanism by this, scaled.
     pub const UNSEEN: f64 = 0.03;
@@ -44,7 +44,7 @@ pub mod signals_in_a_row {
     pub const MOST_IN_A_ROW: usize = 8;
 }
 
-/// Determinants that come to zero and go back (`analysis/touch.rs`).
+/// Determinants that come to zero and go back (`analysis/follow/step/touch.rs`).
 pub mod touch {
     /// A determinant that falls within a step to this part of its lesser value at the ends may touch zero there. Shorter steps
     /// tell: beside a zero they meet it, over a mere minimum the ends come down to it.
@@ -56,7 +56,7 @@ pub mod touch {
     pub const SECTIONS: usize = 60;
 }
 
-/// Edges of formulas (`analysis/edges.rs`).
+/// Edges of formulas (`analysis/follow/edges/mod.rs`).
 pub mod edges {
     /// So many units in the last place of an output time it may be off from the edge that it is meant to be.
     pub const SLACK: f64 = 4.0;
@@ -89,7 +89,7 @@ pub mod edges {
     pub const ITERATIONS: usize = 4;
 }
 
-/// Ends of what a function takes (`analysis/rims.rs`).
+/// Ends of what a function takes (`analysis/follow/edges/rims.rs`).
 pub mod rims {
     /// The span is looked through in parts no smaller than this one of it, and in so many in one step at most.
     pub const FINEST: f64 = 1e-8;
@@ -115,7 +115,7 @@ pub mod rims {
     pub const MOST_HALVINGS: usize = 100;
 }
 
-/// Both sides of a rim (`analysis/limits.rs`).
+/// Both sides of a rim (`analysis/follow/edges/limits.rs`).
 pub mod limits {
     /// Distances that are looked at.
     pub const MOST: usize = 16;

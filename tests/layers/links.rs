@@ -9,7 +9,7 @@ pub type Names = Vec<String>;
 
 /// One file of the crate.
 pub struct File {
-    /// `analysis/march.rs`.
+    /// `analysis/state/trust.rs`.
     pub place: String,
     /// Its code without comments and its own tests.
     pub code: String,

@@ -3,9 +3,8 @@
 use super::Asked;
 use super::reduced::Reduced;
 use super::survey::Trouble;
-use crate::analysis::march::Motion;
-use crate::analysis::stretches::Stretch;
-use crate::analysis::times::Times;
+use crate::analysis::follow::{Motion, Stretch};
+use crate::analysis::state::Times;
 use crate::ir::ReductionKind;
 
 /// Where the motion is not clear of singular positions: from one time to another (s), in order.

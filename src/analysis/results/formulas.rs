@@ -2,7 +2,7 @@
 
 use super::places::Places;
 use super::smooth::Smooth;
-use crate::analysis::kinematics::State;
+use crate::analysis::state::State;
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};

@@ -8,6 +8,7 @@
 //! formula needs. No bit of a row depends on it.
 
 mod certain;
+mod errors;
 mod formulas;
 mod places;
 mod quadrature;
@@ -17,13 +18,11 @@ mod smooth;
 mod survey;
 mod varying;
 
-use super::Started;
-use super::errors;
-use super::kinematics::{Kinematics, State};
-use super::march::Motion;
-use super::times::Times;
+use crate::analysis::assemble::Started;
+use crate::analysis::follow::Motion;
+use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
-use crate::diag::Diagnostic;
+use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{ExprId, Graph, Symbol};
 use crate::ir::{ConstraintSystem, Reduction, ReductionKind};
 use crate::solver::Solver;
@@ -35,7 +34,22 @@ use places::Places;
 use reduced::Reduced;
 use rustc_hash::FxHashMap;
 use std::sync::Arc;
-pub(in crate::analysis) use survey::Trouble;
+use survey::Trouble;
+
+/// What is wrong with the results that an analysis from one time to another (s) is asked for.
+#[must_use]
+pub fn refused_results(system: &ConstraintSystem, interval @ [from, to]: [f64; 2]) -> Diagnostics {
+    let mut diagnostics = Diagnostics::default();
+    for reduction in &system.results.reductions {
+        if let ReductionKind::At(at) = reduction.kind {
+            let t = system.value_at(at, &[]);
+            if !(from <= t && t <= to) {
+                diagnostics.push(errors::at_outside(reduction, t, interval));
+            }
+        }
+    }
+    diagnostics
+}
 
 /// What results are computed from: an assembled mechanism and the times of its analysis.
 pub struct Asked {
@@ -61,8 +75,7 @@ impl Started {
     /// at; `pass` goes on beyond bifurcations. The flag ends the work.
     #[must_use]
     pub fn asked(&self, interval: [f64; 2], pass: bool, cancel: &Cancel) -> Asked {
-        let Started { kinematics, state, solver, .. } = self;
-        let (kinematics, state, solver) = (kinematics.clone(), state.clone(), solver.clone());
+        let (kinematics, state, solver) = self.parts();
         Asked { kinematics, state, solver, interval, pass, cancel: cancel.clone() }
     }
 }
@@ -97,7 +110,7 @@ impl Asked {
 
     /// A motion of its own to some times.
     fn motion(&self, times: Times) -> Motion {
-        let mut motion = Motion::new(self.kinematics.clone(), self.state.clone(), self.solver.clone(), times);
+        let mut motion = Motion::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
             motion.pass_bifurcations();
         }

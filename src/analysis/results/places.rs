@@ -1,10 +1,9 @@
 //! States within a stretch of the motion, solved for where they are asked for.
 
 use super::varying::Varying;
-use crate::analysis::kinematics::{Kinematics, State};
-use crate::analysis::march::{along, quintic};
-use crate::analysis::rows::state_of_row;
-use crate::analysis::stretches::Stretch;
+use crate::analysis::follow::{Stretch, quintic_between, state_of_row};
+use crate::analysis::state::{Kinematics, State};
+use crate::math::along;
 use crate::program::{Ranges, Register, Stage};
 use crate::solver::{Batch, Lanes, Solver};
 use crate::tolerances::results::places::{ITERATIONS, SOLVABLE};
@@ -106,7 +105,7 @@ impl Places {
     pub fn solve(&mut self, stretch: &Stretch, [a, b]: [&State; 2], t: f64) -> Option<State> {
         let h = b.t - a.t;
         for (k, curve) in self.curve.iter_mut().enumerate() {
-            *curve = quintic(a, b, k, h);
+            *curve = quintic_between(a, b, k, h);
         }
         if let Some(bridge) = stretch.bridge.as_ref().filter(|bridge| t > bridge.from.t) {
             let on_bridge = bridge.best_state_at(t);

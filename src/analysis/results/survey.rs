@@ -2,8 +2,8 @@
 
 use super::formulas::{Cell, Formula, Point};
 use super::places::Places;
-use crate::analysis::kinematics::State;
-use crate::analysis::stretches::Stretch;
+use crate::analysis::follow::Stretch;
+use crate::analysis::state::State;
 use crate::program::Range;
 use crate::tolerances::results::survey::{ALIKE, MOST_CELLS, OPAQUE, ROUNDING, SHORTEST, SOLVED};
 
@@ -32,7 +32,7 @@ impl Scale {
 
 /// Why there is no number.
 #[derive(Clone, Copy, PartialEq, Debug)]
-pub(in crate::analysis) enum Trouble {
+pub enum Trouble {
     /// The formula has no value at a time (s).
     Missing(f64),
     /// It could not be found out around a time (s).

@@ -1,6 +1,6 @@
 //! Derivatives by inputs and parameters at states of the motion: the variations that results hold, of which rows need not know.
 
-use crate::analysis::kinematics::{Kinematics, State};
+use crate::analysis::state::{Kinematics, State};
 use crate::ir::ConstraintSystem;
 use crate::program::{Program, Register, Registers, Stage};
 

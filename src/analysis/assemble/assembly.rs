@@ -1,0 +1,339 @@
+//! From the estimates of the file to a position that satisfies every equation at the first time.
+//!
+//! First Newton's method with damped steps; where that fails, Levenberg–Marquardt, which also works through singular
+//! positions, from the estimates and then from perturbed ones. What comes out is assembled, or nothing does.
+
+use super::search::{Noise, levenberg_marquardt};
+use crate::analysis::explain::{errors, open_loop, singular};
+use crate::analysis::state::{Fault, Horizon, Kinematics, State, behind_start};
+use crate::diag::Diagnostic;
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, WatchKind};
+use crate::tolerances::assembly::newton::{
+    BESIDE, EXPLICIT_STEPS, LARGEST_DENSE, LARGEST_STEP, MOVED, NEARBY, NEWTON_STEPS, OPEN_NEARBY, PERTURBATIONS,
+    SETTLED, SINGULAR_START, SMALLEST_DAMPING, VANISHING_TANGENT, WITHOUT_SLOPE,
+};
+use std::f64::consts::PI;
+
+/// How far assembly moved the bodies from their estimates.
+#[derive(Clone, Copy, PartialEq, Debug, Default)]
+pub struct Moved {
+    /// Largest move of a body's origin in x or y (m).
+    pub length: f64,
+    /// That body.
+    pub length_body: BodyId,
+    /// Largest turn (rad).
+    pub angle: f64,
+    /// That body.
+    pub angle_body: BodyId,
+    /// Whether the estimates led nowhere, and others near them had to be tried.
+    pub perturbed: bool,
+}
+
+/// Assembles at time `t`.
+pub fn assemble(kinematics: &mut Kinematics, t: f64) -> Result<(State, Moved), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    let estimates = kinematics.estimates();
+    set_start(kinematics, t);
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = kinematics.set_position(&estimates) {
+        return Err(Box::new(errors::no_value(system, fault, t)));
+    }
+    let start = explicit_first(kinematics, &estimates);
+    let (q, perturbed) = match assembled(kinematics, &start) {
+        Some(q) => (q, false),
+        None => by_least_squares(kinematics, &start, t)?,
+    };
+    let moved = Moved { perturbed, ..moved(system, &estimates, &q) };
+    refuse_vanishing_tangents(kinematics, &q, t)?;
+    refuse_singular(kinematics, &q, t)?;
+    Ok((State::new(t, q), moved))
+}
+
+/// At a switch the later side counts.
+fn set_start(kinematics: &mut Kinematics, t: f64) {
+    let span = kinematics.span();
+    kinematics.settle_time(behind_start(t, span));
+    kinematics.freeze(true, false);
+    kinematics.set_time(t);
+}
+
+/// Where all is closed but what is told to be open, if [`assemble`] finds no position.
+pub fn nearest(kinematics: &mut Kinematics, t: f64) -> Option<Vec<f64>> {
+    let estimates = kinematics.estimates();
+    set_start(kinematics, t);
+    kinematics.set_position(&estimates).ok()?;
+    let start = explicit_first(kinematics, &estimates);
+    kinematics.set_position(&start).ok()?;
+    let q = least_squares(kinematics, start);
+    open_loop::opened(&kinematics.determined(), &q, t)
+}
+
+fn moved(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Moved {
+    let mut moved = Moved::default();
+    for (k, (a, b)) in from.iter().zip(to).enumerate() {
+        let Some(body) = system.body_of(k) else {
+            continue;
+        };
+        let way = (b - a).abs();
+        match system.coordinates[k].kind {
+            CoordinateKind::Length if way > moved.length => (moved.length, moved.length_body) = (way, body),
+            CoordinateKind::Angle if way > moved.angle => (moved.angle, moved.angle_body) = (way, body),
+            _ => {}
+        }
+    }
+    moved
+}
+
+/// The estimates with those coordinates put right that follow from others without iteration: a driven crank, the
+/// places of the bodies on it. So they may be as far off as they like.
+fn explicit_first(kinematics: &mut Kinematics, estimates: &[f64]) -> Vec<f64> {
+    let mut q = estimates.to_vec();
+    let mut delta = vec![0.0; q.len()];
+    for _ in 0..EXPLICIT_STEPS {
+        if kinematics.set_position(&q).is_err() {
+            return estimates.to_vec();
+        }
+        // other blocks may well be singular still
+        let _ = kinematics.factor();
+        let size = kinematics.explicit_correction(&mut delta);
+        if !size.is_finite() {
+            return estimates.to_vec();
+        }
+        for (q, delta) in q.iter_mut().zip(&delta) {
+            *q += delta;
+        }
+        if size <= SETTLED {
+            return q;
+        }
+    }
+    estimates.to_vec()
+}
+
+/// Where Newton's method arrives, with every line of centres pointing from the first centre to the second: the equations
+/// alone would let it point the other way.
+fn assembled(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
+    let q = newton(kinematics, start)?;
+    let turned = kinematics.turned_lines();
+    if turned.is_empty() {
+        return Some(q);
+    }
+    let mut again = q;
+    for theta in turned {
+        again[theta] += if again[theta] > start[theta] { -PI } else { PI };
+    }
+    let q = newton(kinematics, &again)?;
+    kinematics.turned_lines().is_empty().then_some(q)
+}
+
+/// Damped Newton, judged by the size of the next correction with the same factors (P. Deuflhard, *Newton Methods for
+/// Nonlinear Problems*, 2004, section 3.3): the judgement does not depend on how rows are scaled.
+fn newton(kinematics: &mut Kinematics, start: &[f64]) -> Option<Vec<f64>> {
+    let n = start.len();
+    let (mut q, mut trial) = (start.to_vec(), start.to_vec());
+    let (mut delta, mut next) = (vec![0.0; n], vec![0.0; n]);
+    kinematics.set_position(&q).ok()?;
+    for _ in 0..NEWTON_STEPS {
+        kinematics.factor().ok()?;
+        let size = kinematics.correction(&mut delta);
+        if !size.is_finite() {
+            return None;
+        }
+        let mut damping = f64::min(1.0, LARGEST_STEP / kinematics.linear().largest_implicit(&delta));
+        loop {
+            for k in 0..n {
+                trial[k] = q[k] + damping * delta[k];
+            }
+            let smaller = kinematics.set_position(&trial).is_ok() && {
+                let next_size = kinematics.correction(&mut next);
+                next_size <= (1.0 - 0.25 * damping) * size || size <= SETTLED
+            };
+            if smaller {
+                break;
+            }
+            damping *= 0.5;
+            if damping < SMALLEST_DAMPING {
+                return None;
+            }
+        }
+        q.copy_from_slice(&trial);
+        if size <= SETTLED && kinematics.violated().is_none() {
+            return Some(q);
+        }
+    }
+    None
+}
+
+/// The assembled position, and whether the estimates had to be perturbed to find it.
+fn by_least_squares(
+    kinematics: &mut Kinematics,
+    estimates: &[f64],
+    t: f64,
+) -> Result<(Vec<f64>, bool), Box<Diagnostic>> {
+    let mut nearest = None;
+    let mut noise = Noise::new();
+    for size in std::iter::once(0.0).chain(PERTURBATIONS) {
+        if kinematics.is_cancelled() {
+            break;
+        }
+        let start: Vec<f64> = (0..estimates.len())
+            .map(|k| estimates[k] + size * kinematics.linear().column_scale(k) * noise.next())
+            .collect();
+        let q = least_squares(kinematics, start);
+        if let Some(polished) = assembled(kinematics, &q) {
+            return Ok((polished, size > 0.0));
+        }
+        let _ = kinematics.set_position(&q);
+        let _ = kinematics.factor();
+        if kinematics.violated().is_none() && kinematics.turned_lines().is_empty() {
+            // assembled, but Newton does not settle: a singular position
+            return Ok((q, size > 0.0));
+        }
+        nearest.get_or_insert(q);
+    }
+    let q = nearest.unwrap_or_else(|| estimates.to_vec());
+    Err(Box::new(explain(kinematics, &q, t)))
+}
+
+/// Which loop stays open.
+fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
+    if let Err(fault) = kinematics.set_position(q) {
+        return errors::no_value(kinematics.system(), fault, t);
+    }
+    open_loop::explain(&kinematics.determined(), q, t).unwrap_or_else(|| {
+        let _ = kinematics.factor();
+        let open = |row: usize| kinematics.residual(row);
+        let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
+        errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
+    })
+}
+
+/// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.
+fn refuse_vanishing_tangents(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    if kinematics.set_position(q).is_err() {
+        return Ok(());
+    }
+    let vanishes =
+        |k: &usize| system.watches[*k].kind == WatchKind::Tangents && kinematics.watched(*k).abs() < VANISHING_TANGENT;
+    match (0..system.watches.len()).find(vanishes) {
+        Some(index) => Err(Box::new(errors::no_contact(system, index, t))),
+        None => Ok(()),
+    }
+}
+
+/// The equations must be independent where the motion starts.
+fn refuse_singular(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Result<(), Box<Diagnostic>> {
+    let determined = kinematics.determined();
+    let system = determined.system();
+    kinematics.measure_slopes(q);
+    let factored = kinematics.set_position(q).and_then(|()| kinematics.factor());
+    if let Err(fault @ (Fault::NotFinite { .. } | Fault::Condition { .. })) = factored {
+        return Err(Box::new(errors::no_value(system, fault, t)));
+    }
+    if let Some(row) = kinematics.linear().row_without_slope(WITHOUT_SLOPE) {
+        return Err(Box::new(errors::without_effect(system, row, t)));
+    }
+    if factored.is_ok() && kinematics.nearness(SINGULAR_START) > SINGULAR_START {
+        return Ok(());
+    }
+    let vectors = kinematics.worst();
+    let elsewhere = independent_elsewhere(kinematics, q, &vectors.right, t)
+        .or_else(|| independent_without(kinematics, q, singular::driver_in(system, &vectors.left)?, &vectors.right, t));
+    Err(Box::new(singular::name_start(
+        system,
+        (&vectors.left, &vectors.right),
+        elsewhere,
+        Horizon { from: t, span: kinematics.span() },
+    )))
+}
+
+/// Whether the equations are independent in a position nearby; none if there is no other one.
+fn independent_elsewhere(kinematics: &mut Kinematics, q: &[f64], free: &[f64], t: f64) -> Option<bool> {
+    independent_later(kinematics, q, t).or_else(|| {
+        kinematics.set_time(t);
+        independent_beside(kinematics, q, free)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads if a driver lets go; none if it
+/// leads nowhere.
+fn independent_without(kinematics: &mut Kinematics, q: &[f64], driver: usize, free: &[f64], t: f64) -> Option<bool> {
+    if q.len() > LARGEST_DENSE {
+        return None;
+    }
+    kinematics.set_time(t);
+    let columns: Vec<u32> = (0..q.len() as u32).collect();
+    let rows: Vec<u32> = columns.iter().copied().filter(|&row| row as usize != driver).collect();
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let mut near = moved_along(kinematics, q, free, way);
+        levenberg_marquardt(kinematics, &mut near, &rows, &columns);
+        independent_where(kinematics, q, &near, &rows)
+    })
+}
+
+/// Whether the equations are independent beside a position, where its free motion leads; none if it leads nowhere.
+fn independent_beside(kinematics: &mut Kinematics, q: &[f64], free: &[f64]) -> Option<bool> {
+    [BESIDE, -BESIDE].into_iter().find_map(|way| {
+        let start = moved_along(kinematics, q, free, way);
+        independent_at(kinematics, q, start)
+    })
+}
+
+/// A position moved along a free motion, scaled.
+fn moved_along(kinematics: &Kinematics, q: &[f64], free: &[f64], way: f64) -> Vec<f64> {
+    (0..q.len()).map(|k| q[k] + way * free[k] * kinematics.linear().column_scale(k)).collect()
+}
+
+/// Whether the equations are independent at a time nearby; none if no position can be had there, as when every driver rests.
+fn independent_later(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Option<bool> {
+    let span = kinematics.span();
+    NEARBY.into_iter().find_map(|part| {
+        kinematics.set_time(t + part * span);
+        independent_at(kinematics, q, q.to_vec())
+    })
+}
+
+/// Whether the equations are independent where least squares lead from a start; none if that is `q` again, or nowhere.
+fn independent_at(kinematics: &mut Kinematics, q: &[f64], start: Vec<f64>) -> Option<bool> {
+    let near = least_squares(kinematics, start);
+    let all: Vec<u32> = (0..q.len() as u32).collect();
+    independent_where(kinematics, q, &near, &all)
+}
+
+/// Whether the equations are independent in a position where some of them hold; none if it is `q`, or they do not hold.
+fn independent_where(kinematics: &mut Kinematics, q: &[f64], near: &[f64], rows: &[u32]) -> Option<bool> {
+    let far = |k: usize| (near[k] - q[k]).abs() > MOVED * kinematics.linear().column_scale(k);
+    let moved = (0..q.len()).any(far);
+    let holds = kinematics.set_position(near).is_ok() && {
+        let _ = kinematics.factor();
+        kinematics.hold_nearly(rows, OPEN_NEARBY)
+    };
+    (moved && holds).then(|| kinematics.nearness(SINGULAR_START) > SINGULAR_START)
+}
+
+/// Levenberg–Marquardt on the whole or block by block; gives where it comes to rest.
+fn least_squares(kinematics: &mut Kinematics, mut q: Vec<f64>) -> Vec<f64> {
+    let determined = kinematics.determined();
+    let n = q.len();
+    if n <= LARGEST_DENSE {
+        let all: Vec<u32> = (0..n as u32).collect();
+        levenberg_marquardt(kinematics, &mut q, &all, &all);
+    } else {
+        for block in determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST_DENSE) {
+            if kinematics.set_position(&q).is_err() {
+                break;
+            }
+            let _ = kinematics.factor();
+            if kinematics.hold(&block.rows) {
+                continue;
+            }
+            levenberg_marquardt(kinematics, &mut q, &block.rows, &block.columns);
+            // the blocks behind it depend on it
+            if kinematics.set_position(&q).is_err() || !kinematics.hold(&block.rows) {
+                break;
+            }
+        }
+    }
+    q
+}

@@ -1,0 +1,138 @@
+//! What is said of a position that was found, but may not be the one meant.
+
+use super::assembly::Moved;
+use super::branches::{Doubt, Off};
+use crate::analysis::explain::errors::{at, degrees, length};
+use crate::diag::{Applies, Code, Diagnostic, Fix, readable};
+use crate::ir::{ConstraintSystem, DeclarationKind, Fit, JointKind};
+use crate::tolerances::determinacy::fits::LARGEST_MISFIT;
+
+/// A remark where the estimates leave in doubt that the position taken is the one meant.
+///
+/// From the estimates to the assembled position.
+pub fn far_estimates(
+    system: &ConstraintSystem,
+    perturbed: bool,
+    doubt: Option<Doubt>,
+    [from, to]: [&[f64]; 2],
+    t: f64,
+) -> Option<Diagnostic> {
+    let assembled = || assembled_poses(system, from, to);
+    if perturbed {
+        let message = format!("the estimates do not say which way the mechanism is assembled at {}", at(t));
+        return Some(
+            Diagnostic::new(Code::N0601, message)
+                .at(system.span, "one of several positions was taken")
+                .help("give estimates in `at` that are nearer to the position meant")
+                .change(assembled()),
+        );
+    }
+    let doubt = doubt?;
+    let body = &system.bodies[doubt.body];
+    let how = match doubt.off {
+        Off::Moved(by) => format!("moved by {}", length(by)),
+        Off::Turned(by) => format!("turned by {}", degrees(by)),
+    };
+    Some(
+        Diagnostic::new(Code::N0601, format!("body `{}` was {how} by the assembly at {}", body.name, at(t)))
+            .at(body.span, "far from its estimate")
+            .help("if this is not the branch meant, give better estimates in `at`")
+            .change(assembled()),
+    )
+}
+
+/// The assembled poses as the estimates of those bodies that assembly has moved by more than rounding.
+fn assembled_poses(system: &ConstraintSystem, from: &[f64], to: &[f64]) -> Option<Fix> {
+    let mut edits = Vec::new();
+    for (id, body) in system.bodies.pairs() {
+        let pose @ [x, y, phi] = system.pose_of(id);
+        let has_moved = |&column: &usize| (to[column] - from[column]).abs() > 1e-6 * system.coordinates[column].scale;
+        if !pose.iter().any(has_moved) {
+            continue;
+        }
+        let nine = |value: f64| format!("{value:.8e}").parse().unwrap_or(value) + 0.0;
+        let [x, y] = [x, y].map(|column| if to[column].abs() < 1e-12 { 0.0 } else { nine(1e3 * to[column]) });
+        let phi = if to[phi].abs() < 1e-12 { 0.0 } else { nine(to[phi].to_degrees()) };
+        let pose = format!("({x} mm, {y} mm, {phi} deg)");
+        let written = match body.pose_span {
+            Some(span) => Fix::replace(span, pose, "", Applies::Probably),
+            None => Fix::append(body.span, format!(" at {pose}"), "", Applies::Probably),
+        };
+        edits.extend(written.edits);
+    }
+    let message = "write the assembled position into `at`".to_owned();
+    (!edits.is_empty()).then_some(Fix { message, edits, applies: Applies::Probably })
+}
+
+/// A warning where the centres of gears, or of a pinion and its rack, are not as far apart as the radii have it.
+pub fn misfit(system: &ConstraintSystem, fit: &Fit, q: &[f64], t: f64) -> Option<Diagnostic> {
+    let [distance, wanted, radius] = [fit.distance, fit.wanted, fit.radius].map(|id| system.value_at(id, q));
+    let off = distance - wanted;
+    if off.abs() <= LARGEST_MISFIT * radius {
+        return None;
+    }
+    let joint = &system.declarations[fit.declaration];
+    if distance < -LARGEST_MISFIT * radius {
+        let message =
+            format!("the pinion of `{}` is on the other side of its rack than is said at {}", joint.name, at(t));
+        return Some(
+            Diagnostic::new(Code::W0501, message)
+                .at(joint.span, "it turns the other way there")
+                .help("left and right are seen along the direction of the rack's axis"),
+        );
+    }
+    let (what, why, other) = match joint.kind {
+        DeclarationKind::Joint(JointKind::Gear) => ("centres", "the sum of the radii", Some("internal_gear")),
+        DeclarationKind::Joint(JointKind::InternalGear) => ("centres", "the difference of the radii", Some("gear")),
+        _ => ("centre and axis", "the radius", None),
+    };
+    // the sum of the radii, of gears whose difference was asked for, and the other way round
+    let fits_another = (distance - (2.0 * radius - wanted)).abs() <= LARGEST_MISFIT * radius;
+    let message = format!(
+        "the {what} of `{}` are {} apart at {}, and {why} is {}",
+        joint.name,
+        digits_that_differ(distance, wanted),
+        at(t),
+        digits_that_differ(wanted, distance)
+    );
+    let label =
+        format!("{} too {}", in_one_unit(off.abs(), 2, distance.max(wanted)), if off < 0.0 { "near" } else { "far" });
+    let help = match other.filter(|_| fits_another) {
+        Some(other) => format!("was `{other}` meant? its centres would be right"),
+        None => format!(
+            "set them {} apart by the joints of their bodies, or change a radius: a mesh does not hold its distance",
+            digits_that_differ(wanted, distance)
+        ),
+    };
+    Some(Diagnostic::new(Code::W0501, message).at(joint.span, label).help(help))
+}
+
+/// A length (m) with as many digits as tell it from another.
+fn digits_that_differ(value: f64, other: f64) -> String {
+    if value.abs() < 1e-12 {
+        return "0 mm".to_owned();
+    }
+    let digits = (3..=9).find(|&digits| format!("{value:.digits$e}") != format!("{other:.digits$e}")).unwrap_or(9);
+    in_one_unit(value, digits, value.abs().max(other.abs()))
+}
+
+/// A length (m) with so many digits behind the first one, in the unit that suits the larger length beside it.
+fn in_one_unit(value: f64, digits: usize, beside: f64) -> String {
+    let (times, unit) = if beside.abs() < 1.0 { (1e3, "mm") } else { (1.0, "m") };
+    let rounded: f64 = format!("{:.digits$e}", value * times).parse().unwrap_or(value);
+    format!("{} {unit}", readable(rounded))
+}
+
+impl Moved {
+    /// In a sentence.
+    #[must_use]
+    pub fn in_words(&self, system: &ConstraintSystem) -> String {
+        format!(
+            "assembled: moved by at most {} (`{}`) and {} (`{}`) from the estimates",
+            length(self.length),
+            system.bodies[self.length_body].name,
+            degrees(self.angle),
+            system.bodies[self.angle_body].name,
+        )
+    }
+}

@@ -1,0 +1,12 @@
+//! The position at the first time: found from estimates, proven not to be singular, and told of where it may not be the one meant.
+
+mod assembly;
+mod branches;
+mod errors;
+mod parts;
+mod search;
+mod started;
+
+pub use assembly::Moved;
+pub use parts::{Request, with_parts};
+pub use started::{Started, assemble_from, nearest, start, start_from};

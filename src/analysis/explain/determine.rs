@@ -1,0 +1,209 @@
+//! Whether a system is determined, and if not what is the matter: equations too many, coordinates too free, or both.
+//!
+//! `structure` says it by pattern, without values. Here what it refuses is assembled as far as that goes, and looked at with
+//! values: which equations say nothing new, which contradict each other, and which motions are left.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
+use super::redundancy::{Dependent, dependents, times_nearby};
+use crate::analysis::state::Horizon;
+use crate::diag::{Diagnostic, Diagnostics};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind};
+use crate::structure::{self, Determined, Part, Refused};
+use crate::tolerances::determinacy::determine::LARGEST;
+
+/// Shows that a system is determined, where need be without the equations that are redundant.
+///
+/// # Errors
+/// Why it is not: too few equations, too many, or some that conflict. Redundant ones are refused unless they are allowed.
+pub fn determine(
+    system: ConstraintSystem,
+    allow_redundant: bool,
+    horizon: Horizon,
+) -> Result<(Determined, Diagnostics), Diagnostics> {
+    let refused = match structure::prove(system) {
+        Ok(determined) => return Ok((determined, Diagnostics::default())),
+        Err(refused) => *refused,
+    };
+    let anatomy = Anatomy::of(&refused.system, &refused.too_many, horizon);
+    let is_enough = anatomy.dependents.len().cast_signed() == -refused.system.ndof();
+    let holds = anatomy.dependents.iter().all(|dependent| dependent.open.is_none());
+    if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
+        return Err(explain(refused, &anatomy));
+    }
+    let said = errors::left_out(&refused.system, &anatomy.dependents);
+    let mut system = refused.system;
+    leave_out(&mut system, &anatomy.dependents);
+    match structure::prove(system) {
+        Ok(determined) => Ok((determined, said)),
+        Err(refused) => Err(refused.diagnostic.into()),
+    }
+}
+
+/// What is the matter with a system that was refused.
+fn explain(refused: Refused, anatomy: &Anatomy) -> Diagnostics {
+    let Refused { system, diagnostic, too_few, .. } = refused;
+    let is_free = !too_few.columns.is_empty() || anatomy.freedom.as_ref().is_some_and(|freedom| freedom.degrees() > 0);
+    match (anatomy.dependents.as_slice(), &anatomy.freedom) {
+        ([], None) => diagnostic.into(),
+        ([], Some(freedom)) => errors::too_few(diagnostic, &system, freedom).into(),
+        (dependents, _) if !is_free => errors::too_many(&system, dependents),
+        (dependents, freedom) => {
+            let first = match freedom {
+                Some(freedom) => errors::too_many_and_too_few(&system, dependents, freedom),
+                None => diagnostic,
+            };
+            first.into()
+        }
+    }
+}
+
+/// A system whose equations depend on each other wherever it is, though they are as many as the coordinates; none where
+/// that cannot be told.
+pub fn explain_dependent(system: &ConstraintSystem, horizon: Horizon) -> Option<Diagnostic> {
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &everything(system), horizon);
+    let freedom = freedom.filter(|freedom| freedom.degrees() > 0)?;
+    (!dependents.is_empty()).then(|| errors::too_many_and_too_few(system, &dependents, &freedom))
+}
+
+/// The motions that a system leaves free that is not determined, where it is drawn; where it is drawn in a position in which it
+/// can move otherwise than elsewhere, those where it is assembled.
+#[must_use]
+pub fn free_motions(system: &ConstraintSystem, horizon: Horizon) -> Vec<FreeMotion> {
+    let rows = everything(system);
+    if usize::max(rows.rows.len(), rows.columns.len()) > LARGEST {
+        return Vec::new();
+    }
+    let Anatomy { dependents, freedom } = Anatomy::of(system, &rows, horizon);
+    let mut kept = rows;
+    kept.rows.retain(|&row| dependents.iter().all(|dependent| dependent.row != row as usize));
+    let drawn = motions_as_drawn(system, &kept, horizon.from);
+    match (drawn, freedom) {
+        (Some(drawn), Some(freedom)) if drawn.len() != freedom.degrees() => freedom.motions_of_bodies(system),
+        (Some(drawn), _) => drawn,
+        (None, freedom) => freedom.map_or(Vec::new(), |freedom| freedom.motions_of_bodies(system)),
+    }
+}
+
+/// What values say of a system.
+struct Anatomy {
+    dependents: Vec<Dependent>,
+    /// What is left free, where that is known.
+    freedom: Option<Freedom>,
+}
+
+impl Anatomy {
+    /// Of a system of which a part has too many equations.
+    fn of(system: &ConstraintSystem, too_many: &Part, horizon: Horizon) -> Anatomy {
+        let Horizon { from: t, span } = horizon;
+        let mut evaluator = Evaluator::new(system);
+        let mut found = Vec::new();
+        if !too_many.rows.is_empty() && too_many.rows.len() <= LARGEST {
+            found = surplus(&mut evaluator, too_many.clone(), [t, span]);
+        }
+        let mut kept = everything(system);
+        kept.rows.retain(|&row| found.iter().all(|dependent| dependent.row != row as usize));
+        let is_small = usize::max(kept.rows.len(), kept.columns.len()) <= LARGEST;
+        let freedom = if is_small { Anatomy::freedom(&mut evaluator, &kept, [t, span]) } else { None };
+        Anatomy { dependents: found, freedom }
+    }
+}
+
+/// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
+fn surplus(evaluator: &mut Evaluator<'_>, mut part: Part, times: [f64; 2]) -> Vec<Dependent> {
+    let system = evaluator.system;
+    let declaration_of = |row: usize| system.rows[row].declaration;
+    // of joints that hold the same, one that formulas speak of stays
+    let rank = |row: &u32| {
+        let declaration = system.declaration_of(*row as usize);
+        let kind = match declaration.kind {
+            DeclarationKind::Joint(_) => 0,
+            DeclarationKind::Constraint => 1,
+            DeclarationKind::Driver => 2,
+        };
+        (kind, !declaration.is_spoken_of)
+    };
+    part.rows.sort_by_key(rank);
+    let mut found = Vec::new();
+    loop {
+        let Some(mut dependents) = dependents(evaluator, &part, times) else {
+            return found;
+        };
+        if let Some(driver) = stuck_driver(system, &dependents) {
+            // the joints do not fit beside it: the one that closes the loop is to be named
+            part.rows.sort_by_key(|&row| (row as usize != driver, suspicion(system, row as usize)));
+            dependents = self::dependents(evaluator, &part, times).unwrap_or(dependents);
+        }
+        let conflict = dependents.iter().find(|one| one.open.is_some() && !system.is_driver(one.row));
+        let Some(conflict) = conflict.map(|one| declaration_of(one.row)) else {
+            found.extend(dependents);
+            return found;
+        };
+        found.extend(dependents.into_iter().filter(|one| declaration_of(one.row) == conflict));
+        part.rows.retain(|&row| declaration_of(row as usize) != conflict);
+    }
+}
+
+/// The row of a driver to which joints alone leave no motion, none of them being redundant.
+fn stuck_driver(system: &ConstraintSystem, dependents: &[Dependent]) -> Option<usize> {
+    let is_stuck = |one: &&Dependent| {
+        system.is_driver(one.row) && one.open.is_some() && !one.on.iter().any(|&row| system.is_driver(row))
+    };
+    let all_drive = dependents.iter().all(|one| system.is_driver(one.row));
+    dependents.iter().find(is_stuck).filter(|_| all_drive).map(|one| one.row)
+}
+
+/// How likely it is that a row is wrong rather than one before it: a length that is prescribed is more often than a pin.
+fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
+    match system.declaration_of(row).kind {
+        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
+        DeclarationKind::Joint(_) | DeclarationKind::Driver => 0,
+        DeclarationKind::Constraint => 1,
+    }
+}
+
+impl Anatomy {
+    /// What is left free at the start, or shortly after where that is less: a start may be in a singular position.
+    fn freedom(evaluator: &mut Evaluator<'_>, kept: &Part, [t, span]: [f64; 2]) -> Option<Freedom> {
+        let least = kept.columns.len().saturating_sub(kept.rows.len());
+        let mut best: Option<Freedom> = None;
+        for t in times_nearby(t, span) {
+            if let Some(found) = Freedom::of(evaluator, kept, t)
+                && best.as_ref().is_none_or(|known| found.degrees() < known.degrees())
+            {
+                best = Some(found);
+            }
+            if best.as_ref().is_some_and(|known| known.degrees() <= least) {
+                break;
+            }
+            evaluator.nudge(&kept.columns);
+        }
+        best
+    }
+}
+
+fn everything(system: &ConstraintSystem) -> Part {
+    Part { rows: (0..system.rows.len() as u32).collect(), columns: (0..system.coordinates.len() as u32).collect() }
+}
+
+/// Makes checks of the equations that are left out.
+fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
+    let q: Vec<f64> = system.coordinates.iter().map(|coordinate| system.value_at(coordinate.estimate, &[])).collect();
+    let mut rows: Vec<usize> = dependents.iter().map(|dependent| dependent.row).collect();
+    rows.sort_unstable();
+    let checks = rows
+        .iter()
+        .map(|&row| {
+            let slopes = system
+                .phi_q
+                .row(row)
+                .iter()
+                .map(|&(column, slope)| system.value_at(slope, &q) * system.coordinates[column as usize].scale);
+            let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
+            let scale = if norm > 0.0 { norm } else { 1.0 };
+            Check { phi: system.rows[row].phi, declaration: system.rows[row].declaration, scale }
+        })
+        .collect();
+    system.leave_out(&rows, checks);
+}

@@ -1,0 +1,13 @@
+//! Why a mechanism is not determined, cannot be assembled, or does not go on: found by looking at values, and said in words.
+
+mod determine;
+pub mod errors;
+mod evaluator;
+mod free_motion;
+mod freedom;
+pub mod open_loop;
+mod redundancy;
+pub mod singular;
+
+pub use determine::{determine, free_motions};
+pub use freedom::FreeMotion;

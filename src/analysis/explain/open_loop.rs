@@ -1,0 +1,227 @@
+//! Why a mechanism cannot be assembled: which closed loop stays open, by how much, and which lengths are too short or too
+//! long for it.
+//!
+//! Where the equations come nearest to zero their residuals are in balance, as the forces of springs in the joints would
+//! be. So they pull at the links: one that is drawn apart is too short, one that is pressed together is too long.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use crate::analysis::state::Linear;
+use crate::diag::Diagnostic;
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
+use crate::math;
+use crate::structure::{Determined, Part};
+use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
+
+/// A loop that does not close.
+pub struct OpenLoop {
+    /// The declaration at which it is told to be open.
+    pub at: DeclarationId,
+    /// By how much there (m or rad), all else being closed.
+    pub by: f64,
+    /// In what.
+    pub kind: CoordinateKind,
+    /// All declarations that take part, in order.
+    pub declarations: Vec<DeclarationId>,
+    /// Lengths that stand in the way.
+    pub links: Vec<Link>,
+    /// The largest residual that is left, scaled.
+    pub residual: f64,
+}
+
+/// A length that is too short or too long.
+pub struct Link {
+    /// What it is of.
+    pub of: LinkOf,
+    /// The length (m).
+    pub length: f64,
+    /// Whether it is too short.
+    pub too_short: bool,
+}
+
+/// What a length is of.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum LinkOf {
+    /// The distance between two declarations' points on a body; none for the ground.
+    Body(Option<BodyId>, [DeclarationId; 2]),
+    /// The distance that a declaration prescribes.
+    Declaration(DeclarationId),
+}
+
+/// The diagnosis where the nearest position is `q`.
+pub fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
+    let system = determined.system();
+    let (open, _) = told(determined, q, t)?;
+    Some(errors::open_loop(system, &open, t))
+}
+
+/// The coordinates [m, rad] where all is closed but what is told to be open.
+pub fn opened(determined: &Determined, q: &[f64], t: f64) -> Option<Vec<f64>> {
+    let (open, q) = told(determined, q, t)?;
+    let far = if open.kind == CoordinateKind::Length { FAR * determined.system().length } else { FAR };
+    (open.by <= far && q.iter().all(|x| x.is_finite())).then_some(q)
+}
+
+/// The loop that does not close, and the coordinates where all but one declaration of it is.
+fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64>)> {
+    let mut evaluator = Evaluator::new(determined.system());
+    evaluator.q.copy_from_slice(q);
+    let part = open_part(&mut evaluator, determined, t)?;
+    let open = open_loop(&mut evaluator, &part, t)?;
+    Some((open, evaluator.q))
+}
+
+/// All equations, or the first block that stays open.
+fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Part> {
+    let system = determined.system();
+    let n = system.rows.len();
+    if n <= LARGEST {
+        return Some(Part { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
+    }
+    determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST).find_map(|block| {
+        let linear = evaluator.linear(&block.rows, &block.columns, None, t)?;
+        let is_open = linear.residual.iter().any(|open| open.abs() > CLOSED);
+        is_open.then(|| Part { rows: block.rows.clone(), columns: block.columns.clone() })
+    })
+}
+
+fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenLoop> {
+    let system = evaluator.system;
+    let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
+    let largest = linear.residual.iter().fold(0.0, |m: f64, open| m.max(open.abs()));
+    if largest < CLOSED {
+        return None;
+    }
+    let mut declarations: Vec<DeclarationId> = part
+        .rows
+        .iter()
+        .zip(&linear.residual)
+        .filter(|(_, open)| open.abs() > TAKES_PART * largest)
+        .map(|(&row, _)| system.rows[row as usize].declaration)
+        .collect();
+    declarations.dedup();
+    let links = links(evaluator, part, &linear, &declarations);
+    let at = weakest(system, part, &linear, &declarations)?;
+    let weights: Vec<f64> = part
+        .rows
+        .iter()
+        .zip(&linear.weights)
+        .map(|(&row, weight)| if system.rows[row as usize].declaration == at { weight * LIGHT } else { *weight })
+        .collect();
+    evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
+    let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows[row].declaration == at);
+    let gaps: Vec<(CoordinateKind, f64)> =
+        rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
+    let of_kind = |wanted: CoordinateKind| {
+        let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
+        squares.sum::<f64>().sqrt()
+    };
+    let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
+    // from elsewhere it closes: the estimates are too far off, and no length is wrong
+    if !gaps.is_empty() && length <= CLOSED * system.length && angle <= CLOSED {
+        return None;
+    }
+    let (kind, by) = if gaps.is_empty() {
+        // no motion that could be seen closes it
+        (CoordinateKind::Length, f64::INFINITY)
+    } else if length / system.length > 0.1 * angle {
+        (CoordinateKind::Length, length)
+    } else {
+        (CoordinateKind::Angle, angle)
+    };
+    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+}
+
+/// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
+/// than a pin.
+fn weakest(
+    system: &ConstraintSystem,
+    part: &Part,
+    linear: &Linear,
+    declarations: &[DeclarationId],
+) -> Option<DeclarationId> {
+    let is_about_places = |k: DeclarationId| {
+        let own = (0..system.rows.len()).find(|&row| system.rows[row].declaration == k);
+        own.is_some_and(|row| errors::gap_kind(system, row) == CoordinateKind::Length)
+    };
+    let rank = |k: DeclarationId| match system.declarations[k].kind {
+        DeclarationKind::Joint(JointKind::RevoluteRevolute) => 2,
+        DeclarationKind::Constraint => 1,
+        DeclarationKind::Driver if is_about_places(k) => 1,
+        _ => 0,
+    };
+    let open = |k: DeclarationId| {
+        let own =
+            part.rows.iter().zip(&linear.residual).filter(|(row, _)| system.rows[**row as usize].declaration == k);
+        own.map(|(_, open)| open * open).sum::<f64>()
+    };
+    // of pins that are equally open the last one closes the loop
+    let is_no_driver = |k: DeclarationId| system.declarations[k].kind != DeclarationKind::Driver;
+    let largest = declarations.iter().map(|&k| open(k)).fold(0.0, f64::max);
+    declarations.iter().copied().filter(|&k| open(k) > 0.3 * largest).max_by_key(|&k| (rank(k), is_no_driver(k), k))
+}
+
+/// The lengths along which the residuals pull or press.
+fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
+    let system = evaluator.system;
+    let mut links = Vec::new();
+    for &k in declarations {
+        let link = |[length, found]: [f64; 2]| Link { of: LinkOf::Declaration(k), length, too_short: found > length };
+        links.extend(evaluator.distance(k).map(link));
+    }
+    let bodies = std::iter::once(None).chain(system.bodies.ids().map(Some));
+    for body in bodies {
+        let pulls: Vec<(DeclarationId, PointId, [f64; 2])> = declarations
+            .iter()
+            .filter_map(|&k| {
+                let point = *system.declarations[k].points.iter().find(|&&point| system.points[point].body == body)?;
+                Some((k, point, force(evaluator, part, linear, k, body)))
+            })
+            .collect();
+        let largest = pulls.iter().map(|(.., force)| math::hypot(force[0], force[1])).fold(0.0, f64::max);
+        let acting: Vec<_> =
+            pulls.iter().filter(|(.., force)| math::hypot(force[0], force[1]) > TAKES_PART * largest).collect();
+        let &[&(first, p, _), &(second, q, force)] = acting.as_slice() else {
+            continue;
+        };
+        let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
+        let way = [to[0] - from[0], to[1] - from[1]];
+        let length = math::hypot(way[0], way[1]);
+        let along = (force[0] * way[0] + force[1] * way[1]) / length;
+        if length > CLOSED * system.length && along.abs() > ALONG * largest {
+            links.push(Link { of: LinkOf::Body(body, [first, second]), length, too_short: along > 0.0 });
+        }
+    }
+    links
+}
+
+/// What a declaration pulls at a body or the ground with, its residuals taken for springs.
+fn force(
+    evaluator: &Evaluator<'_>,
+    part: &Part,
+    linear: &Linear,
+    declaration: DeclarationId,
+    body: Option<BodyId>,
+) -> [f64; 2] {
+    let system = evaluator.system;
+    let mut force = [0.0; 2];
+    for (k, &row) in part.rows.iter().enumerate() {
+        let row = row as usize;
+        if system.rows[row].declaration != declaration {
+            continue;
+        }
+        let pull = linear.residual[k] / linear.weights[k];
+        for (column, slope) in evaluator.slopes(row) {
+            let Some(of) = system.body_of(column) else { continue };
+            let [x, y, _] = system.pose_of(of);
+            let Some(axis) = [x, y].iter().position(|&place| place == column) else { continue };
+            match body {
+                Some(wanted) if of == wanted => force[axis] -= pull * slope,
+                // what holds the ground is what it holds the bodies with
+                None => force[axis] += pull * slope,
+                Some(_) => {}
+            }
+        }
+    }
+    force
+}

@@ -1,0 +1,169 @@
+//! Too many equations: which of them say nothing that the others do not, and which cannot hold beside the others.
+//!
+//! All equations of a part are assembled together, by least squares; there each one is taken in turn, joints first and
+//! drivers last, and depends on those before it or not. Whether one that does is redundant or conflicts with them is seen at
+//! nearby times too: two drivers may agree at the start and part at once.
+
+use super::errors;
+use super::evaluator::Evaluator;
+use crate::structure::Part;
+use crate::tolerances::determinacy::redundancy::{DEPENDENT, NEARBY, OPEN, TAKES_PART};
+
+/// An equation that depends on others.
+#[derive(Clone, Debug)]
+pub struct Dependent {
+    /// Its row.
+    pub row: usize,
+    /// The rows it depends on.
+    pub on: Vec<usize>,
+    /// How far it is open with the others met (m or rad, by its coordinates), and when first (s); none if it holds.
+    pub open: Option<(f64, f64)>,
+}
+
+/// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
+/// they have no values.
+pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
+    let basis = basis_of_start(evaluator, part, [t, span])?;
+    let row = |k: usize| part.rows[k] as usize;
+    let mut dependents: Vec<Dependent> = basis
+        .dependent
+        .iter()
+        .map(|(k, on)| Dependent { row: row(*k), on: on.iter().map(|&k| row(k)).collect(), open: None })
+        .collect();
+    let kept: Vec<u32> = basis.kept.iter().map(|&k| part.rows[k]).collect();
+    for t in times_nearby(t, span) {
+        let met = evaluator.assemble(&kept, &part.columns, None, t)?;
+        // a singular position is known to half the digits
+        let is_singular = Basis::of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
+        let limit = if is_singular { OPEN.sqrt() } else { OPEN };
+        let is_met = met.residual.iter().all(|open| open.abs() <= limit);
+        for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
+            let open = evaluator.linear(&[dependent.row as u32], &part.columns, None, t)?.residual[0].abs();
+            if !is_met {
+                // those of its equations that depend on no others do not hold either
+                dependent.open = Some((gap_of_declaration(evaluator, part, dependent.row, t)?, t));
+            } else if open > limit {
+                dependent.open = Some((evaluator.gap(dependent.row), t));
+            }
+        }
+    }
+    if dependents.iter().any(|dependent| dependent.open.is_some()) {
+        add_hidden(evaluator, part, t, &mut dependents);
+    }
+    Some(dependents)
+}
+
+/// How far all that the declaration of a row asks for is off, with all other equations met.
+fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Part, row: usize, t: f64) -> Option<f64> {
+    let system = evaluator.system;
+    let is_own = |other: &u32| system.rows[*other as usize].declaration == system.rows[row].declaration;
+    let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
+    let q = evaluator.q.clone();
+    evaluator.assemble(&others, &part.columns, None, t)?;
+    let kind = errors::gap_kind(system, row);
+    let of_kind = own.iter().map(|&own| own as usize).filter(|&own| errors::gap_kind(system, own) == kind);
+    let gap = of_kind.map(|own| evaluator.gap(own)).map(|gap| gap * gap).sum::<f64>().sqrt();
+    evaluator.q = q;
+    Some(gap)
+}
+
+/// The start at `t` and some times shortly after it, over a span of time (s).
+pub fn times_nearby(t: f64, span: f64) -> impl Iterator<Item = f64> {
+    std::iter::once(t).chain(NEARBY.map(|part| t + part * span))
+}
+
+/// The basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
+fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Basis> {
+    let mut best: Option<(Basis, Vec<f64>)> = None;
+    for (k, t) in times_nearby(t, span).enumerate() {
+        if k > 0 {
+            // in line as drawn, least squares would stay so
+            evaluator.nudge(&part.columns);
+        }
+        evaluator.assemble(&part.rows, &part.columns, None, t)?;
+        let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
+        let basis = Basis::of(&jacobian, part.columns.len());
+        if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
+            best = Some((basis, evaluator.q.clone()));
+        }
+    }
+    let (basis, q) = best?;
+    evaluator.q = q;
+    Some(basis)
+}
+
+/// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in
+/// line has none in the place of its tip. Beside that position they have.
+fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Part, t: f64, dependents: &mut [Dependent]) {
+    evaluator.nudge(&part.columns);
+    let Some(linear) = evaluator.linear(&part.rows, &part.columns, None, t) else {
+        return;
+    };
+    let beside = Basis::of(&linear.jacobian, part.columns.len()).dependent;
+    for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_some()) {
+        let found = beside.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
+        let on = found.into_iter().flat_map(|(_, on)| on).map(|&k| part.rows[k] as usize);
+        dependent.on.extend(on);
+        dependent.on.sort_unstable();
+        dependent.on.dedup();
+    }
+}
+
+/// Vectors as far as they are independent of those before them.
+pub struct Basis {
+    /// Orthonormal.
+    pub vectors: Vec<Vec<f64>>,
+    /// Which of the vectors given are independent.
+    pub kept: Vec<usize>,
+    /// The others, and which of the kept ones each depends on.
+    dependent: Vec<(usize, Vec<usize>)>,
+}
+
+impl Basis {
+    /// Of vectors of length `n`, each of about unit norm, one after another.
+    pub fn of(vectors: &[f64], n: usize) -> Basis {
+        let mut basis = Basis { vectors: Vec::new(), kept: Vec::new(), dependent: Vec::new() };
+        // each kept vector by the basis vectors up to its own
+        let mut factors: Vec<Vec<f64>> = Vec::new();
+        for (k, vector) in vectors.chunks_exact(n.max(1)).enumerate() {
+            let (rest, shares) = orthogonal(vector, &basis.vectors);
+            let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
+            if norm > DEPENDENT && basis.vectors.len() < n {
+                basis.vectors.push(rest.iter().map(|x| x / norm).collect());
+                factors.push([shares, vec![norm]].concat());
+                basis.kept.push(k);
+                continue;
+            }
+            let weights = back_substituted(&factors, shares);
+            let on = basis.kept.iter().zip(weights).filter(|(_, weight)| weight.abs() > TAKES_PART);
+            basis.dependent.push((k, on.map(|(&k, _)| k).collect()));
+        }
+        basis
+    }
+}
+
+/// What is left of a vector beside a basis, and its shares along it; twice, so that rounding does not add up.
+pub fn orthogonal(vector: &[f64], basis: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
+    let (mut rest, mut shares) = (vector.to_vec(), vec![0.0; basis.len()]);
+    for _ in 0..2 {
+        for (share, vector) in shares.iter_mut().zip(basis) {
+            let along: f64 = rest.iter().zip(vector).map(|(a, b)| a * b).sum();
+            for (x, v) in rest.iter_mut().zip(vector) {
+                *x -= along * v;
+            }
+            *share += along;
+        }
+    }
+    (rest, shares)
+}
+
+/// The weights of the kept vectors from shares along the basis.
+fn back_substituted(factors: &[Vec<f64>], mut shares: Vec<f64>) -> Vec<f64> {
+    for k in (0..shares.len()).rev() {
+        shares[k] /= factors[k][k];
+        for j in 0..k {
+            shares[j] -= factors[k][j] * shares[k];
+        }
+    }
+    shares
+}

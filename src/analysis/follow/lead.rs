@@ -1,0 +1,140 @@
+//! The way from one start to another: a mechanism whose inputs go along straight lines is followed from where its own inputs have it to
+//! where others do, along the branch.
+
+use crate::analysis::assemble::{Started, start_from};
+use crate::analysis::explain::errors;
+use crate::analysis::state::{Horizon, Times};
+use crate::cancel::Cancel;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::ir::ConstraintSystem;
+use crate::program::Program;
+use crate::structure::Determined;
+use crate::tolerances::assembly::lead::{BESIDE_A_KINK, KINK, MOST_KINKS};
+use std::sync::Arc;
+
+/// The way as a time.
+const WAY: Horizon = Horizon { from: 0.0, span: 1.0 };
+
+/// How a mechanism is led.
+#[derive(Clone, Debug)]
+pub struct LeadOptions {
+    /// Bounds each row of Φ, scaled.
+    pub tolerance: f64,
+    /// Go on beyond bifurcations.
+    pub pass_bifurcations: bool,
+    /// When the way begins, for what is said of that start (s).
+    pub t: f64,
+    /// Ends it.
+    pub cancel: Cancel,
+}
+
+/// How far a mechanism was led.
+pub struct Way {
+    /// The coordinates [m, rad] at the parts of the way that were asked for, as far as it got.
+    pub reached: Vec<Vec<f64>>,
+    /// What is to be said of where it began.
+    pub remarks: Diagnostics,
+    /// The bifurcations that were passed, from 0 to 1, and what is to be said of each.
+    pub passed: Vec<(f64, Diagnostic)>,
+    /// Where it did not go on, from 0 to 1, and what happens there.
+    pub stopped: Option<(f64, Box<Diagnostic>)>,
+}
+
+/// Follows a mechanism, in whose equations a straight way from 0 to 1 stands for time, from its estimates, or from others, to some parts of
+/// the way, which rise and are above 0. A velocity that jumps on the way is no reason to stop: there is no time.
+///
+/// # Errors
+/// It cannot be assembled at 0.
+pub fn lead(
+    determined: &Arc<Determined>,
+    program: &Arc<Program>,
+    from: Option<&[f64]>,
+    parts: &[f64],
+    options: &LeadOptions,
+) -> Result<Way, Box<Diagnostic>> {
+    let LeadOptions { tolerance, cancel, .. } = options;
+    let again = |part: f64, from: &[f64]| {
+        start_from(Arc::clone(determined), Arc::clone(program), WAY.beginning(part), Some(from), *tolerance, cancel)
+    };
+    let mut started = start_from(Arc::clone(determined), Arc::clone(program), WAY, from, *tolerance, cancel)?;
+    let remarks = started.far_estimates_at(options.t);
+    let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
+    let mut from = (0.0, started.q().to_vec());
+    for _ in 0..MOST_KINKS {
+        let known = way.reached.len();
+        let Way { reached, passed, .. } = &mut way;
+        let stopped = follow(started, from.0, &parts[known..], options, reached, passed);
+        let Some((part, why)) = stopped else { return Ok(way) };
+        if let Some(last) = way.reached[known..].last() {
+            from = (parts[way.reached.len() - 1], last.clone());
+        }
+        way.stopped = Some((part, why));
+        let is_a_kink = way.stopped.as_ref().is_some_and(|(_, why)| why.code == Code::E0609);
+        if !is_a_kink || cancel.is_cancelled() {
+            return Ok(way);
+        }
+        let (before, behind) = ((part - BESIDE_A_KINK).max(from.0), (part + BESIDE_A_KINK).min(1.0));
+        let mut there = Vec::new();
+        let near = again(from.0, &from.1).ok().and_then(|s| {
+            let stopped = follow(s, from.0, &[before], options, &mut there, &mut Vec::new());
+            there.pop().filter(|_| stopped.is_none())
+        });
+        let beyond = near.and_then(|q| {
+            let beyond = again(behind, &q).ok()?;
+            is_the_same(determined.system(), &q, beyond.q()).then_some(beyond)
+        });
+        let Some(beyond) = beyond else { return Ok(way) };
+        way.stopped = None;
+        while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
+            way.reached.push(beyond.q().to_vec());
+        }
+        if way.reached.len() == parts.len() {
+            return Ok(way);
+        }
+        from = (behind, beyond.q().to_vec());
+        started = beyond;
+    }
+    way.stopped = Some((from.0, Box::new(errors::cannot_follow(determined.system(), from.0, None))));
+    Ok(way)
+}
+
+/// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and
+/// why.
+fn follow(
+    started: Started,
+    from: f64,
+    parts: &[f64],
+    options: &LeadOptions,
+    reached: &mut Vec<Vec<f64>>,
+    passed: &mut Vec<(f64, Diagnostic)>,
+) -> Option<(f64, Box<Diagnostic>)> {
+    let n = started.q().len();
+    let mut motion = started.into_motion(&Times::listed(from, parts.to_vec()));
+    if options.pass_bifurcations {
+        motion.pass_bifurcations();
+    }
+    let part_of = |why: &Diagnostic| why.data.get("t").and_then(serde_json::Value::as_f64).unwrap_or(from);
+    let mut stopped = None;
+    for _ in parts {
+        match motion.next_row() {
+            Some(Ok(row)) => {
+                reached.push(row[1..=n].to_vec());
+                continue;
+            }
+            Some(Err(why)) => stopped = Some((part_of(&why), why)),
+            None => {
+                let why = Diagnostic::new(Code::E0604, "the way was not followed to its end");
+                stopped = Some((from, Box::new(why)));
+            }
+        }
+        break;
+    }
+    let remarks = motion.take_remarks().into_iter().filter(|remark| remark.code == Code::W0602);
+    passed.extend(remarks.map(|remark| (part_of(&remark), remark)));
+    stopped
+}
+
+fn is_the_same(system: &ConstraintSystem, a: &[f64], b: &[f64]) -> bool {
+    let scale = |k: usize| system.coordinates[k].scale;
+    (0..a.len()).all(|k| (a[k] - b[k]).abs() <= KINK * scale(k))
+}

@@ -1,0 +1,24 @@
+//! From the first time on: steps along the branch that the start chose, and what they go over.
+//!
+//! ```text
+//!            ┌── Step       the state, the one that is tried, the way between
+//! Motion ────┼── Edges      what may happen between the ends of a step
+//!            ├── Crossing   the way over a singular position
+//!            └── Rows       which row comes next, and what it is worth
+//! ```
+//!
+//! Each owner's fields are its own; what it needs of others is an argument. `Motion` puts them in order.
+
+mod bookmark;
+mod crossing;
+mod edges;
+mod lead;
+mod march;
+mod remarks;
+mod rows;
+mod step;
+
+pub use lead::{LeadOptions, Way, lead};
+pub use march::{Motion, Stretch};
+pub use rows::state_of_row;
+pub use step::quintic_between;

@@ -1,0 +1,142 @@
+//! The branch that a motion is on: the signs of determinants, and of what is watched.
+
+use crate::analysis::state::{Determinant, Fault, Kinematics};
+
+/// What tells a branch from others.
+#[derive(Clone)]
+pub struct Signs {
+    /// Each block's determinant.
+    determinants: Vec<Determinant>,
+    /// The sign of what is watched.
+    sides: Vec<bool>,
+}
+
+impl Signs {
+    fn new(kinematics: &Kinematics) -> Signs {
+        let determinants = vec![Determinant::ONE; kinematics.linear().blocks()];
+        Signs { determinants, sides: vec![true; kinematics.system().watches.len()] }
+    }
+
+    pub fn copy_from(&mut self, other: &Signs) {
+        self.determinants.copy_from_slice(&other.determinants);
+        self.sides.copy_from_slice(&other.sides);
+    }
+
+    /// The determinant of each block.
+    pub fn determinants(&self) -> &[Determinant] {
+        &self.determinants
+    }
+
+    /// The first block whose determinant has another sign where a position was factored.
+    pub fn block_that_turned(&self, kinematics: &Kinematics) -> Option<usize> {
+        (0..self.determinants.len()).find(|&block| self.has_turned(kinematics, block))
+    }
+
+    /// Whether a block's determinant has another sign where a position was factored.
+    pub fn has_turned(&self, kinematics: &Kinematics, block: usize) -> bool {
+        kinematics.linear().determinant(block).is_positive() != self.determinants[block].is_positive()
+    }
+}
+
+/// The branch of the state, what the state that is tried has, and the way up to there.
+pub(super) struct Branch {
+    now: Signs,
+    trial: Signs,
+    /// Each block's determinant one state before.
+    before: Vec<Determinant>,
+    way: Way,
+}
+
+/// What is known of the way up to a state.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    /// The length of the last step (s); 0 where there was none on this branch of the formulas.
+    h: f64,
+    /// The smallest pivot of all blocks at the state.
+    smallest_pivot: f64,
+}
+
+impl Way {
+    /// Nothing is known, at a start.
+    const UNKNOWN: Way = Way { h: 0.0, smallest_pivot: 0.0 };
+}
+
+impl Branch {
+    pub fn new(kinematics: &Kinematics) -> Branch {
+        let signs = Signs::new(kinematics);
+        let before = signs.determinants.clone();
+        Branch { now: signs.clone(), trial: signs, before, way: Way::UNKNOWN }
+    }
+
+    pub fn signs(&self) -> &Signs {
+        &self.now
+    }
+
+    pub fn take_signs(&mut self, signs: &Signs) {
+        self.now.copy_from(signs);
+    }
+
+    /// Takes the determinants where the state was factored, there being none before to compare with.
+    pub fn begin(&mut self, kinematics: &Kinematics) {
+        kinematics.linear().determinants(&mut self.now.determinants);
+        self.way = Way::UNKNOWN;
+    }
+
+    /// Takes the determinants of the state that was just accepted, after a step of length `h`.
+    pub fn keep(&mut self, kinematics: &Kinematics, h: f64) {
+        std::mem::swap(&mut self.before, &mut self.now.determinants);
+        std::mem::swap(&mut self.now.determinants, &mut self.trial.determinants);
+        self.way = Way { h, smallest_pivot: kinematics.linear().smallest_pivot() };
+    }
+
+    pub fn take_sides(&mut self, kinematics: &Kinematics) {
+        kinematics.sides(&mut self.now.sides);
+    }
+
+    /// Whether a position that was factored is on the branch.
+    pub fn compare(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
+        kinematics.linear().determinants(&mut self.trial.determinants);
+        self.compare_sides(kinematics)?;
+        let mut pairs = self.trial.determinants.iter().zip(&self.now.determinants);
+        if pairs.all(|(trial, now)| trial.is_positive() == now.is_positive()) { Ok(()) } else { Err(Fault::Singular) }
+    }
+
+    /// Whether what is watched has kept its sign where a position was set.
+    pub fn compare_sides(&mut self, kinematics: &Kinematics) -> Result<(), Fault> {
+        kinematics.sides(&mut self.trial.sides);
+        match self.now.sides.iter().zip(&self.trial.sides).position(|(now, trial)| now != trial) {
+            Some(index) => Err(Fault::Watch { index }),
+            None => Ok(()),
+        }
+    }
+
+    /// Whether a determinant may touch zero within a step of length `h`, by what is known without looking; `motion` is the step's
+    /// largest one, scaled.
+    pub fn may_touch(&self, kinematics: &Kinematics, h: f64, motion: f64) -> bool {
+        if self.way.h <= 0.0 {
+            return true;
+        }
+        // a singular value changes by no more than the motion, or little more
+        if self.way.smallest_pivot < motion && kinematics.linear().smallest_pivot() < motion {
+            return true;
+        }
+        let meets_zero = |(now, then): (&Determinant, &Determinant)| {
+            let (then, now) = (then.beside(*now).abs(), now.beside(*now).abs());
+            (then - now) * h > now * self.way.h
+        };
+        self.now.determinants.iter().zip(&self.before).any(meets_zero)
+    }
+
+    /// The determinants of a block at the ends of the step, both positive where it is singular at neither.
+    pub fn at_ends(&self, block: usize) -> (f64, f64) {
+        let (a, b) = (self.now.determinants[block], self.trial.determinants[block]);
+        (a.beside(a).abs(), b.beside(a).abs())
+    }
+
+    /// The determinant of a block where a position within the step was factored, negative beyond a singular position.
+    pub fn within(&self, kinematics: &Kinematics, block: usize) -> f64 {
+        let (end, within) = (self.now.determinants[block], kinematics.linear().determinant(block));
+        let value = within.beside(end);
+        if end.is_positive() { value } else { -value }
+    }
+}

@@ -1,0 +1,45 @@
+//! Results that have no value.
+
+use super::survey::Trouble;
+use crate::analysis::explain::errors::at;
+use crate::diag::{Code, Diagnostic};
+use crate::ir::{Outcome, Reduction};
+
+/// A formula in it has no value at some time, or it could not be found out; or else its own formula is not finite.
+pub fn result_without_value(outcome: &Outcome, trouble: Option<Trouble>) -> Diagnostic {
+    let name = &outcome.name;
+    let (message, label) = match trouble {
+        Some(Trouble::Missing(t)) => (
+            format!("result `{name}` has no value: what it speaks of has none at {}", at(t)),
+            "infinite or undefined there",
+        ),
+        Some(Trouble::Unknown(t)) => {
+            (format!("result `{name}` could not be found to nine digits around {}", at(t)), "not certain enough")
+        }
+        Some(Trouble::Uncertain(t)) => (
+            format!("result `{name}` has no value: the position at {} is too near to a singular one", at(t)),
+            "more rounding than digits there",
+        ),
+        None => (format!("result `{name}` has no value"), "its formula is infinite or undefined"),
+    };
+    let diagnostic = Diagnostic::new(Code::N0604, message).at(outcome.span, label);
+    match trouble {
+        Some(Trouble::Missing(t) | Trouble::Unknown(t) | Trouble::Uncertain(t)) => diagnostic.datum("t", t),
+        None => diagnostic,
+    }
+}
+
+/// The motion ends behind the last row, but before the analysis does.
+pub fn results_without_motion(first: &Outcome, count: usize, why: &Diagnostic) -> Diagnostic {
+    let which = if count == 1 { format!("result `{}` has", first.name) } else { format!("the {count} results have") };
+    Diagnostic::new(Code::N0604, format!("{which} no value: the motion does not come to the end of the analysis"))
+        .at(first.span, "over the whole analysis")
+        .note(why.message.clone())
+}
+
+/// `at` a time that does not belong to the analysis.
+pub fn at_outside(reduction: &Reduction, t: f64, [from, to]: [f64; 2]) -> Diagnostic {
+    Diagnostic::new(Code::E0422, format!("{} is outside the analysis", at(t)))
+        .at(reduction.span, format!("the analysis goes from {} to {}", at(from), at(to)))
+        .datum("t", t)
+}

@@ -1,0 +1,24 @@
+//! Why a state cannot be computed.
+
+/// Why a state cannot be computed.
+#[derive(Clone, Copy, PartialEq, Debug)]
+pub enum Fault {
+    /// An entry of Φ, Φ_q or a right side is not finite: its row.
+    NotFinite { row: usize },
+    /// Φ_q is singular, or nearer to it than can be trusted.
+    Singular,
+    /// Newton does not arrive, or asks for more than the predictor allows.
+    TooFar,
+    /// A formula that must be positive is not: its number.
+    Condition { index: usize },
+    /// What is watched changes its sign: its number.
+    Watch { index: usize },
+    /// An equation that was left out ceases to hold: its number among the checks.
+    Check { index: usize },
+    /// Derivatives would be more rounding than digits.
+    Uncertain,
+    /// The step goes over a rim, of which a note has been taken.
+    Rim,
+    /// The step goes over an edge of a switch, by its number, which lies before a time (s).
+    Edge { t: f64, switch: usize },
+}

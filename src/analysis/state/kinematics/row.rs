@@ -1,0 +1,217 @@
+//! Rows of the result, with the variations of a state.
+
+use super::derivatives::rates;
+use super::{Kinematics, State};
+use crate::analysis::state::scoped::ScopedLu;
+use crate::expr::ExprId;
+use crate::ir::ConstraintSystem;
+use crate::layout::{self, Holds};
+use crate::program::{Program, Register, Registers, Stage};
+use crate::solver::Pivoting;
+use crate::structure::Determined;
+use crate::tolerances::scales::kinematics::TRUSTED;
+use std::sync::Arc;
+
+/// What is needed for derivatives by inputs and parameters.
+#[derive(Clone)]
+pub(super) struct Varied {
+    /// A variation of all coordinates.
+    solution: Vec<f64>,
+    /// By column of a row, whether it is such a derivative.
+    columns: Vec<bool>,
+    /// Those by the equations of a part alone.
+    scoped: ScopedLu,
+}
+
+impl Varied {
+    pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
+        let scoped = ScopedLu::new(system);
+        if system.variations.is_none() {
+            return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
+        }
+        let n = system.coordinates.len();
+        let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
+        let is_varied_column = |holds: &Holds| match *holds {
+            Holds::Time | Holds::Coordinate { .. } => false,
+            Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_varied),
+            Holds::Appended(_) => true,
+        };
+        Varied { solution: vec![0.0; n], columns: holds.iter().map(is_varied_column).collect(), scoped }
+    }
+}
+
+impl Kinematics {
+    /// Writes a result row of a state whose derivatives were just computed.
+    pub fn write_row(&mut self, state: &State, row: &mut [f64]) {
+        self.vary(state);
+        self.write_columns(state, row);
+    }
+
+    /// Whether a column of a row is a derivative by an input or parameter.
+    pub fn is_varied(&self, column: usize) -> bool {
+        self.variations.columns.get(column).copied().unwrap_or(false)
+    }
+
+    /// The same equations and scales, whose variations are those that results need; none where they need none.
+    pub fn with_variations_of_results(&self) -> Option<Kinematics> {
+        let determined = Arc::new(self.determined.for_variations_of_results()?);
+        let program = Arc::new(Program::new(determined.system()));
+        let params: Vec<f64> = determined.system().params.iter().map(|param| param.value).collect();
+        let holds = layout::holds(determined.system());
+        let (registers, variations) = (program.start(&params), Varied::new(determined.system(), &holds));
+        Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
+    }
+
+    /// Computes the variations of a state that was solved for, where they can be trusted.
+    pub fn vary_at(&mut self, state: &State) {
+        self.set_time(state.t);
+        let is_regular = self.set_position(&state.q).is_ok() && self.factor().is_ok();
+        self.set_derivatives(state);
+        if is_regular {
+            self.vary(state);
+        } else {
+            self.leave_variations_out();
+        }
+    }
+
+    /// How a coordinate, its velocity and its acceleration change in a variation.
+    pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
+        [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
+    }
+
+    /// Computes the variations of a state whose derivatives were just computed, where they can be trusted.
+    fn vary(&mut self, state: &State) {
+        if self.system().variations().is_empty() {
+            return;
+        }
+        self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+        if self.linear.nearness(TRUSTED) < TRUSTED {
+            self.leave_variations_out();
+            return;
+        }
+        let (linear, varied) = (&mut self.linear, &mut self.variations);
+        vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
+            linear.solve(|row| registers.get(right[row]), x);
+        });
+    }
+
+    /// There are no variations at this position.
+    fn leave_variations_out(&mut self) {
+        let inputs = self.program.inputs;
+        for register in inputs.varied..inputs.varied(self.system().variations().len() as u32, 0) {
+            self.registers.set(register, f64::NAN);
+        }
+        // what measures share with the right sides is computed there
+        self.program.run(Stage::Variation, &mut self.registers);
+    }
+
+    fn write_columns(&mut self, state: &State, row: &mut [f64]) {
+        let (program, registers) = (&*self.program, &mut self.registers);
+        let [_, _, qdd, _] = program.inputs.coordinates;
+        registers.set_all(qdd, &state.qdd);
+        program.run(Stage::Measures, registers);
+        let outputs = &program.outputs;
+        let lists =
+            [(&state.q, &outputs.measures), (&state.qd, &outputs.measures_d), (&state.qdd, &outputs.measures_dd)];
+        let mut cells = row.iter_mut();
+        let mut put = |value: f64| {
+            if let Some(cell) = cells.next() {
+                // −0 would surprise a reader
+                *cell = value + 0.0;
+            }
+        };
+        put(state.t);
+        for (coordinates, measures) in lists {
+            for &value in coordinates {
+                put(value);
+            }
+            for &register in measures {
+                put(registers.get(register));
+            }
+        }
+        for &register in &outputs.appended {
+            put(registers.get(register));
+        }
+    }
+
+    /// Solves for a row with partial pivoting, from the position that it holds (m, rad); says whether it holds.
+    pub fn pivoted_row(&mut self, pivoting: &mut Pivoting, state: &mut State, row: &mut [f64]) -> bool {
+        self.set_time(state.t);
+        if !pivoting.position(self, &mut state.q) || self.violated().is_some() {
+            return false;
+        }
+        rates(&self.program, &mut self.registers, state, |registers, right, x| {
+            pivoting.solve(|row| registers.get(right[row]), x);
+        });
+        let is_finite = self.all_finite(state).is_ok();
+        if is_finite {
+            self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
+            let varied = &mut self.variations;
+            vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
+                pivoting.solve(|row| registers.get(right[row]), x);
+            });
+            self.write_columns(state, row);
+        }
+        is_finite
+    }
+
+    /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
+    pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
+        self.set_derivatives(state);
+        if !self.system().variations().is_empty() {
+            match self.factor() {
+                Ok(()) => self.vary(state),
+                Err(_) => self.leave_variations_out(),
+            }
+        }
+        self.write_columns(state, row);
+    }
+
+    /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
+    /// columns of derivatives by them.
+    pub fn measure_of_column(&self, column: usize) -> usize {
+        let system = self.system();
+        match self.holds.get(column) {
+            Some(&Holds::Measure { index, .. }) => index,
+            Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
+            _ => 0,
+        }
+    }
+
+    /// Length of a result row.
+    pub fn row_length(&self) -> usize {
+        self.holds.len()
+    }
+}
+
+/// The variations of a state whose derivatives are set, by what solves `Φ_q x = b` for a right side: those by one variable, then those
+/// by two, each order from those before. They are left in their registers.
+fn vary(
+    determined: &Determined,
+    program: &Program,
+    registers: &mut Registers,
+    Varied { solution, scoped, .. }: &mut Varied,
+    mut solve: impl FnMut(&Registers, &[Register], &mut [f64]),
+) {
+    let variations = determined.system().variations();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let of_kind = || (0..variations.len()).filter(|&k| variations[k].by.1.is_some() == by_two);
+            if of_kind().next().is_none() {
+                break;
+            }
+            program.run(Stage::Variation, registers);
+            if order == 0 && !by_two {
+                scoped.factor(program, registers, TRUSTED);
+            }
+            for k in of_kind() {
+                let right = &program.outputs.variations[k][order];
+                match variations[k].scope {
+                    None => solve(registers, right, solution),
+                    Some(scope) => scoped.solve(scope, registers, right, solution),
+                }
+                registers.set_all(program.inputs.varied(k as u32, order as u32), solution);
+            }
+        }
+    }
+}

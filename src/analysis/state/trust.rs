@@ -1,0 +1,59 @@
+//! Whether a row holds digits, and not rounding.
+//!
+//! It is judged from the state of the row alone, whichever way led there, so that the verdict does not depend on the other output
+//! times.
+
+use super::kinematics::{Kinematics, State};
+use crate::tolerances::solving::trust::{ACCELERATION, ACCURACY, FAR, SLOW, VELOCITY};
+
+/// What the numbers of a row are worth.
+#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+pub enum Trust {
+    Certain,
+    /// The position is known; velocities or accelerations may be wrong, if rounding happens to add up.
+    Doubtful,
+    /// Derivatives are more rounding than digits.
+    Uncertain,
+}
+
+impl Trust {
+    pub fn is_certain(self) -> bool {
+        self == Trust::Certain
+    }
+
+    /// In a state that was just computed.
+    ///
+    /// `q` is known to eps/σ, and a position that is wrong by so much has derivatives that are wrong by as much again as the
+    /// equations amplify, which near a dead point is 1/σ too. Near a bifurcation nothing is amplified, but the wrong position
+    /// still has velocities that are wrong by eps/σ², and accelerations by eps/σ³.
+    pub fn of(kinematics: &mut Kinematics, state: &State) -> Trust {
+        let sigma = kinematics.nearness(f64::EPSILON.sqrt() / ACCURACY.sqrt());
+        let uncertain = f64::EPSILON / sigma * kinematics.amplification(state);
+        if uncertain > ACCURACY {
+            return Trust::Uncertain;
+        }
+        if !kinematics.take_doubt(state, FAR) {
+            return Trust::Certain;
+        }
+        let [velocity, acceleration] = kinematics.doubt();
+        if are_small(kinematics, state, [velocity, acceleration], [VELOCITY, ACCELERATION]) {
+            Trust::Certain
+        } else {
+            Trust::Doubtful
+        }
+    }
+}
+
+/// Whether what velocities and accelerations of a state may be off by is within limits.
+pub fn are_small(kinematics: &Kinematics, state: &State, off: [&[f64]; 2], limits: [f64; 2]) -> bool {
+    let linear = kinematics.linear();
+    let (speed, bend) = (linear.largest(&state.qd), linear.largest(&state.qdd));
+    let is_small = |order: usize, x: &[f64], fastest: f64| {
+        let is_small = |k: usize| {
+            let (off, size) = (off[order][k].abs() / linear.column_scale(k), x[k].abs() / linear.column_scale(k));
+            off <= limits[order] * f64::max(1.0 + size, SLOW * fastest)
+        };
+        (0..x.len()).all(is_small)
+    };
+    is_small(0, &state.qd, speed) && is_small(1, &state.qdd, bend.max(speed * speed))
+}

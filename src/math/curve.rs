@@ -1,0 +1,80 @@
+/// The quintic with value, slope and curvature of both ends of a step of length `h`, by its coefficients in the part of the step. An
+/// end is value, first and second derivative.
+#[must_use]
+pub fn quintic([q, qd, qdd]: [f64; 3], [q_end, qd_end, qdd_end]: [f64; 3], h: f64) -> [f64; 6] {
+    let (way, slope, bend) = (q_end - q, h * qd, 0.5 * h * h * qdd);
+    // what is left of value, slope and half the curvature at the end
+    let (value, first, second) = (way - slope - bend, h * qd_end - slope - 2.0 * bend, 0.5 * h * h * qdd_end - bend);
+    let cubic = 10.0 * value - 4.0 * first + second;
+    let quartic = -15.0 * value + 7.0 * first - 2.0 * second;
+    let quintic = 6.0 * value - 3.0 * first + second;
+    [q, slope, bend, cubic, quartic, quintic]
+}
+
+/// The parabola that value, slope and curvature at the start of a step of length `h` lead along, as such a curve.
+#[must_use]
+pub fn parabola([q, qd, qdd]: [f64; 3], h: f64) -> [f64; 6] {
+    [q, h * qd, 0.5 * h * h * qdd, 0.0, 0.0, 0.0]
+}
+
+/// A curve's value at a part of its step.
+#[must_use]
+pub fn along(curve: &[f64; 6], x: f64) -> f64 {
+    curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
+}
+
+/// Where value, first and second derivative lead in a time `h`.
+#[must_use]
+pub fn predicted([q, qd, qdd]: [f64; 3], h: f64) -> f64 {
+    q + h * (qd + 0.5 * h * qdd)
+}
+
+/// The coefficients of a curve about another place.
+#[must_use]
+pub fn about(curve: &[f64; 6], place: f64) -> [f64; 6] {
+    let mut taylor = *curve;
+    for order in 0..taylor.len() {
+        for j in (order..taylor.len() - 1).rev() {
+            taylor[j] += place * taylor[j + 1];
+        }
+    }
+    taylor
+}
+
+/// How far a polynomial without its constant, by its coefficients, comes within `reach` of 0 at most.
+#[must_use]
+pub fn farthest(higher: &[f64], reach: f64) -> f64 {
+    higher.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * reach)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{about, along, farthest, parabola, predicted, quintic};
+
+    #[test]
+    fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
+        // t⁵ from 1 to 3
+        let end = |t: f64| [t * t * t * t * t, 5.0 * t * t * t * t, 20.0 * t * t * t];
+        let curve = quintic(end(1.0), end(3.0), 2.0);
+        for x in [0.0, 0.25, 0.5, 1.0] {
+            let wanted = end(1.0 + 2.0 * x)[0];
+            assert!((along(&curve, x) - wanted).abs() < 1e-11 * wanted, "{x}");
+        }
+    }
+
+    #[test]
+    fn a_curve_about_another_place_is_the_same() {
+        let curve = [0.3, -1.2, 0.7, 0.4, -0.9, 1.1];
+        let moved = about(&curve, 0.4);
+        for x in [-0.3, 0.0, 0.2] {
+            assert!((along(&moved, x) - along(&curve, 0.4 + x)).abs() < 1e-14);
+            assert!((along(&moved, x) - moved[0]).abs() <= farthest(&moved[1..], 0.3) + 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_parabola_leads_where_is_predicted() {
+        let start = [1.0, 2.0, 3.0];
+        assert!((along(&parabola(start, 0.5), 1.0) - predicted(start, 0.5)).abs() < 1e-15);
+    }
+}
