@@ -757,7 +757,7 @@ fn without_inputs_there_is_nothing_to_follow() {
     let formula = "30 deg + 1.5 rad * sin(2 rad/s * t)";
     let plain = text.replace(&format!("    input turn = {formula}\n"), "").replace("= turn", &format!("= {formula}"));
     let (with, without) = (emitted(&text).text(Some(2)), emitted(&plain).text(Some(2)));
-    for word in ["follow(", "Inputs", "influence(", "is_led", "Signal"] {
+    for word in ["follow(", "Inputs", "influence(", "Leading", "Signal"] {
         assert!(with.contains(word) && !without.contains(word), "{word}");
     }
 }

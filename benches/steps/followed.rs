@@ -13,6 +13,25 @@
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::follow::Leading;
+use runtime::grid::on_grid;
+use runtime::limits::ITERATIONS;
+use runtime::measured::Measured;
+use runtime::newton::Newton;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::sine_and_cosine::sin_cos;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
@@ -29,8 +48,7 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Part of the way from these to others.
+impl Parameters for Params {
     #[rustfmt::skip]
     fn towards(&self, other: &Self, part: f64) -> Self {
         Self {
@@ -157,7 +175,7 @@ pub struct Pose {
 impl Pose {
     /// That of a body, out of the coordinates or their derivatives.
     #[rustfmt::skip]
-    #[must_use]
+#[must_use]
     pub fn of(q: &[f64; N], body: Body) -> Self {
         match body {
             Body::Crank => Self { x: q[0], y: q[1], phi: q[2] },
@@ -578,337 +596,37 @@ fn all_measures(
     out
 }
 
-/// Number of results at a time.
-pub const COLUMNS: usize = 36;
-
-/// Why a mechanism could not be brought to a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Error {
-    /// The time, a parameter or a formula is not a number.
-    NotANumber,
-    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
-    LockUp,
-    /// Two branches of the motion meet: which one goes on is not determined.
-    Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
-    Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
-    TooFar,
-    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
-    NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
-    Inconsistent,
-}
-
-impl core::fmt::Display for Error {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
-            Error::LockUp => "the mechanism locks up: its driver cannot go on",
-            Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
-            Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
-        })
-    }
-}
-
-impl core::error::Error for Error {}
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
 
 /// The mechanism at a time.
-#[derive(Clone, Debug)]
-pub struct State {
-    model: Model,
-    /// The solution of now and the one before, or the next one in the making.
-    solutions: [Solution; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// How much steeper these parameters make the equations than the file's.
-    steepness: f64,
-    /// The step that goes well (s).
-    step: f64,
-    /// What follows inputs, and whether they have led here rather than the time.
-    led: following::Led,
-    is_led: bool,
-}
+pub type State = runtime::state::State<Model>;
 
 impl State {
-    /// The solution of now.
-    fn at(&self) -> &Solution {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
-    }
-
-    /// The time (s).
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.at().t
-    }
-
-    /// The inputs: what they were followed to, or what their formulas say at this time.
-    #[must_use]
-    pub fn inputs(&self) -> Inputs {
-        if self.is_led {
-            self.led.inputs()
-        } else {
-            Inputs::at(self.at().t, &self.model.params)
-        }
-    }
-
-    /// The parameters.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.model.params
-    }
-
-    /// The coordinates (m, rad), by the indices in [`coordinate`].
-    #[must_use]
-    pub fn q(&self) -> &Q {
-        &self.at().q
-    }
-
-    /// Their velocities (m/s, rad/s).
-    #[must_use]
-    pub fn qd(&self) -> &Qd {
-        &self.at().qd
-    }
-
-    /// Their accelerations (m/s^2, rad/s^2).
-    #[must_use]
-    pub fn qdd(&self) -> &Qdd {
-        &self.at().qdd
-    }
-
     /// Where a body is (m, m, rad).
     #[must_use]
     pub fn pose(&self, body: Body) -> Pose {
-        Pose::of(&self.at().q, body)
+        Pose::of(self.q(), body)
     }
 
     /// How fast a body moves (m/s, m/s, rad/s).
     #[must_use]
     pub fn velocity(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qd, body)
+        Pose::of(self.qd(), body)
     }
 
     /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
     #[must_use]
     pub fn acceleration(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qdd, body)
+        Pose::of(self.qdd(), body)
     }
 
-    /// The measures, by the indices in [`measure`], and their first and second time derivatives; `NAN` where
-    /// one has no value, and no step fails for that.
+    /// The inputs: what they were followed to, or what their formulas say at this time.
     #[must_use]
-    pub fn measures(&self) -> &Measures {
-        &self.at().measures
-    }
-
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
-    /// then their first and their second derivatives.
-    #[must_use]
-    pub fn row(&self) -> [f64; COLUMNS] {
-        let at = self.at();
-        let [values, rates, accelerations] = at.measures.lists();
-        let zeroth = at.q.iter().chain(values);
-        let first = at.qd.iter().chain(rates);
-        let second = at.qdd.iter().chain(accelerations);
-        let all = zeroth.chain(first).chain(second);
-        let mut row = [at.t; COLUMNS];
-        for (cell, value) in row.iter_mut().skip(1).zip(all) {
-            *cell = *value;
-        }
-        row
+    pub fn inputs(&self) -> Inputs {
+        Inputs::of(&runtime::follow::signals(self))
     }
 }
-
-/// The first time of the file's analysis (s), at which the mechanism is assembled.
-pub const START_TIME: f64 = 0.0;
-
-/// How long the file's analysis takes (s).
-const SPAN: f64 = 3.0;
-
-/// The longest step (s).
-pub const LONGEST_STEP: f64 = 0.09375;
-
-/// The shortest step (s).
-const SMALLEST_STEP: f64 = 3e-12;
-
-/// Iterations of Newton at most.
-const ITERATIONS: usize = 6;
-
-/// Newton's first correction at most, beside the size of a body or 1 rad.
-const LARGEST_CORRECTION: f64 = 0.05;
-
-/// A correction of just half a cell of the grid, to rounding, stays in it.
-const HALF_A_CELL: f64 = 0.500001;
-
-/// Number of coordinates that Newton solves for; the others follow.
-const TEARS: usize = 2;
-
-/// What a change of each of them is judged against (m, or 1 rad).
-#[rustfmt::skip]
-static TEAR_SCALES: [f64; TEARS] = [
-    1.0, 1.0,
-];
-
-/// What a change of each coordinate is judged against.
-#[rustfmt::skip]
-static SCALES: [f64; N] = [
-    1.0, 1.0, 1.0, 3.5,
-    3.5, 1.0, 3.0, 3.0,
-    1.0,
-];
-
-/// The assembled position (m, rad).
-#[rustfmt::skip]
-static START: [f64; N] = [
-    0.0, 0.0, 0.5235987755982988, 0.8660254037844387,
-    0.49999999999999994, 0.7695009577260922, 3.6899641688409766, 1.4676095473243331,
-    1.7789875846735397,
-];
-
-/// Number of blocks of equations whose determinants change with the position.
-const TURNS: usize = 1;
-
-/// Whether they are negative where all pivots are positive.
-#[rustfmt::skip]
-static TURNED: [bool; TURNS] = [
-    false,
-];
-
-/// The width of a cell of each coordinate's grid.
-#[rustfmt::skip]
-static CELLS: [f64; N] = [
-    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
-    1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
-    7.450580596923828e-9,
-];
-
-/// Number of blocks of equations that can be solved one after the other.
-const BLOCKS: usize = 6;
-
-/// The blocks whose determinants change.
-#[rustfmt::skip]
-static TURNING: [usize; TURNS] = [
-    5,
-];
-
-/// Numbers that the elimination of the largest block works on.
-const WORK: usize = blocks::work_of(4);
-
-/// What may be left of an equation, beside the norm of its row.
-const TOLERANCE: f64 = 1e-12;
-
-/// How the equations fall apart into blocks.
-#[rustfmt::skip]
-static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
-    sizes: &[
-        1, 1, 1, 1,
-        1, 4,
-    ],
-    rows: &[
-        0, 1, 8, 2,
-        3, 4, 5, 6,
-        7,
-    ],
-    columns: &[
-        0, 1, 2, 3,
-        4, 5, 7, 6,
-        8,
-    ],
-    starts: &[
-        0, 1, 2, 5,
-        8, 12, 16, 18,
-        20, 21,
-    ],
-    entries: &[
-        0, 1, 0, 2,
-        3, 1, 2, 4,
-        3, 5, 6, 8,
-        4, 5, 7, 8,
-        6, 8, 7, 8,
-        2,
-    ],
-    places: &[
-        0, 1, 2, 3,
-        4, 5, 7, 6,
-        8,
-    ],
-    units: &[
-        1.0, 1.0, 1.0, 2.0,
-        2.0, 1.0, 2.0, 2.0,
-        1.0,
-    ],
-};
-
-impl Measures {
-    const ZERO: Self = Self {
-        values: [0.0; MEASURES],
-        rates: [0.0; RATES],
-        accelerations: [0.0; ACCELERATIONS],
-    };
-
-    fn lists(&self) -> [&[f64]; 3] {
-        [&self.values, &self.rates, &self.accelerations]
-    }
-
-    /// What is not finite is no number.
-    fn leave_out(&mut self) {
-        let rest = self.rates.iter_mut().chain(&mut self.accelerations);
-        for value in self.values.iter_mut().chain(rest) {
-            if !value.is_finite() {
-                *value = f64::NAN;
-            }
-        }
-    }
-}
-
-/// The mechanism with its parameters.
-#[derive(Clone, Debug)]
-struct Model {
-    params: Params,
-}
-
-impl Model {
-    fn new(params: &Params) -> Self {
-        Self { params: *params }
-    }
-}
-
-/// Steps that one call of [`step`] takes at most.
-pub const MOST_STEPS: usize = 1_000_000;
-
-/// Trials on the way from the file's parameters to others at most, and the smallest part of it.
-const MOST_PARTS: usize = 10_000;
-const SMALLEST_PART: f64 = 1e-6;
-
-/// The largest motion of a step, beside the size of a body or 1 rad.
-const LARGEST_MOTION: f64 = 0.5;
-
-/// The step before tells of one that is so many times as long at most.
-const FARTHEST_BEND: f64 = 4.0;
-
-/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
-const LARGEST_GAP: f64 = 1e-3;
-
-/// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the
-/// second it is too near to a singular one.
-const STEEP: f64 = 1e3;
-const STEEPEST: f64 = 1e6;
-
-/// Rounding may make so much of velocities and accelerations that are given out.
-const ACCURACY: f64 = 1e-9;
-
-/// Where steps become too small, this is steep enough for a singular position to be the reason.
-const SINGULAR: f64 = 1e2;
-
-/// A dead point is no further off than this part of the span.
-const NEAR_FOLD: f64 = 1e-5;
 
 /// Brings the mechanism to its first time with some parameters, along the branch that the file's
 /// parameters give.
@@ -916,81 +634,7 @@ const NEAR_FOLD: f64 = 1e-5;
 /// # Errors
 /// It cannot be assembled with these, or not on that branch.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    if !params.is_finite() {
-        return Err(Error::NotANumber);
-    }
-    let file = Params::default();
-    let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 {
-            file.towards(params, next)
-        } else {
-            *params
-        };
-        let model = Model::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
-                let led = following::Led::new(&params);
-                return Ok(State {
-                    steepness,
-                    model,
-                    led,
-                    is_led: false,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: LONGEST_STEP,
-                });
-            }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
-        }
-        if part < SMALLEST_PART {
-            break;
-        }
-    }
-    Err(why)
-}
-
-/// Solves at the first time, from a position nearby.
-fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
-    let mut near = Solution::ZERO;
-    (near.t, near.q) = (START_TIME, *q);
-    reach(&tears(q), &near, START_TIME, m, at)?;
-    if at.first <= LARGEST_CORRECTION {
-        Ok(())
-    } else {
-        Err(Fault::TooFar)
-    }
-}
-
-/// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its
-/// time, on the way that [`follow`] takes.
-fn take_up_time(state: &mut State, most: usize) -> Result<(), Error> {
-    let t = state.at().t;
-    let inputs = Inputs::at(t, &state.model.params);
-    following::follow_within(&inputs, state, most)?;
-    let q = state.at().q;
-    let mut near = Solution::ZERO;
-    (near.t, near.q) = (t, q);
-    let [first, second] = &mut state.solutions;
-    let at = if state.is_second { second } else { first };
-    reach(&tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
-    (state.is_led, state.is_smooth) = (false, false);
-    Ok(())
+    runtime::assemble::assemble(params)
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
@@ -1013,452 +657,88 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
 /// Why it cannot get there; the state stays at the last time that it could reach. Where that is
 /// [`Error::TooFar`] the same call goes on from there.
 pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    if !(t - state.at().t).is_finite() {
-        return Err(Error::NotANumber);
-    }
-    if state.is_led {
-        take_up_time(state, most)?;
-    }
-    for _ in 0..most {
-        let now = state.at().t;
-        let left = t - now;
-        if left == 0.0 {
-            return Ok(());
-        }
-        // no crumb at the end
-        let next = if state.step >= 0.999 * left.abs() {
-            t
-        } else {
-            now + state.step.copysign(left)
-        };
-        let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
-            Ok(is_calm) => {
-                let longest = if is_calm {
-                    state.step.max(2.0 * size)
-                } else {
-                    state.step.min(size)
-                };
-                state.step = longest.min(LONGEST_STEP);
-                if is_last {
-                    return Ok(());
-                }
-            }
-            Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < SMALLEST_STEP || now + state.step == now {
-                    state.step = SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
-                }
-            }
-        }
-    }
-    if state.at().t == t {
-        Ok(())
-    } else {
-        Err(Error::TooFar)
-    }
+    runtime::step::step_within(t, state, most)
 }
 
-/// Why a step is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fault {
-    /// Something is not a number.
-    NotANumber,
-    /// The step is too long for the motion.
-    TooFar,
-    /// The position is on another branch, or too near to one.
-    Singular,
-}
+/// Number of results at a time.
+pub const COLUMNS: usize = 36;
 
-impl Fault {
-    /// Why a mechanism cannot be assembled.
-    fn at_start(self) -> Error {
-        match self {
-            Self::NotANumber => Error::NotANumber,
-            _ => Error::Divergence,
-        }
-    }
-}
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
 
-/// One step to a time; says whether a longer one would do as well.
-fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second {
-        (second, first)
-    } else {
-        (first, second)
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 3.0;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.09375;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 3e-12;
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    1.0, 1.0, 1.0, 3.5,
+    3.5, 1.0, 3.0, 3.0,
+    1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 0.5235987755982988, 0.8660254037844387,
+    0.49999999999999994, 0.7695009577260922, 3.6899641688409766, 1.4676095473243331,
+    1.7789875846735397,
+];
+
+impl Measured for Measures {
+    const ZERO: Self = Self {
+        values: [0.0; MEASURES],
+        rates: [0.0; RATES],
+        accelerations: [0.0; ACCELERATIONS],
     };
-    let from = &*from;
-    let h = t - from.t;
-    let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    let mut way = if state.is_smooth {
-        bend(from, at, h)
-    } else {
-        [0.0; TEARS]
-    };
-    let mut guess = x;
-    let rates = v.iter().zip(&a);
-    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
-        // Taylor
-        *way += h * (v + 0.5 * h * a);
-        *guess += *way;
-    }
-    // what is not a number is not small either
-    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
-    if !is_short {
-        return Err(Fault::TooFar);
-    }
-    reach(&guess, from, t, &state.model, at)?;
-    // what both ends' velocities and accelerations make of the way between (Hermite)
-    let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let mut gaps = [0.0; TEARS];
-    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
-    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
-    }
-    let gap = largest(&gaps, &TEAR_SCALES);
-    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-    if !is_near {
-        return Err(Fault::TooFar);
-    }
-    let steepest = at.steepest / state.steepness;
-    if at.is_negative != from.is_negative || steepest > STEEPEST {
-        return Err(Fault::Singular);
-    }
-    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
-        return Err(Fault::Singular);
-    }
-    state.is_smooth = true;
-    state.is_second = !state.is_second;
-    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
-}
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value,
-/// velocity and acceleration at two times make a polynomial of degree 5 (Hermite).
-fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
-    let back = now.t - before.t;
-    let u = h / back;
-    if u.is_nan() || u.abs() > FARTHEST_BEND {
-        return [0.0; TEARS];
+    fn lists(&self) -> [&[f64]; 3] {
+        [&self.values, &self.rates, &self.accelerations]
     }
-    let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
-    let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    let mut bend = [0.0; TEARS];
-    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
-    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        let value = y - x + back * (v - 0.5 * back * a);
-        let slope = back * (v - back * a - w);
-        let curvature = 0.5 * back * back * (b - a);
-        let cubic = 4.0 * slope - 10.0 * value - curvature;
-        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-        let quintic = 3.0 * slope - 6.0 * value - curvature;
-        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
-    }
-    bend
-}
 
-/// The largest value beside its scale; what is not a number wins.
-fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
-    let pairs = values.iter().zip(scales);
-    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
-    sizes.fold(0.0, larger)
-}
-
-/// The larger one; what is not a number wins.
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
-}
-
-/// Solves at a time, from a guess; `from` is where the motion comes from.
-fn reach(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    solve(guess, t, m, at);
-    if !at.is_settled || !at.holds {
-        // once more from a position that is known, and if that does not help either, that
-        let h = t - from.t;
-        let mut q = from.q;
-        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
-            *q += h * (qd + 0.5 * h * qdd);
-        }
-        let pivoted = solve_with_pivoting(&q, t, m)?;
-        solve(&tears(&pivoted.q), t, m, at);
-        let first = pivoted.first;
-        if !at.is_settled || !at.holds {
-            *at = pivoted;
-        }
-        at.first = first;
-    }
-    at.measures.leave_out();
-    if at.is_finite() {
-        Ok(())
-    } else {
-        Err(Fault::NotANumber)
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut self.values, &mut self.rates, &mut self.accelerations]
     }
 }
 
-/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
-/// amplified by as much as the position is near to a singular one.
-fn rounding(at: &Solution, m: &Model) -> f64 {
-    let p = &m.params;
-    let slopes = phi_q(&at.q, at.t, p);
-    let mut norms = [f64::MIN_POSITIVE; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
-            *norm = larger(*norm, slope.abs() * scale);
-        }
-    }
-    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-    let nu = nu(&at.q, at.t, p);
-    let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
-    let gamma = gamma(&at.q, &at.qd, at.t, p);
-    let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
-    let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * amplified
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
 }
 
-/// Why even the shortest step from a state towards a time is refused.
-fn explain(state: &State, fault: Fault, t: f64) -> Error {
-    let (at, p) = (state.at(), &state.model.params);
-    let values = phi(&at.q, t, p);
-    if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
-        return Error::NotANumber;
-    }
-    if at.steepest < SINGULAR * state.steepness {
-        return Error::Divergence;
-    }
-    // a motion that comes to a dead point after a time u is as the root of u, whose slope over
-    // twice its curvature is u
-    let rates = at.qd.iter().zip(&at.qdd).zip(&SCALES);
-    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
-        if v.abs() / scale > speed {
-            (v.abs() / scale, 0.5 * v / a)
-        } else {
-            (speed, left)
-        }
-    };
-    let (_, left) = rates.fold((0.0, 0.0), sooner);
-    let left = if t < at.t { -left } else { left };
-    if left > 0.0 && left < NEAR_FOLD * SPAN {
-        Error::LockUp
-    } else {
-        Error::Bifurcation
-    }
-}
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 2;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+#[rustfmt::skip]
+static TEAR_SCALES: [f64; TEARS] = [
+    1.0, 1.0,
+];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 1;
+
+/// Whether they are negative where all pivots are positive.
+#[rustfmt::skip]
+static TURNED: [bool; TURNS] = [
+    false,
+];
+
+/// Number of places where formulas have branches.
+const SIDES: usize = 0;
+
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
-struct Solution {
-    t: f64,
-    q: Q,
-    qd: Qd,
-    qdd: Qdd,
-    measures: Measures,
-    /// By block of equations: whether its determinant is negative.
-    is_negative: [bool; TURNS],
-    /// Whether Newton has arrived.
-    is_settled: bool,
-    /// Whether no digits were lost, and the equations hold.
-    holds: bool,
-    /// Newton's largest first correction, scaled.
-    first: f64,
-    /// One over the smallest pivot, scaled.
-    steepest: f64,
-}
-
-impl Solution {
-    const ZERO: Self = Self {
-        t: 0.0,
-        q: [0.0; N],
-        qd: [0.0; N],
-        qdd: [0.0; N],
-        measures: Measures::ZERO,
-        is_negative: [false; TURNS],
-        is_settled: true,
-        holds: true,
-        first: 0.0,
-        steepest: 0.0,
-    };
-
-    /// Makes ready for being solved for.
-    fn begin(&mut self, t: f64) {
-        self.t = t;
-        self.is_negative = TURNED;
-        (self.is_settled, self.holds) = (true, true);
-        (self.first, self.steepest) = (0.0, 0.0);
-    }
-
-    /// Takes over how an iteration went.
-    fn note(&mut self, newton: &Newton) {
-        self.is_settled &= newton.has_settled;
-        self.first = larger(self.first, newton.first);
-    }
-
-    /// Takes note of one over a pivot, and of what makes that a pure number.
-    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
-        if let Some(is_negative) = self.is_negative.get_mut(turn) {
-            *is_negative ^= inverse < 0.0;
-        }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
-    }
-
-    /// Why it cannot be used.
-    fn fault(&self) -> Fault {
-        if self.is_finite() {
-            Fault::TooFar
-        } else {
-            Fault::NotANumber
-        }
-    }
-
-    fn is_finite(&self) -> bool {
-        let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-        all.all(|value| value.is_finite())
-    }
-}
-
-/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
-/// in where it ends.
-struct Newton {
-    is_first: bool,
-    is_open: bool,
-    is_lost: bool,
-    has_settled: bool,
-    first: f64,
-}
-
-impl Newton {
-    fn new() -> Self {
-        Self {
-            is_first: true,
-            is_open: false,
-            is_lost: false,
-            has_settled: false,
-            first: 0.0,
-        }
-    }
-
-    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
-    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
-        let size = delta.abs();
-        if self.is_first {
-            self.first = larger(self.first, size / scale);
-        }
-        self.is_open |= size > HALF_A_CELL * cell;
-        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        x + delta
-    }
-
-    /// Whether no further iteration is needed, or none helps.
-    fn is_done(&mut self) -> bool {
-        self.has_settled = !self.is_open && !self.is_lost;
-        let is_done = self.has_settled || self.is_lost;
-        (self.is_first, self.is_open) = (false, false);
-        is_done
-    }
-}
-
-/// The grid point next to a value.
-fn on_grid(x: f64, cell: f64) -> f64 {
-    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
-    let rounding = 6_755_399_441_055_744.0 * cell;
-    (x + rounding) - rounding
-}
-
-/// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
-/// digits. All coordinates lie on a grid while Newton goes on.
-fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
-    let p = &m.params;
-    let mut at = Solution::ZERO;
-    (at.t, at.q) = (t, *q);
-    let mut elimination = Elimination::new();
-    let mut is_settled = false;
-    for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.iter_mut().zip(&CELLS) {
-            *q = on_grid(*q, *cell);
-        }
-        let slopes = phi_q(&at.q, t, p);
-        let right = phi(&at.q, t, p).map(|value| -value);
-        let (x, _) = elimination.solve(&slopes, &right);
-        if iteration == 0 {
-            at.first = largest(&x, &SCALES);
-        }
-        is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
-        at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
-        if is_settled {
-            break;
-        }
-    }
-    if !is_settled {
-        return Err(at.fault());
-    }
-    let slopes = phi_q(&at.q, t, p);
-    let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
-    let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
-    let (qddd, _) = elimination.solve(&slopes, &jerk(&at.q, &qd, &qdd, t, p));
-    (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
-    at.measures = measures(&at.q, &qd, &qdd, &qddd, t, p);
-    let values = phi(&at.q, t, p);
-    at.holds = is_next_to_nothing(&values, &slopes, &at.q);
-    at.q = at.q.map(|x| x + 0.0);
-    at.steepest = 1.0 / pivot;
-    let negative = &elimination.is_negative;
-    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
-        *turned = negative.get(*block).copied().unwrap_or(false);
-    }
-    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
-}
-
-/// The work of solving linear equations in blocks.
-struct Elimination {
-    work: [f64; WORK],
-    is_negative: [bool; BLOCKS],
-}
-
-impl Elimination {
-    fn new() -> Self {
-        Self {
-            work: [0.0; WORK],
-            is_negative: [false; BLOCKS],
-        }
-    }
-
-    /// The solution for a right side, and the smallest pivot.
-    fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
-        let mut x = [0.0; N];
-        let (work, is_negative) = (&mut self.work, &mut self.is_negative);
-        let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
-        (x, pivot)
-    }
-}
-
-/// Whether what is left of the equations is within their tolerance, and what rounding makes of
-/// the coordinates.
-fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
-    let mut bounds = [0.0; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
-        if let (Some(scale), Some(q), Some(bound)) = sizes {
-            *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
-        }
-    }
-    let mut pairs = values.iter().zip(&bounds);
-    pairs.all(|(value, bound)| value.abs() <= *bound)
-}
-
-/// Of all coordinates those that Newton solves for.
-#[rustfmt::skip]
-fn tears(q: &[f64; N]) -> [f64; TEARS] {
-    [
-        q[8], q[5],
-    ]
-}
+type Solution = runtime::solution::Solution<Model>;
 
 /// Position, velocity and acceleration at a time. Newton begins with a guess of `rocker.phi`,
 /// `coupler.phi`; all else follows.
@@ -1682,171 +962,191 @@ fn solve(guess: &[f64; TEARS], t: f64, m: &Model, at: &mut Solution) {
     at.measures.accelerations[1] = v163 + 0.0;
 }
 
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        phi(q, t, &self.params)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+        phi_q(q, t, &self.params)
+    }
+
+    fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        nu(q, t, &self.params)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+        gamma(q, qd, t, &self.params)
+    }
+}
+
+impl Branches for Model {}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = Measures;
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(q: &Q) -> Self::Tears {
+        [
+            q[8], q[5],
+        ]
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
 #[rustfmt::skip]
-mod blocks {
+static CELLS: [f64; N] = [
+    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
+    1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
+    7.450580596923828e-9,
+];
 
-// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
-//
-// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
-// round nothing.
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 6;
 
-/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
-/// before it.
-#[derive(Clone, Copy, Debug)]
-pub struct Blocks<'b> {
-    /// How many equations each block has.
-    pub sizes: &'b [usize],
-    /// The equations, block by block.
-    pub rows: &'b [usize],
-    /// The unknowns, block by block.
-    pub columns: &'b [usize],
-    /// Where the entries of each equation begin, and where those of the last one end.
-    pub starts: &'b [usize],
-    /// The unknown of each entry.
-    pub entries: &'b [usize],
-    /// By unknown: its place in `columns`.
-    pub places: &'b [usize],
-    /// By unknown: the power of two that it is measured by.
-    pub units: &'b [f64],
-}
+/// The blocks whose determinants change.
+#[rustfmt::skip]
+static TURNING: [usize; TURNS] = [
+    5,
+];
 
-/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
-///
-/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
-/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
-/// number wins.
-pub fn solve(
-    blocks: &Blocks<'_>,
-    values: &[f64],
-    right: &[f64],
-    x: &mut [f64],
-    work: &mut [f64],
-    is_negative: &mut [bool],
-) -> f64 {
-    let (mut smallest, mut at) = (f64::INFINITY, 0);
-    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
-        let places = at..at + size;
-        at += size;
-        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
-            break;
-        };
-        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
-            break;
-        };
-        for (line, &row) in lines(matrix, size + 1).zip(rows) {
-            fill(blocks, row, places.start, values, right, x, line);
-        }
-        let Some(solution) = solution.get_mut(..size) else {
-            break;
-        };
-        let pivot;
-        (pivot, *is_negative) = eliminate(matrix, solution);
-        smallest = if pivot >= smallest { smallest } else { pivot };
-        for (&column, &value) in columns.iter().zip(&*solution) {
-            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
-                *x = value * unit;
-            }
-        }
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(4);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 4,
+    ],
+    rows: &[
+        0, 1, 8, 2,
+        3, 4, 5, 6,
+        7,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 12, 16, 18,
+        20, 21,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        3, 5, 6, 8,
+        4, 5, 7, 8,
+        6, 8, 7, 8,
+        2,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    units: &[
+        1.0, 1.0, 1.0, 2.0,
+        2.0, 1.0, 2.0, 2.0,
+        1.0,
+    ],
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+    const HAS_JERK: bool = true;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
     }
-    smallest
-}
 
-/// How many numbers the work for a block of a size takes.
-#[must_use]
-pub const fn work_of(size: usize) -> usize {
-    size * (size + 2)
-}
-
-/// A matrix row by row.
-fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
-    let mut left = matrix;
-    core::iter::from_fn(move || {
-        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
-        left = rest;
-        Some(line)
-    })
-}
-
-/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
-fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
-    line.fill(0.0);
-    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
-    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
-    let (Some(&from), Some(&to)) = ends else {
-        return;
-    };
-    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
-    let size = line.len() - 1;
-    for (&column, &value) in entries {
-        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
-        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
-        match line.get_mut(place).filter(|_| place < size) {
-            Some(entry) => {
-                *entry = value * unit;
-                largest = if entry.abs() > largest { entry.abs() } else { largest };
-            }
-            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
-        }
+    fn turning() -> &'static [usize] {
+        &TURNING
     }
-    if let Some(last) = line.last_mut() {
-        *last = sum;
+
+    fn cells() -> &'static Q {
+        &CELLS
     }
-    if largest > 0.0 && largest.is_finite() {
-        // two over the power of two that is not above it
-        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
-        for entry in line {
-            *entry *= factor;
-        }
+
+    fn jerk(&self, [q, qd, qdd]: [&Q; 3], t: f64, _sides: &Sides) -> Q {
+        jerk(q, qd, qdd, t, &self.params)
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn measured(&self, [q, qd, qdd, qddd]: [&Q; 4], _varied: &[f64; 0], t: f64) -> Measures {
+        measures(q, qd, qdd, qddd, t, &self.params)
     }
 }
 
-/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
-/// determinant is negative.
-fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
-    let width = x.len() + 1;
-    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
-    let mut left = &mut *matrix;
-    for k in 0..x.len() {
-        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
-            break;
-        };
-        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
-        for line in lines(below, width) {
-            if entry(line).abs() > entry(first).abs() {
-                is_negative = !is_negative;
-                for (a, b) in first.iter_mut().zip(line) {
-                    core::mem::swap(a, b);
-                }
-            }
-        }
-        let pivot = entry(first);
-        is_negative ^= pivot < 0.0;
-        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
-        for line in lines(below, width) {
-            let factor = entry(line) / pivot;
-            if factor != 0.0 {
-                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
-                    *a -= factor * b;
-                }
-            }
-        }
-        left = below;
-    }
-    let mut rest = &*matrix;
-    for k in (0..x.len()).rev() {
-        let Some((before, line)) = rest.split_at_checked(k * width) else {
-            break;
-        };
-        rest = before;
-        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
-        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
-        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
-            *x = sum / pivot;
-        }
-    }
-    (smallest, is_negative)
-}
+impl Timed for Model {
+    type Params = Params;
+    type Lead = Leading<following::Model, SIGNALS>;
+    type Passed = [f64; 0];
+    type Row = [f64; COLUMNS];
 
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
+
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
+
+    fn params(&self) -> &Params {
+        &self.params
+    }
+
+    fn start() -> &'static Q {
+        &START
+    }
 }
 
 /// What is given of an input, in SI: its value, and how that changes.
@@ -1883,52 +1183,89 @@ impl Inputs {
     /// What the text's formulas say at a time (s).
     #[must_use]
     pub fn at(t: f64, params: &Params) -> Self {
-        let all = following::by_text(t, params);
-        let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
-        let order = |order: usize| core::array::from_fn(|k| get(3 * k + order));
-        Self::of(&order(0), &order(1), &order(2))
+        use runtime::way::Led;
+
+        Self::of(&following::Model::by_text(params, t))
     }
 
     #[rustfmt::skip]
-    fn of(values: &[f64; SIGNALS], rates: &[f64; SIGNALS], accelerations: &[f64; SIGNALS]) -> Self {
-        let of = |list: &[f64; SIGNALS], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
-        let signal = |k: usize| Signal {
-            value: of(values, k),
-            rate: of(rates, k),
-            acceleration: of(accelerations, k),
-        };
+    fn of([values, rates, accelerations]: &[[f64; SIGNALS]; 3]) -> Self {
         Self {
-            turn: signal(0),
+            turn: Signal { value: values[0], rate: rates[0], acceleration: accelerations[0] },
         }
     }
 
     /// Values, rates and accelerations.
     #[rustfmt::skip]
-    fn lists(&self) -> ([f64; SIGNALS], [f64; SIGNALS], [f64; SIGNALS]) {
+    fn signals(&self) -> [[f64; SIGNALS]; 3] {
         let all = [self.turn];
-        (all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration))
-    }
-
-    fn are_finite(&self) -> bool {
-        let (values, rates, accelerations) = self.lists();
-        let mut all = values.iter().chain(&rates).chain(&accelerations);
-        all.all(|value| value.is_finite())
+        [all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration)]
     }
 }
 
-// who needs but some of it is not told so
-#[allow(unused_imports)]
-pub use following::{follow, follow_within, influence};
+impl runtime::follow::Follows<following::Model, SIGNALS> for Model {
+    const HAS_TIME: bool = false;
+}
+
+/// Leads a state from its inputs to others, along the straight line between them, in as many steps
+/// as the branch asks for; their rates and accelerations there decide velocities and accelerations.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
+/// allowed. A kink of a formula on the way is passed. What a measure makes of more than the
+/// accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
+/// back to what these say of the inputs at the state's time.
+///
+/// # Errors
+/// Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].
+pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
+    follow_within(inputs, state, MOST_STEPS)
+}
+
+/// As [`follow`], in so many steps at most, for those who have a deadline: each solves the
+/// equations about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
+/// way, and the same call goes on from there.
+pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<(), Error> {
+    runtime::follow::follow_within(&inputs.signals(), state, most)
+}
+
+/// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
+/// shift of it, along the branch that the state is on.
+///
+/// # Errors
+/// The equations cannot be solved with the inputs as signals.
+pub fn influence(state: &State) -> Result<[Q; INPUTS], Error> {
+    runtime::follow::influence(state)
+}
 
 /// What follows inputs: along a way from 0 to 1, on which `t` is a place.
 #[rustfmt::skip]
 mod following {
     use super::*;
 
+    use super::runtime::blocks::Blocks;
+    use super::runtime::blocks::work_of;
+    use super::runtime::equations::Branches;
+    use super::runtime::equations::Checks;
+    use super::runtime::equations::Equations;
+    use super::runtime::error::Fault;
+    use super::runtime::grid::on_grid;
+    use super::runtime::limits::ITERATIONS;
+    use super::runtime::newton::Newton;
+    use super::runtime::pivoting::Pivoting;
+    use super::runtime::pivoting::solve_with_pivoting;
+    use super::runtime::sine_and_cosine::sin_cos;
+    use super::runtime::solution::Solved;
+    use super::runtime::way::Led;
+    use super::runtime::way::Signals;
+    use super::runtime::way::Slopes;
+
     /// Value, rate and acceleration of each signal by the text's formulas.
     ///
     /// 6 operations.
-    pub(super) fn by_text(t: f64, _p: &Params) -> [f64; 3 * SIGNALS] {
+    fn by_text(t: f64, _p: &Params) -> [f64; 3 * SIGNALS] {
         let mut out = [0.0; 3 * SIGNALS];
         let v1 = 2.0 * t;
         let (s2, c2) = sin_cos(v1);
@@ -1943,494 +1280,13 @@ mod following {
         out
     }
 
-    /// Leads a state from its inputs to others, along the straight line between them, in as many steps
-    /// as the branch asks for; their rates and accelerations there decide velocities and accelerations.
-    ///
-    /// It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
-    /// allowed. A kink of a formula on the way is passed. What a measure makes of more than the
-    /// accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
-    /// back to what these say of the inputs at the state's time.
-    ///
-    /// # Errors
-    /// Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].
-    pub fn follow(inputs: &Inputs, state: &mut State) -> Result<(), Error> {
-        follow_within(inputs, state, MOST_STEPS)
-    }
-
-    /// As [`follow`], in so many steps at most, for those who have a deadline: each solves the
-    /// equations about once, and one that has to be made shorter counts as well.
-    ///
-    /// # Errors
-    /// Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
-    /// way, and the same call goes on from there.
-    pub fn follow_within(inputs: &Inputs, state: &mut State, most: usize) -> Result<(), Error> {
-        if !inputs.are_finite() {
-            return Err(Error::NotANumber);
-        }
-        let was_led = state.is_led;
-        if !was_led {
-            let at = state.at();
-            let (q, t) = (at.q, at.t);
-            state.led.begin(&q, t)?;
-        }
-        let result = state.led.go(inputs, most, state.steepness);
-        if matches!(result, Ok(()) | Err(Error::TooFar)) {
-            state.is_led = true;
-            let [first, second] = &mut state.solutions;
-            let to = if state.is_second { second } else { first };
-            state.led.leave_in(to);
-        }
-        result
-    }
-
-    /// The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant
-    /// shift of it, along the branch that the state is on.
-    ///
-    /// # Errors
-    /// The equations cannot be solved with the inputs as signals.
-    pub fn influence(state: &State) -> Result<[Q; INPUTS], Error> {
-        let by_signal = if state.is_led {
-            state.led.at().by_signal
-        } else {
-            let mut led = Led::new(state.params());
-            led.begin(state.q(), state.t())?;
-            led.at().by_signal
-        };
-        let mut by_input = [[0.0; N]; INPUTS];
-        by_input.iter_mut().zip(by_signal).for_each(|(to, from)| *to = from);
-        Ok(by_input)
-    }
-
-    /// The shortest step, as a part of the way; of a long one, as a change of a signal.
-    const SMALLEST_STEP: f64 = 1e-12;
-
-    /// A way of the signals: a straight line from 0 to 1.
-    #[derive(Clone, Debug)]
-    struct Way {
-        params: Params,
-        from: [f64; SIGNALS],
-        to: [f64; SIGNALS],
-        rates: [f64; SIGNALS],
-        accelerations: [f64; SIGNALS],
-    }
-
-    impl Way {
-        fn new(params: &Params) -> Self {
-            let zero = [0.0; SIGNALS];
-            Self {
-                params: *params,
-                from: zero,
-                to: zero,
-                rates: zero,
-                accelerations: zero,
-            }
-        }
-
-        /// The value of a signal at a place of the way.
-        #[inline]
-        fn value(&self, k: usize, t: f64) -> f64 {
-            match (self.from.get(k), self.to.get(k)) {
-                (Some(_), Some(to)) if t >= 1.0 => *to,
-                (Some(from), Some(to)) => from + t * (to - from),
-                _ => f64::NAN,
-            }
-        }
-
-        fn values(&self, t: f64) -> [f64; SIGNALS] {
-            core::array::from_fn(|k| self.value(k, t))
-        }
-
-        /// How the signals change along the whole way.
-        fn direction(&self) -> [f64; SIGNALS] {
-            core::array::from_fn(|k| self.value(k, 1.0) - self.value(k, 0.0))
-        }
-    }
-
-    /// What follows signals.
-    #[derive(Clone, Debug)]
-    pub(super) struct Led {
-        model: Model,
-        /// The solution of now and the one before, or the next one in the making; their times are
-        /// places of the way.
-        solutions: [Solution; 2],
-        /// Whether that of now is the second.
-        is_second: bool,
-        /// Whether the one before lies on the same smooth motion.
-        is_smooth: bool,
-        /// The change of a signal that goes well in a step.
-        stride: f64,
-    }
-
-    impl Led {
-        pub(super) fn new(params: &Params) -> Self {
-            Self {
-                model: Model::new(&Way::new(params)),
-                solutions: [Solution::ZERO, Solution::ZERO],
-                is_second: false,
-                is_smooth: false,
-                stride: f64::INFINITY,
-            }
-        }
-
-        /// The solution of now.
-        fn at(&self) -> &Solution {
-            let [first, second] = &self.solutions;
-            if self.is_second { second } else { first }
-        }
-
-        /// The inputs that have been followed to.
-        pub(super) fn inputs(&self) -> Inputs {
-            let way = &self.model.way;
-            Inputs::of(&self.at().signals, &way.rates, &way.accelerations)
-        }
-
-        /// Begins at a position that the text's formulas give at a time (s).
-        fn begin(&mut self, q: &Q, t: f64) -> Result<(), Error> {
-            let way = &mut self.model.way;
-            (way.to, way.rates, way.accelerations) = Inputs::at(t, &way.params).lists();
-            way.from = way.to;
-            let mut near = Solution::ZERO;
-            (near.t, near.q) = (1.0, *q);
-            self.is_smooth = false;
-            let [first, second] = &mut self.solutions;
-            let now = if self.is_second { second } else { first };
-            reach(&tears(q), &near, 1.0, &self.model, now).map_err(Fault::at_start)?;
-            if now.first <= LARGEST_CORRECTION {
-                Ok(())
-            } else {
-                Err(Error::Divergence)
-            }
-        }
-
-        /// Goes from the signals of now to inputs.
-        fn go(&mut self, inputs: &Inputs, most: usize, steepness: f64) -> Result<(), Error> {
-            let from = self.at().signals;
-            let way = &mut self.model.way;
-            let before = (way.from, way.to, way.rates, way.accelerations);
-            way.from = from;
-            (way.to, way.rates, way.accelerations) = inputs.lists();
-            let [first, second] = &mut self.solutions;
-            let now = if self.is_second { second } else { first };
-            now.t = 0.0;
-            let length = way.direction().into_iter().map(f64::abs).fold(0.0, larger);
-            // the branch asks for steps of the same change on any way
-            let smallest = SMALLEST_STEP / larger(length, 1.0);
-            let stride = self.stride;
-            // the solution at the beginning, once it is behind the one before
-            let mut home = None;
-            for _ in 0..most {
-                let now = self.at().t;
-                let step = f64::max(self.stride / length, smallest);
-                // no crumb at the end; a way without length is one step
-                let wanted = if step < 0.999 * (1.0 - now) {
-                    now + step
-                } else {
-                    1.0
-                };
-                let next = wanted;
-                let (is_last, size) = (next >= 1.0, next - now);
-                match self.advance(next, is_last, steepness) {
-                    Ok(is_calm) => {
-                        if is_calm {
-                            self.stride = f64::max(self.stride, 2.0 * size * length);
-                        } else if length > 0.0 {
-                            self.stride = f64::min(self.stride, size * length);
-                        }
-                        if is_last {
-                            return Ok(());
-                        }
-                        if home.is_none() {
-                            home = Some(self.other().clone());
-                        }
-                    }
-                    Err(fault) => {
-                        let half = 0.5 * size;
-                        self.stride = half * length;
-                        self.is_smooth = false;
-                        if half < smallest || now + half == now {
-                            let why = self.explain(fault, next, steepness);
-                            self.stride = stride;
-                            let way = &mut self.model.way;
-                            (way.from, way.to, way.rates, way.accelerations) = before;
-                            if let Some(home) = home {
-                                let [first, second] = &mut self.solutions;
-                                let now = if self.is_second { second } else { first };
-                                *now = home;
-                            }
-                            return Err(why);
-                        }
-                    }
-                }
-            }
-            Err(Error::TooFar)
-        }
-
-        /// One step to a place of the way; says whether a longer one would do as well.
-        fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64) -> Result<bool, Fault> {
-            let [first, second] = &mut self.solutions;
-            let (from, at) = if self.is_second {
-                (second, first)
-            } else {
-                (first, second)
-            };
-            let (from, m) = (&*from, &self.model);
-            let h = t - from.t;
-            let direction = m.way.direction();
-            let change = direction.map(|rate| h * rate);
-            let (x, v) = (tears(&from.q), tears_along(from, &change));
-            let mut way = if self.is_smooth {
-                bend(from, at, &v, &change)
-            } else {
-                [0.0; TEARS]
-            };
-            let mut guess = x;
-            for ((way, guess), v) in way.iter_mut().zip(&mut guess).zip(&v) {
-                *way += v;
-                *guess += *way;
-            }
-            // what is not a number is not small either
-            let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
-            if !is_short {
-                return Err(Fault::TooFar);
-            }
-            reach(&guess, from, t, m, at)?;
-            // what the slopes at both ends make of the way between
-            let (y, w) = (tears(&at.q), tears_along(at, &change));
-            let mut gaps = [0.0; TEARS];
-            let (ways, rates) = (y.iter().zip(&x), v.iter().zip(&w));
-            for ((gap, (y, x)), (v, w)) in gaps.iter_mut().zip(ways).zip(rates) {
-                *gap = y - x - 0.5 * (v + w);
-            }
-            let gap = largest(&gaps, &TEAR_SCALES);
-            let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-            if !is_near {
-                return Err(Fault::TooFar);
-            }
-            let steepest = at.steepest / steepness;
-            if at.is_negative != from.is_negative || steepest > STEEPEST {
-                return Err(Fault::Singular);
-            }
-            if is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY {
-                return Err(Fault::Singular);
-            }
-            self.is_smooth = true;
-            self.is_second = !self.is_second;
-            Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
-        }
-
-        /// The one before, or the next one in the making.
-        fn other(&self) -> &Solution {
-            let [first, second] = &self.solutions;
-            if self.is_second { first } else { second }
-        }
-
-        /// Leaves the solution of now for those who ask.
-        fn leave_in(&self, to: &mut super::Solution) {
-            let at = self.at();
-            (to.q, to.qd, to.qdd) = (at.q, at.qd, at.qdd);
-            to.measures = at.measures;
-        }
-
-        /// Why even the shortest step towards a place of the way is refused.
-        fn explain(&self, fault: Fault, t: f64, steepness: f64) -> Error {
-            let (at, m) = (self.at(), &self.model);
-            let p = &m.way;
-            let values = phi(&at.q, t, p);
-            if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
-                return Error::NotANumber;
-            }
-            if at.steepest < SINGULAR * steepness {
-                // a formula may jump without a branch of its own
-                let mut beyond = at.clone();
-                let is_there = fault == Fault::TooFar && reach(&tears(&at.q), at, t, m, &mut beyond).is_ok();
-                return if is_there {
-                    Error::NotSmooth
-                } else {
-                    Error::Divergence
-                };
-            }
-            // a motion that comes to a dead point after a way u is as the root of u, whose slope over
-            // twice its curvature is u; all by the signal that changes most
-            let longest = m.way.direction().into_iter().map(f64::abs).fold(0.0, larger);
-            let mut along = m.clone();
-            along.way.rates = m.way.direction().map(|change| change / longest);
-            along.way.accelerations = [0.0; SIGNALS];
-            let mut moving = at.clone();
-            solve(&tears(&at.q), at.t, &along, &mut moving);
-            let rates = moving.qd.iter().zip(&moving.qdd).zip(&SCALES);
-            let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
-                if v.abs() / scale > speed {
-                    (v.abs() / scale, 0.5 * v / a)
-                } else {
-                    (speed, left)
-                }
-            };
-            let (_, left) = rates.fold((0.0, 0.0), sooner);
-            // a way may be short itself
-            if left > 0.0 && left < NEAR_FOLD * (1.0 + longest) {
-                Error::LockUp
-            } else {
-                Error::Bifurcation
-            }
-        }
-    }
-
-    /// How coordinates change along a direction of the signals.
-    fn along(by_signal: &[Q; SIGNALS], direction: &[f64; SIGNALS]) -> Q {
-        let mut sum = [0.0; N];
-        for (slopes, change) in by_signal.iter().zip(direction) {
-            sum.iter_mut().zip(slopes).for_each(|(sum, slope)| *sum += slope * change);
-        }
-        sum
-    }
-
-    /// The same of those that Newton solves for.
-    fn tears_along(at: &Solution, direction: &[f64; SIGNALS]) -> [f64; TEARS] {
-        let mut sum = [0.0; TEARS];
-        for (slopes, change) in at.by_signal.iter().zip(direction) {
-            sum.iter_mut().zip(&tears(slopes)).for_each(|(sum, slope)| *sum += slope * change);
-        }
-        sum
-    }
-
-    /// What the motion since the solution before adds to the way `v` that the slopes of now make of a
-    /// change of the signals: values and slopes at two places make a cubic (Hermite). Where the signals
-    /// turn elsewhere, the change of the slopes counts alone.
-    fn bend(
-        now: &Solution,
-        before: &Solution,
-        v: &[f64; TEARS],
-        change: &[f64; SIGNALS],
-    ) -> [f64; TEARS] {
-        let (mut product, mut square, mut size) = (0.0, 0.0, 0.0);
-        let mut behind = [0.0; SIGNALS];
-        let ends = now.signals.iter().zip(&before.signals);
-        for ((behind, (now, before)), change) in behind.iter_mut().zip(ends).zip(change) {
-            *behind = now - before;
-            product += *behind * change;
-            square += *behind * *behind;
-            size += change * change;
-        }
-        let u = product / square;
-        if u.is_nan() || u.abs() > FARTHEST_BEND {
-            return [0.0; TEARS];
-        }
-        let (x, y) = (tears(&now.q), tears(&before.q));
-        let is_straight = size - u * product <= LARGEST_TURN * size;
-        let mut bend = [0.0; TEARS];
-        if is_straight {
-            let slopes = tears_along(now, &behind).into_iter().zip(tears_along(before, &behind));
-            for ((bend, (x, y)), (v, w)) in bend.iter_mut().zip(x.iter().zip(&y)).zip(slopes) {
-                let (value, slope) = (y - x + v, v - w);
-                *bend = u * u * (3.0 * value - slope + u * (2.0 * value - slope));
-            }
-        } else {
-            let slopes = v.iter().zip(tears_along(before, change));
-            for (bend, (v, w)) in bend.iter_mut().zip(slopes) {
-                *bend = 0.5 * u * (v - w);
-            }
-        }
-        bend
-    }
-
-    /// Signals go straight on if the square of what leads aside is no larger part of that of the whole.
-    const LARGEST_TURN: f64 = 0.01;
-
-    /// Iterations of Newton at most.
-    const ITERATIONS: usize = 6;
-
-    /// Newton's first correction at most, beside the size of a body or 1 rad.
-    const LARGEST_CORRECTION: f64 = 0.05;
-
-    /// A correction of just half a cell of the grid, to rounding, stays in it.
-    const HALF_A_CELL: f64 = 0.500001;
-
-    /// Number of coordinates that Newton solves for; the others follow.
-    const TEARS: usize = 2;
-
-    /// What a change of each of them is judged against (m, or 1 rad).
-    #[rustfmt::skip]
-    static TEAR_SCALES: [f64; TEARS] = [
-        1.0, 1.0,
-    ];
-
-    /// Number of blocks of equations whose determinants change with the position.
-    const TURNS: usize = 1;
-
-    /// Whether they are negative where all pivots are positive.
-    #[rustfmt::skip]
-    static TURNED: [bool; TURNS] = [
-        false,
-    ];
-
-    /// The width of a cell of each coordinate's grid.
-    #[rustfmt::skip]
-    static CELLS: [f64; N] = [
-        7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
-        1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
-        7.450580596923828e-9,
-    ];
-
-    /// Number of blocks of equations that can be solved one after the other.
-    const BLOCKS: usize = 6;
-
-    /// The blocks whose determinants change.
-    #[rustfmt::skip]
-    static TURNING: [usize; TURNS] = [
-        5,
-    ];
-
-    /// Numbers that the elimination of the largest block works on.
-    const WORK: usize = blocks::work_of(4);
-
-    /// What may be left of an equation, beside the norm of its row.
-    const TOLERANCE: f64 = 1e-12;
-
-    /// How the equations fall apart into blocks.
-    #[rustfmt::skip]
-    static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
-        sizes: &[
-            1, 1, 1, 1,
-            1, 4,
-        ],
-        rows: &[
-            0, 1, 8, 2,
-            3, 4, 5, 6,
-            7,
-        ],
-        columns: &[
-            0, 1, 2, 3,
-            4, 5, 7, 6,
-            8,
-        ],
-        starts: &[
-            0, 1, 2, 5,
-            8, 12, 16, 18,
-            20, 21,
-        ],
-        entries: &[
-            0, 1, 0, 2,
-            3, 1, 2, 4,
-            3, 5, 6, 8,
-            4, 5, 7, 8,
-            6, 8, 7, 8,
-            2,
-        ],
-        places: &[
-            0, 1, 2, 3,
-            4, 5, 7, 6,
-            8,
-        ],
-        units: &[
-            1.0, 1.0, 1.0, 2.0,
-            2.0, 1.0, 2.0, 2.0,
-            1.0,
-        ],
-    };
+    /// A way of the signals.
+    type Way = super::runtime::way::Way<Params, SIGNALS>;
 
     const ENTRIES: usize = 21;
 
     /// Row and column of each value that `phi_q` gives.
+    #[rustfmt::skip]
     static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
         (0, 0),
         (1, 1),
@@ -2455,20 +1311,8 @@ mod following {
         (8, 2),
     ];
 
+    /// Number of values that follow from the parameters alone.
     const KNOWN: usize = 1;
-
-    /// A way, with what follows from its parameters alone.
-    #[derive(Clone, Debug)]
-    struct Model {
-        way: Way,
-        known: [f64; KNOWN],
-    }
-
-    impl Model {
-        fn new(way: &Way) -> Self {
-            Self { way: way.clone(), known: known(way) }
-        }
-    }
 
     /// What follows from the parameters alone.
     ///
@@ -2481,295 +1325,39 @@ mod following {
         out
     }
 
-    /// Why a step is refused.
-    #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-    enum Fault {
-        /// Something is not a number.
-        NotANumber,
-        /// The step is too long for the motion.
-        TooFar,
-        /// The position is on another branch, or too near to one.
-        Singular,
+    /// The mechanism with its way, and what follows from these alone.
+    #[derive(Clone, Debug)]
+    pub struct Model {
+        way: Way,
+        known: [f64; KNOWN],
     }
 
-    impl Fault {
-        /// Why a mechanism cannot be assembled.
-        fn at_start(self) -> Error {
-            match self {
-                Self::NotANumber => Error::NotANumber,
-                _ => Error::Divergence,
-            }
-        }
-    }
+    /// Number of coordinates that Newton solves for; the others follow.
+    const TEARS: usize = 2;
 
-    /// Solves at a time, from a guess; `from` is where the motion comes from.
-    fn reach(
-        guess: &[f64; TEARS],
-        from: &Solution,
-        t: f64,
-        m: &Model,
-        at: &mut Solution,
-    ) -> Result<(), Fault> {
-        solve(guess, t, m, at);
-        if !at.is_settled || !at.holds {
-            // once more from a position that is known, and if that does not help either, that
-            let h = t - from.t;
-            let mut q = from.q;
-            for (q, rate) in q.iter_mut().zip(along(&from.by_signal, &m.way.direction())) {
-                *q += h * rate;
-            }
-            let pivoted = solve_with_pivoting(&q, t, m)?;
-            solve(&tears(&pivoted.q), t, m, at);
-            let first = pivoted.first;
-            if !at.is_settled || !at.holds {
-                *at = pivoted;
-            }
-            at.first = first;
-        }
-        at.signals = m.way.values(t);
-        at.measures.leave_out();
-        if at.is_finite() {
-            Ok(())
-        } else {
-            Err(Fault::NotANumber)
-        }
-    }
+    /// What a change of each of them is judged against (m, or 1 rad).
+    #[rustfmt::skip]
+    static TEAR_SCALES: [f64; TEARS] = [
+        1.0, 1.0,
+    ];
 
-    /// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
-    /// amplified by as much as the position is near to a singular one.
-    fn rounding(at: &Solution, m: &Model) -> f64 {
-        let p = &m.way;
-        let slopes = phi_q(&at.q, at.t, p);
-        let mut norms = [f64::MIN_POSITIVE; N];
-        for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-            if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
-                *norm = larger(*norm, slope.abs() * scale);
-            }
-        }
-        let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-        let nu = nu(&at.q, at.t, p);
-        let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
-        let gamma = gamma(&at.q, &at.qd, at.t, p);
-        let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
-        let amplified = larger(larger(velocity, acceleration), 1.0);
-        f64::EPSILON * amplified
-    }
+    /// Number of blocks of equations whose determinants change with the position.
+    const TURNS: usize = 1;
+
+    /// Whether they are negative where all pivots are positive.
+    #[rustfmt::skip]
+    static TURNED: [bool; TURNS] = [
+        false,
+    ];
+
+    /// Number of places where formulas have branches.
+    const SIDES: usize = 0;
+
+    /// Which branch is taken at each: what a comparison gives, the number of a piece.
+    type Sides = [f64; SIDES];
 
     /// What solves the equations at a time.
-    #[derive(Clone, Debug)]
-    struct Solution {
-        t: f64,
-        q: Q,
-        qd: Qd,
-        qdd: Qdd,
-        /// The derivatives of the coordinates by each signal, and what these are.
-        by_signal: [Q; SIGNALS],
-        signals: [f64; SIGNALS],
-        measures: Measures,
-        /// By block of equations: whether its determinant is negative.
-        is_negative: [bool; TURNS],
-        /// Whether Newton has arrived.
-        is_settled: bool,
-        /// Whether no digits were lost, and the equations hold.
-        holds: bool,
-        /// Newton's largest first correction, scaled.
-        first: f64,
-        /// One over the smallest pivot, scaled.
-        steepest: f64,
-    }
-
-    impl Solution {
-        const ZERO: Self = Self {
-            t: 0.0,
-            q: [0.0; N],
-            qd: [0.0; N],
-            qdd: [0.0; N],
-            by_signal: [[0.0; N]; SIGNALS],
-            signals: [0.0; SIGNALS],
-            measures: Measures::ZERO,
-            is_negative: [false; TURNS],
-            is_settled: true,
-            holds: true,
-            first: 0.0,
-            steepest: 0.0,
-        };
-
-        /// Makes ready for being solved for.
-        fn begin(&mut self, t: f64) {
-            self.t = t;
-            self.is_negative = TURNED;
-            (self.is_settled, self.holds) = (true, true);
-            (self.first, self.steepest) = (0.0, 0.0);
-        }
-
-        /// Takes over how an iteration went.
-        fn note(&mut self, newton: &Newton) {
-            self.is_settled &= newton.has_settled;
-            self.first = larger(self.first, newton.first);
-        }
-
-        /// Takes note of one over a pivot, and of what makes that a pure number.
-        fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
-            if let Some(is_negative) = self.is_negative.get_mut(turn) {
-                *is_negative ^= inverse < 0.0;
-            }
-            self.steepest = larger(self.steepest, inverse.abs() * weight);
-        }
-
-        /// Why it cannot be used.
-        fn fault(&self) -> Fault {
-            if self.is_finite() {
-                Fault::TooFar
-            } else {
-                Fault::NotANumber
-            }
-        }
-
-        fn is_finite(&self) -> bool {
-            let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-            let is_finite = all.all(|value| value.is_finite());
-            is_finite && self.by_signal.iter().flatten().all(|value| value.is_finite())
-        }
-    }
-
-    /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
-    /// in where it ends.
-    struct Newton {
-        is_first: bool,
-        is_open: bool,
-        is_lost: bool,
-        has_settled: bool,
-        first: f64,
-    }
-
-    impl Newton {
-        fn new() -> Self {
-            Self {
-                is_first: true,
-                is_open: false,
-                is_lost: false,
-                has_settled: false,
-                first: 0.0,
-            }
-        }
-
-        /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
-        fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
-            let size = delta.abs();
-            if self.is_first {
-                self.first = larger(self.first, size / scale);
-            }
-            self.is_open |= size > HALF_A_CELL * cell;
-            self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-            x + delta
-        }
-
-        /// Whether no further iteration is needed, or none helps.
-        fn is_done(&mut self) -> bool {
-            self.has_settled = !self.is_open && !self.is_lost;
-            let is_done = self.has_settled || self.is_lost;
-            (self.is_first, self.is_open) = (false, false);
-            is_done
-        }
-    }
-
-    /// The grid point next to a value.
-    fn on_grid(x: f64, cell: f64) -> f64 {
-        // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
-        let rounding = 6_755_399_441_055_744.0 * cell;
-        (x + rounding) - rounding
-    }
-
-    /// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
-    /// digits. All coordinates lie on a grid while Newton goes on.
-    fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
-        let p = &m.way;
-        let mut at = Solution::ZERO;
-        (at.t, at.q) = (t, *q);
-        let mut elimination = Elimination::new();
-        let mut is_settled = false;
-        for iteration in 0..ITERATIONS {
-            for (q, cell) in at.q.iter_mut().zip(&CELLS) {
-                *q = on_grid(*q, *cell);
-            }
-            let slopes = phi_q(&at.q, t, p);
-            let right = phi(&at.q, t, p).map(|value| -value);
-            let (x, _) = elimination.solve(&slopes, &right);
-            if iteration == 0 {
-                at.first = largest(&x, &SCALES);
-            }
-            is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
-            at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
-            if is_settled {
-                break;
-            }
-        }
-        if !is_settled {
-            return Err(at.fault());
-        }
-        let slopes = phi_q(&at.q, t, p);
-        let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
-        let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
-        for (slopes_by, right) in at.by_signal.iter_mut().zip(&rights_by_signal(&at.q, t, p)) {
-            *slopes_by = elimination.solve(&slopes, right).0.map(|x| x + 0.0);
-        }
-        (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
-        at.measures = measures(&at.q, &qd, &qdd, t, p);
-        let values = phi(&at.q, t, p);
-        at.holds = is_next_to_nothing(&values, &slopes, &at.q);
-        at.q = at.q.map(|x| x + 0.0);
-        at.steepest = 1.0 / pivot;
-        let negative = &elimination.is_negative;
-        for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
-            *turned = negative.get(*block).copied().unwrap_or(false);
-        }
-        if at.holds { Ok(at) } else { Err(Fault::TooFar) }
-    }
-
-    /// The work of solving linear equations in blocks.
-    struct Elimination {
-        work: [f64; WORK],
-        is_negative: [bool; BLOCKS],
-    }
-
-    impl Elimination {
-        fn new() -> Self {
-            Self {
-                work: [0.0; WORK],
-                is_negative: [false; BLOCKS],
-            }
-        }
-
-        /// The solution for a right side, and the smallest pivot.
-        fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
-            let mut x = [0.0; N];
-            let (work, is_negative) = (&mut self.work, &mut self.is_negative);
-            let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
-            (x, pivot)
-        }
-    }
-
-    /// Whether what is left of the equations is within their tolerance, and what rounding makes of
-    /// the coordinates.
-    fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
-        let mut bounds = [0.0; N];
-        for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-            let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
-            if let (Some(scale), Some(q), Some(bound)) = sizes {
-                *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
-            }
-        }
-        let mut pairs = values.iter().zip(&bounds);
-        pairs.all(|(value, bound)| value.abs() <= *bound)
-    }
-
-    /// Of all coordinates those that Newton solves for.
-    #[rustfmt::skip]
-    fn tears(q: &[f64; N]) -> [f64; TEARS] {
-        [
-            q[8], q[5],
-        ]
-    }
+    type Solution = super::runtime::solution::Solution<Model>;
 
     /// Position, velocity and acceleration at a time. Newton begins with a guess of `rocker.phi`,
     /// `coupler.phi`; all else follows.
@@ -2781,7 +1369,7 @@ mod following {
         at.qd[2] = m.way.rates[0] + 0.0;
         let crank_phi_dd = m.way.accelerations[0];
         at.qdd[2] = crank_phi_dd + 0.0;
-        at.by_signal[0][2] = 1.0;
+        at.along.by_signal[0][2] = 1.0;
         let v2 = m.way.params.crank_length;
         let (s3, c3) = sin_cos(m.way.value(0, t));
         let coupler_x = c3 * v2;
@@ -2797,7 +1385,7 @@ mod following {
         let coupler_x_dd = -v11;
         at.qdd[3] = coupler_x_dd + 0.0;
         let v13 = -coupler_y;
-        at.by_signal[0][3] = v13 + 0.0;
+        at.along.by_signal[0][3] = v13 + 0.0;
         at.q[4] = coupler_y + 0.0;
         let coupler_y_d = coupler_x * m.way.rates[0];
         at.qd[4] = coupler_y_d + 0.0;
@@ -2807,7 +1395,7 @@ mod following {
         let v18 = v17 - coupler_x * crank_phi_dd;
         let coupler_y_dd = -v18;
         at.qdd[4] = coupler_y_dd + 0.0;
-        at.by_signal[0][4] = coupler_x + 0.0;
+        at.along.by_signal[0][4] = coupler_x + 0.0;
         let mut x1 = guess[0];
         let mut x2 = guess[1];
         let mut s20 = 0.0;
@@ -2941,10 +1529,10 @@ mod following {
         let v116 = v53 * v112;
         let v117 = v54 * v112;
         let v118 = -v115;
-        at.by_signal[0][5] = v118 + 0.0;
-        at.by_signal[0][7] = v117 + 0.0;
-        at.by_signal[0][6] = v116 + 0.0;
-        at.by_signal[0][8] = v112 + 0.0;
+        at.along.by_signal[0][5] = v118 + 0.0;
+        at.along.by_signal[0][7] = v117 + 0.0;
+        at.along.by_signal[0][6] = v116 + 0.0;
+        at.along.by_signal[0][8] = v112 + 0.0;
         at.measures.values[0] = v62 + 0.0;
         let v119 = -3.5 * v94 + v6;
         let v120 = -v119;
@@ -3126,21 +1714,134 @@ mod following {
         out
     }
 
-    /// The right sides of the equations for the derivatives of the coordinates by each signal.
-    #[rustfmt::skip]
-    fn rights_by_signal(q: &Q, t: f64, p: &Way) -> [Q; SIGNALS] {
-        let mut all = all_rights_by_signal(q, t, p).into_iter();
-        core::array::from_fn(|_| core::array::from_fn(|_| all.next().unwrap_or(f64::NAN)))
+    impl Equations for Model {
+        type Q = Q;
+        type Entries = [f64; ENTRIES];
+        type Sides = Sides;
+
+        fn pattern() -> &'static [(usize, usize)] {
+            &PHI_Q_PATTERN
+        }
+
+        fn scales() -> &'static Q {
+            &SCALES
+        }
+
+        fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+            phi(q, t, &self.way)
+        }
+
+        fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+            phi_q(q, t, &self.way)
+        }
+
+        fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+            nu(q, t, &self.way)
+        }
+
+        fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+            gamma(q, qd, t, &self.way)
+        }
     }
 
-    /// The partial derivatives of the equations by each signal, negated, one behind the other.
-    ///
-    /// 0 operations.
-    fn all_rights_by_signal(_q: &[f64; N], _t: f64, _p: &Way) -> [f64; N * SIGNALS] {
-        let mut out = [0.0; N * SIGNALS];
-        out[8] = 1.0;
-        out
+    impl Branches for Model {}
+
+    impl Checks for Model {
+        type Watched = [bool; 0];
     }
+
+    impl Solved for Model {
+        type Tears = [f64; TEARS];
+        type Turns = [bool; TURNS];
+        type Measures = Measures;
+        type Joined = [f64; 0];
+        type Along = Slopes<Q, SIGNALS>;
+
+        fn tear_scales() -> &'static Self::Tears {
+            &TEAR_SCALES
+        }
+
+        fn turned() -> &'static Self::Turns {
+            &TURNED
+        }
+
+        #[rustfmt::skip]
+        fn tears(q: &Q) -> Self::Tears {
+            [
+                q[8], q[5],
+            ]
+        }
+
+        fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+            solve(guess, t, self, at);
+        }
+
+        fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+            solve_with_pivoting(self, q, t, sides)
+        }
+    }
+
+    /// The width of a cell of each coordinate's grid.
+    #[rustfmt::skip]
+    static CELLS: [f64; N] = [
+        7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
+        1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
+        7.450580596923828e-9,
+    ];
+
+    /// Number of blocks of equations that can be solved one after the other.
+    const BLOCKS: usize = 6;
+
+    /// The blocks whose determinants change.
+    #[rustfmt::skip]
+    static TURNING: [usize; TURNS] = [
+        5,
+    ];
+
+    /// Numbers that the elimination of the largest block works on.
+    const WORK: usize = work_of(4);
+
+    /// How the equations fall apart into blocks.
+    #[rustfmt::skip]
+    static EQUATIONS: Blocks<'static> = Blocks {
+        sizes: &[
+            1, 1, 1, 1,
+            1, 4,
+        ],
+        rows: &[
+            0, 1, 8, 2,
+            3, 4, 5, 6,
+            7,
+        ],
+        columns: &[
+            0, 1, 2, 3,
+            4, 5, 7, 6,
+            8,
+        ],
+        starts: &[
+            0, 1, 2, 5,
+            8, 12, 16, 18,
+            20, 21,
+        ],
+        entries: &[
+            0, 1, 0, 2,
+            3, 1, 2, 4,
+            3, 5, 6, 8,
+            4, 5, 7, 8,
+            6, 8, 7, 8,
+            2,
+        ],
+        places: &[
+            0, 1, 2, 3,
+            4, 5, 7, 6,
+            8,
+        ],
+        units: &[
+            1.0, 1.0, 1.0, 2.0,
+            2.0, 1.0, 2.0, 2.0,
+            1.0,
+        ],
+    };
 
     /// The measures with their time derivatives, from the coordinates, their velocities and
     /// accelerations.
@@ -3193,13 +1894,2061 @@ mod following {
         out[7] = turn_dd;
         out
     }
+
+    /// The right sides of the equations for the derivatives of the coordinates by each signal.
+    fn rights_by_signal(q: &Q, t: f64, p: &Way) -> [Q; SIGNALS] {
+        let mut all = all_rights_by_signal(q, t, p).into_iter();
+        let mut next = || all.next().unwrap_or(f64::NAN);
+        core::array::from_fn(|_| core::array::from_fn(|_| next()))
+    }
+
+    /// The partial derivatives of the equations by each signal, negated, one behind the other.
+    ///
+    /// 0 operations.
+    fn all_rights_by_signal(_q: &[f64; N], _t: f64, _p: &Way) -> [f64; N * SIGNALS] {
+        let mut out = [0.0; N * SIGNALS];
+        out[8] = 1.0;
+        out
+    }
+
+    impl Pivoting for Model {
+        type Work = [f64; WORK];
+        type Blocks = [bool; BLOCKS];
+        type Varied = [f64; 0];
+        type Rights = [Q; SIGNALS];
+
+        const TOLERANCE: f64 = 1e-12;
+
+        fn blocks() -> &'static Blocks<'static> {
+            &EQUATIONS
+        }
+
+        fn turning() -> &'static [usize] {
+            &TURNING
+        }
+
+        fn cells() -> &'static Q {
+            &CELLS
+        }
+
+        fn rights(&self, q: &Q, t: f64, _sides: &Sides) -> [Q; SIGNALS] {
+            rights_by_signal(q, t, &self.way)
+        }
+
+        fn measured(&self, [q, qd, qdd, _]: [&Q; 4], _varied: &[f64; 0], t: f64) -> Measures {
+            measures(q, qd, qdd, t, &self.way)
+        }
+    }
+
+    impl Led<SIGNALS> for Model {
+        type Params = Params;
+
+        fn new(way: &Way) -> Self {
+            Self {
+                way: way.clone(),
+                known: known(way),
+            }
+        }
+
+        fn way(&self) -> &Way {
+            &self.way
+        }
+
+        fn way_mut(&mut self) -> &mut Way {
+            &mut self.way
+        }
+
+        fn by_text(params: &Params, t: f64) -> Signals<SIGNALS> {
+            let all = by_text(t, params);
+            let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
+            core::array::from_fn(|order| core::array::from_fn(|k| get(3 * k + order)))
+        }
+    }
 }
 
-use sine_and_cosine::sin_cos;
-
+/// What solves the equations and follows the motion, the same for all mechanisms.
 #[rustfmt::skip]
-mod sine_and_cosine {
+mod runtime {
+pub mod numbers {
+//! Numbers by place, and how large they are.
 
+use core::fmt::Debug;
+
+/// So many numbers.
+pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize> Numbers for [f64; K] {
+    const ZERO: Self = [0.0; K];
+}
+
+/// So many answers.
+pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
+    /// All of them no.
+    const NONE: Self;
+}
+
+impl<const K: usize> Flags for [bool; K] {
+    const NONE: Self = [false; K];
+}
+
+/// The largest value beside its scale; a last one that is not a number wins.
+pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
+    let pairs = values.as_ref().iter().zip(scales.as_ref());
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; a second one that is not a number wins.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// What leads from some numbers to others.
+pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
+    let mut way = *to;
+    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
+    way
+}
+
+/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
+    let mut later = *q;
+    let rates = qd.as_ref().iter().zip(qdd.as_ref());
+    for (q, (qd, qdd)) in later.as_mut().iter_mut().zip(rates) {
+        *q += h * (qd + 0.5 * h * qdd);
+    }
+    later
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
+}
+}
+
+pub mod error {
+//! Why something cannot be done.
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out does not hold.
+    LeftOut,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    pub fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            Self::LeftOut => Error::Inconsistent,
+            _ => Error::Divergence,
+        }
+    }
+}
+}
+
+pub mod equations {
+//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// The equations `phi = 0` and what follows from them.
+pub trait Equations: Clone + Debug {
+    /// A number for each coordinate, and for each equation.
+    type Q: Numbers;
+    /// One for each entry of `phi_q` that does not vanish.
+    type Entries: Numbers;
+    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    type Sides: Numbers + PartialEq;
+
+    /// Row and column of each entry of `phi_q`.
+    fn pattern() -> &'static [(usize, usize)];
+
+    /// What a change of each coordinate is judged against.
+    fn scales() -> &'static Self::Q;
+
+    /// What is left of the equations.
+    fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The entries of their Jacobian.
+    fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
+
+    /// The right side of the velocity equation.
+    fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The right side of the acceleration equation.
+    fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+}
+
+/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+pub trait Branches: Equations {
+    /// Whether time alone decides some.
+    const OF_TIME: bool = false;
+
+    /// Whether the motion decides some.
+    const OF_MOTION: bool = false;
+
+    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    const END: Option<f64> = None;
+
+    /// Which of them time alone decides.
+    fn is_of_time() -> &'static [bool] {
+        &[]
+    }
+
+    /// The branches that time alone decides, the others as 0.
+    fn sides_of_time(&self, _t: f64) -> Self::Sides {
+        Self::Sides::ZERO
+    }
+
+    /// The branches at a position, those of time being known.
+    fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
+        *sides
+    }
+}
+
+/// What must hold beside the equations; of most mechanisms nothing.
+pub trait Checks: Equations {
+    /// Which quantities that keep their signs along a branch are positive.
+    type Watched: Flags;
+
+    /// Whether distances are positive, and places within their intervals and tables.
+    fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// Whether the equations that were left out hold.
+    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// What keeps its sign along a branch of the motion.
+    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
+        Self::Watched::NONE
+    }
+}
+}
+
+pub mod measured {
+//! What is measured.
+
+use core::fmt::Debug;
+
+/// Measures with their first and second time derivatives.
+pub trait Measured: Copy + Debug {
+    /// Nothing is measured yet.
+    const ZERO: Self;
+
+    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters.
+    const IS_VARIED: &'static [bool] = &[];
+
+    /// Values, rates and accelerations.
+    fn lists(&self) -> [&[f64]; 3];
+
+    /// The same, to be written.
+    fn lists_mut(&mut self) -> [&mut [f64]; 3];
+
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
+                *value = f64::NAN;
+            }
+        }
+    }
+
+    /// Close to a singular position derivatives by inputs and parameters have no value.
+    fn leave_varied_out(&mut self) {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+/// Where nothing is measured.
+impl Measured for () {
+    const ZERO: Self = ();
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&[]; 3]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut [], &mut [], &mut []]
+    }
+}
+}
+
+pub mod solution {
+//! What solves the equations at a time, and what that is found by.
+
+use super::equations::{Branches, Checks};
+use super::error::Fault;
+use super::measured::Measured;
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// Equations with the operations that solve them.
+pub trait Solved: Branches + Checks {
+    /// A number for each coordinate that Newton solves for; the others follow.
+    type Tears: Numbers;
+    /// An answer for each block of equations whose determinant changes with the position.
+    type Turns: Flags;
+    /// What is measured.
+    type Measures: Measured;
+    /// Values that only measures need.
+    type Joined: Numbers;
+    /// What the motion goes along: time, or signals.
+    type Along: Along<Self>;
+
+    /// What a change of each coordinate that Newton solves for is judged against.
+    fn tear_scales() -> &'static Self::Tears;
+
+    /// Whether determinants are negative where all pivots are positive.
+    fn turned() -> &'static Self::Turns;
+
+    /// Of all coordinates those that Newton solves for.
+    fn tears(q: &Self::Q) -> Self::Tears;
+
+    /// Position, velocity and acceleration at a time.
+    fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
+
+    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
+    /// a fault where blocks are too large for that.
+    fn pivoted(
+        &self,
+        _q: &Self::Q,
+        _t: f64,
+        _sides: &Self::Sides,
+        at: &Solution<Self>,
+    ) -> Result<Solution<Self>, Fault> {
+        Err(at.fault())
+    }
+}
+
+/// What a motion goes along, with what a solution holds of that.
+pub trait Along<M: Solved>: Clone + Debug {
+    /// Nothing is known yet.
+    const ZERO: Self;
+
+    /// Coordinates at a distance `h` from a solution.
+    fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
+
+    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
+
+    /// Takes down what a solution has been found for.
+    fn note(&mut self, _m: &M, _t: f64) {}
+
+    /// The derivatives of the coordinates, by what the motion goes along.
+    fn slopes(&self) -> &[M::Q] {
+        &[]
+    }
+
+    /// The same, to be written.
+    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    fn slopes_mut(&mut self) -> &mut [M::Q] {
+        &mut []
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+pub struct Solution<M: Solved> {
+    /// The time (s), or the place on a way.
+    pub t: f64,
+    /// Coordinates.
+    pub q: M::Q,
+    /// Velocities.
+    pub qd: M::Q,
+    /// Accelerations.
+    pub qdd: M::Q,
+    /// Measures.
+    pub measures: M::Measures,
+    /// What only measures need.
+    #[allow(dead_code)] // mostly they need nothing
+    pub joined: M::Joined,
+    /// What it holds of what the motion goes along.
+    pub along: M::Along,
+    /// The branches of formulas.
+    pub sides: M::Sides,
+    /// Which quantities that must keep their signs are positive.
+    pub watched: M::Watched,
+    /// By block of equations: whether its determinant is negative.
+    pub is_negative: M::Turns,
+    /// Whether Newton has arrived.
+    pub is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    pub holds: bool,
+    /// Newton's largest first correction, scaled.
+    pub first: f64,
+    /// One over the smallest pivot, scaled.
+    pub steepest: f64,
+}
+
+impl<M: Solved> Solution<M> {
+    /// Nothing is solved yet.
+    pub const ZERO: Self = Self {
+        t: 0.0,
+        q: M::Q::ZERO,
+        qd: M::Q::ZERO,
+        qdd: M::Q::ZERO,
+        measures: M::Measures::ZERO,
+        joined: M::Joined::ZERO,
+        along: M::Along::ZERO,
+        sides: M::Sides::ZERO,
+        watched: M::Watched::NONE,
+        is_negative: M::Turns::NONE,
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Nothing but a position and its time.
+    pub fn near(q: &M::Q, t: f64) -> Self {
+        let mut near = Self::ZERO;
+        (near.t, near.q) = (t, *q);
+        near
+    }
+
+    /// Makes ready for being solved for.
+    pub fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = *M::turned();
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Why it cannot be used.
+    pub fn fault(&self) -> Fault {
+        if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
+    }
+
+    /// Whether all of it is numbers; measures may be none.
+    pub fn is_finite(&self) -> bool {
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
+    }
+}
+}
+
+pub mod pivots {
+//! What pivots tell of a position.
+
+use super::numbers::larger;
+use super::solution::{Solution, Solved};
+
+impl<M: Solved> Solution<M> {
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    pub fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+        if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
+            *is_negative ^= inverse < 0.0;
+        }
+        self.steepest = larger(self.steepest, inverse.abs() * weight);
+    }
+}
+}
+
+pub mod grid {
+//! The grid on which Newton's iteration goes from point to point.
+
+/// The grid point next to a value.
+pub fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+}
+
+pub mod newton {
+//! Newton's iteration.
+
+use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::numbers::larger;
+use super::solution::{Solution, Solved};
+
+/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
+#[allow(clippy::struct_excessive_bools)] // each is an answer of its own
+pub struct Newton {
+    is_first: bool,
+    is_open: bool,
+    is_lost: bool,
+    has_settled: bool,
+    first: f64,
+}
+
+impl Newton {
+    /// It has not begun.
+    pub fn new() -> Self {
+        Self { is_first: true, is_open: false, is_lost: false, has_settled: false, first: 0.0 }
+    }
+
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+        let size = delta.abs();
+        if self.is_first {
+            self.first = larger(self.first, size / scale);
+        }
+        self.is_open |= size > HALF_A_CELL * cell;
+        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+        x + delta
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    pub fn is_done(&mut self) -> bool {
+        self.has_settled = !self.is_open && !self.is_lost;
+        let is_done = self.has_settled || self.is_lost;
+        (self.is_first, self.is_open) = (false, false);
+        is_done
+    }
+}
+
+impl<M: Solved> Solution<M> {
+    /// Takes over how an iteration went.
+    pub fn note(&mut self, newton: &Newton) {
+        self.is_settled &= newton.has_settled;
+        self.first = larger(self.first, newton.first);
+    }
+}
+}
+
+pub mod branches {
+//! The branches of formulas along the motion.
+
+use super::equations::Branches;
+use super::limits::{MOST_HALVINGS, SLACK};
+use super::solution::{Along, Solution, Solved};
+
+/// A time on the later side of whatever is meant to happen at `t` (s).
+fn shortly_after(t: f64) -> f64 {
+    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+
+/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
+/// the earlier ones.
+pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+    match M::END {
+        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
+        _ => m.sides_of_time(shortly_after(t)),
+    }
+}
+
+/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
+    let here = sides_at(from, m);
+    if sides_at(to, m) == here {
+        return to;
+    }
+    let (mut near, mut far) = (from, to);
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * (near + far);
+        if middle == near || middle == far {
+            break;
+        }
+        if sides_at(middle, m) == here {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    far
+}
+
+/// The branches at a position that is next to one that is looked for.
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m))
+}
+
+/// The branches with those of time exchanged.
+pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
+    let mut all = *sides;
+    let pairs = of_time.as_ref().iter().zip(M::is_of_time());
+    for (side, (of_time, is_of_time)) in all.as_mut().iter_mut().zip(pairs) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
+}
+
+/// The branches of formulas of the motion that lie ahead of a position.
+pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
+    let (q, t) = M::Along::ahead(m, at);
+    m.sides_of_motion(&q, t, &at.sides)
+}
+}
+
+pub mod reach {
+//! Solving at a time, on the branches that are there.
+
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Fault;
+use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
+use super::measured::Measured;
+use super::numbers::{larger, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+pub fn reach<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let of_time = sides_at(t, m);
+    if !M::OF_MOTION {
+        return find(guess, from, t, m, &of_time, at);
+    }
+    let mut sides = from.sides;
+    for _ in 0..MOST_BRANCHES {
+        sides = with_time::<M>(&sides, &of_time);
+        find(guess, from, t, m, &sides, at)?;
+        let now = sides_ahead(at, m);
+        if now == sides {
+            return Ok(());
+        }
+        sides = now;
+    }
+    Err(Fault::TooFar)
+}
+
+/// Solves with branches of formulas that are known.
+pub fn find<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    m.solve(guess, t, sides, at);
+    if !at.is_settled || !at.holds {
+        find_with_pivoting(from, t, m, sides, at)?;
+    }
+    if !m.conditions_hold(&at.q, t, sides) {
+        return Err(Fault::NotANumber);
+    }
+    if !m.left_out_holds(&at.q, t, sides) {
+        return Err(Fault::LeftOut);
+    }
+    at.watched = m.watched(&at.q, t, sides);
+    at.sides = *sides;
+    at.along.note(m, t);
+    at.measures.leave_out();
+    if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
+}
+
+/// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
+fn find_with_pivoting<M: Solved>(
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let q = M::Along::predicted(m, from, t - from.t);
+    let pivoted = m.pivoted(&q, t, sides, at)?;
+    m.solve(&M::tears(&pivoted.q), t, sides, at);
+    let first = pivoted.first;
+    if !at.is_settled || !at.holds {
+        *at = pivoted;
+    }
+    at.first = first;
+    Ok(())
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
+/// position is near to a singular one.
+pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
+    let (t, sides, scales) = (at.t, &at.sides, M::scales());
+    let slopes = m.phi_q(&at.q, t, sides);
+    let mut norms = at.q;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let norm = norms.as_mut().get_mut(row);
+        if let (Some(norm), Some(scale)) = (norm, scales.as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = m.nu(&at.q, t, sides);
+    let velocity = ratio(largest(&at.qd, scales), largest(&nu, &norms));
+    let gamma = m.gamma(&at.q, &at.qd, t, sides);
+    let acceleration = ratio(largest(&at.qdd, scales), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+pub fn stays_on_branch<M: Solved>(
+    from: &Solution<M>,
+    at: &mut Solution<M>,
+    m: &M,
+    is_wanted: bool,
+    steepness: f64,
+) -> bool {
+    let steepest = at.steepest / steepness;
+    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+        return false;
+    }
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    !is_in_doubt
+}
+}
+
+pub mod state {
+//! A mechanism that moves with time, and where it is.
+
+use super::error::Error;
+use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
+use super::measured::Measured;
+use super::numbers::{Numbers, largest, predicted};
+use super::solution::{Along, Solution, Solved};
+use core::fmt::Debug;
+
+/// What can be set of a mechanism.
+pub trait Parameters: Copy + Debug + Default {
+    /// Part of the way from these to others.
+    #[must_use]
+    fn towards(&self, other: &Self, part: f64) -> Self;
+
+    /// Whether all are numbers.
+    fn is_finite(&self) -> bool;
+}
+
+/// A mechanism whose motion goes along time.
+pub trait Timed: Solved<Along = Time> {
+    /// Its parameters.
+    type Params: Parameters;
+    /// What leads it by its inputs; `()` where it has none.
+    type Lead: Lead<Self>;
+    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Passed: Numbers;
+    /// A number for each result.
+    type Row: Numbers;
+
+    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    const START_TIME: f64;
+    /// How long the file's analysis takes (s).
+    const SPAN: f64;
+    /// The longest step (s).
+    const LONGEST_STEP: f64;
+    /// The shortest step (s).
+    const SMALLEST_STEP: f64;
+
+    /// The mechanism with some parameters.
+    fn new(params: &Self::Params) -> Self;
+
+    /// Its parameters.
+    fn params(&self) -> &Self::Params;
+
+    /// The assembled position with the file's parameters.
+    fn start() -> &'static Self::Q;
+
+    /// The first rim of a step that was not looked at yet, with its time.
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+        None
+    }
+
+    /// Looks at both sides of a rim next to the state.
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What leads a mechanism by its inputs.
+pub trait Lead<M: Timed>: Clone + Debug {
+    /// Nothing is led yet.
+    fn new(params: &M::Params) -> Self;
+
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    fn is_leading(&self) -> bool;
+
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+}
+
+impl<M: Timed> Lead<M> for () {
+    fn new(_: &M::Params) -> Self {}
+
+    fn is_leading(&self) -> bool {
+        false
+    }
+
+    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// The motion goes along time.
+#[derive(Clone, Copy, Debug)]
+pub struct Time;
+
+impl<M: Timed> Along<M> for Time {
+    const ZERO: Self = Self;
+
+    fn predicted(_: &M, from: &Solution<M>, h: f64) -> M::Q {
+        predicted(&from.q, &from.qd, &from.qdd, h)
+    }
+
+    fn ahead(_: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let (speed, acceleration) = (largest(&at.qd, M::scales()), largest(&at.qdd, M::scales()));
+        let mut ahead = f64::min(f64::min(AHEAD * M::SPAN, LONGEST_AHEAD), FARTHEST_AHEAD / speed);
+        ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+        (predicted(&at.q, &at.qd, &at.qdd, ahead), at.t + ahead)
+    }
+}
+
+/// A mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State<M: Timed> {
+    pub(super) model: M,
+    /// The solution of now and the one before, or the next one in the making.
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    pub(super) steepness: f64,
+    /// The step that goes well (s).
+    pub(super) step: f64,
+    /// What leads by inputs.
+    pub(super) lead: M::Lead,
+    /// By rim: the time at which it was looked at last (s).
+    pub(super) passed: M::Passed,
+}
+
+impl<M: Timed> State<M> {
+    /// The solution of now.
+    pub(super) fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &M::Params {
+        self.model.params()
+    }
+
+    /// The coordinates (m, rad), by their indices.
+    #[must_use]
+    pub fn q(&self) -> &M::Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &M::Q {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &M::Q {
+        &self.at().qdd
+    }
+
+    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
+    /// for that.
+    #[must_use]
+    pub fn measures(&self) -> &M::Measures {
+        &self.at().measures
+    }
+
+    /// Whether inputs have led here, rather than the time.
+    pub(super) fn is_led(&self) -> bool {
+        self.lead.is_leading()
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
+    /// derivatives.
+    #[must_use]
+    pub fn row(&self) -> M::Row {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.as_ref().iter().chain(values);
+        let first = at.qd.as_ref().iter().chain(rates);
+        let second = at.qdd.as_ref().iter().chain(accelerations);
+        let all = [at.t].into_iter().chain(zeroth.chain(first).chain(second).copied());
+        let mut row = M::Row::ZERO;
+        row.as_mut().iter_mut().zip(all).for_each(|(cell, value)| *cell = value);
+        row
+    }
+}
+}
+
+pub mod assemble {
+//! The start of a motion.
+
+use super::branches::sides_near;
+use super::error::{Error, Fault};
+use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::numbers::Numbers;
+use super::reach::reach;
+use super::solution::Solution;
+use super::state::{Lead, Parameters, State, Timed};
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
+pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = M::Params::default();
+    let mut at = Solution::ZERO;
+    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
+    let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 { file.towards(params, next) } else { *params };
+        let model = M::new(&params);
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let mut passed = M::Passed::ZERO;
+                passed.as_mut().fill(f64::NEG_INFINITY);
+                return Ok(State {
+                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
+                    lead: M::Lead::new(&params),
+                    model,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: M::LONGEST_STEP,
+                    passed,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+    let mut near = Solution::near(q, M::START_TIME);
+    near.sides = sides_near(q, M::START_TIME, m);
+    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
+}
+}
+
+pub mod explain {
+//! Why a motion cannot go on.
+
+use super::branches::sides_at;
+use super::error::{Error, Fault};
+use super::limits::{NEAR_FOLD, SINGULAR};
+use super::solution::{Solution, Solved};
+use super::state::{State, Timed};
+
+/// Why even the shortest step from a state towards a time is refused.
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+    let at = state.at();
+    if let Some(error) = regular(at, fault, t, &state.model) {
+        return error;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
+    }
+    let left = until_turn(at);
+    meeting(if t < at.t { -left } else { left }, M::SPAN)
+}
+
+/// Why it is, if that has nothing to do with how near the position is to a singular one.
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+    let values = m.phi(&at.q, t, &at.sides);
+    if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
+        return Some(Error::NotANumber);
+    }
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
+    jumps.then_some(Error::NotSmooth)
+}
+
+/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
+/// curvature is u. That of the fastest coordinate counts.
+pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
+    let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed { (v.abs() / scale, 0.5 * v / a) } else { (speed, left) }
+    };
+    rates.fold((0.0, 0.0), sooner).1
+}
+
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
+pub fn meeting(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+}
+}
+
+pub mod step {
+//! Steps from time to time.
+
+use super::branches::first_edge;
+use super::error::{Error, Fault};
+use super::explain::explain;
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+};
+use super::numbers::{Numbers, difference, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+
+/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led() {
+        M::Lead::take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        // what is fast may be over before the step's end
+        let edge = first_edge(now, wanted, &state.model);
+        let next = match state.model.first_rim(now, edge, &state.passed) {
+            None => edge,
+            Some((rim, at)) => {
+                let before = at - (LEAD * M::SPAN).copysign(left);
+                if (before - now) * left <= 0.0 {
+                    M::look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
+                state.step = longest.min(M::LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < M::SMALLEST_STEP || now + state.step == now {
+                    state.step = M::SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut guess = x;
+    let rates = v.as_ref().iter().zip(a.as_ref());
+    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    let gap = gap(from, at, h);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+        return Err(Fault::Singular);
+    }
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+    state.is_smooth = at.sides == from.sides;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
+    let mut gaps = M::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    largest(&gaps, M::tear_scales())
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
+/// make a polynomial of degree 5 (Hermite).
+fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return M::Tears::ZERO;
+    }
+    let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
+    let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
+    let mut bend = M::Tears::ZERO;
+    let ways = x.as_ref().iter().zip(y.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
+/// `from` has the branches of the earlier one.
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let scales = M::scales();
+    let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
+    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+}
+}
+
+pub mod blocks {
+// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
+//
+// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
+// round nothing.
+
+/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
+/// before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks<'b> {
+    /// How many equations each block has.
+    pub sizes: &'b [usize],
+    /// The equations, block by block.
+    pub rows: &'b [usize],
+    /// The unknowns, block by block.
+    pub columns: &'b [usize],
+    /// Where the entries of each equation begin, and where those of the last one end.
+    pub starts: &'b [usize],
+    /// The unknown of each entry.
+    pub entries: &'b [usize],
+    /// By unknown: its place in `columns`.
+    pub places: &'b [usize],
+    /// By unknown: the power of two that it is measured by.
+    pub units: &'b [f64],
+}
+
+/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+///
+/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
+/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
+/// number wins.
+pub fn solve(
+    blocks: &Blocks<'_>,
+    values: &[f64],
+    right: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+    is_negative: &mut [bool],
+) -> f64 {
+    let (mut smallest, mut at) = (f64::INFINITY, 0);
+    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
+        let places = at..at + size;
+        at += size;
+        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
+            break;
+        };
+        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
+            break;
+        };
+        for (line, &row) in lines(matrix, size + 1).zip(rows) {
+            fill(blocks, row, places.start, values, right, x, line);
+        }
+        let Some(solution) = solution.get_mut(..size) else {
+            break;
+        };
+        let pivot;
+        (pivot, *is_negative) = eliminate(matrix, solution);
+        smallest = if pivot >= smallest { smallest } else { pivot };
+        for (&column, &value) in columns.iter().zip(&*solution) {
+            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
+                *x = value * unit;
+            }
+        }
+    }
+    smallest
+}
+
+/// How many numbers the work for a block of a size takes.
+#[must_use]
+pub const fn work_of(size: usize) -> usize {
+    size * (size + 2)
+}
+
+/// A matrix row by row.
+fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
+    let mut left = matrix;
+    core::iter::from_fn(move || {
+        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
+        left = rest;
+        Some(line)
+    })
+}
+
+/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
+    line.fill(0.0);
+    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
+    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
+    let (Some(&from), Some(&to)) = ends else {
+        return;
+    };
+    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
+    let size = line.len() - 1;
+    for (&column, &value) in entries {
+        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
+        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
+        match line.get_mut(place).filter(|_| place < size) {
+            Some(entry) => {
+                *entry = value * unit;
+                largest = if entry.abs() > largest { entry.abs() } else { largest };
+            }
+            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
+        }
+    }
+    if let Some(last) = line.last_mut() {
+        *last = sum;
+    }
+    if largest > 0.0 && largest.is_finite() {
+        // two over the power of two that is not above it
+        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        for entry in line {
+            *entry *= factor;
+        }
+    }
+}
+
+/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
+/// determinant is negative.
+fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
+    let width = x.len() + 1;
+    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
+    let mut left = &mut *matrix;
+    for k in 0..x.len() {
+        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
+            break;
+        };
+        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
+        for line in lines(below, width) {
+            if entry(line).abs() > entry(first).abs() {
+                is_negative = !is_negative;
+                for (a, b) in first.iter_mut().zip(line) {
+                    core::mem::swap(a, b);
+                }
+            }
+        }
+        let pivot = entry(first);
+        is_negative ^= pivot < 0.0;
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
+        for line in lines(below, width) {
+            let factor = entry(line) / pivot;
+            if factor != 0.0 {
+                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        left = below;
+    }
+    let mut rest = &*matrix;
+    for k in (0..x.len()).rev() {
+        let Some((before, line)) = rest.split_at_checked(k * width) else {
+            break;
+        };
+        rest = before;
+        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
+        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
+        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
+            *x = sum / pivot;
+        }
+    }
+    (smallest, is_negative)
+}
+}
+
+pub mod pivoting {
+//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+
+use super::blocks::{self, Blocks};
+use super::error::Fault;
+use super::grid::on_grid;
+use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::numbers::{Flags, Numbers, largest, without_signs_of_zero};
+use super::solution::{Along, Solution, Solved};
+
+/// Equations that can be solved by elimination with partial pivoting.
+pub trait Pivoting: Solved {
+    /// Numbers that the elimination of the largest block works on.
+    type Work: Numbers;
+    /// An answer for each block of equations.
+    type Blocks: Flags;
+    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    type Varied: Numbers;
+    /// A right side for each derivative by what the motion goes along.
+    type Rights: AsRef<[Self::Q]>;
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64;
+    /// Whether measures hold third derivatives of the coordinates.
+    const HAS_JERK: bool = false;
+    /// By derivative by inputs and parameters: whether it is one by two.
+    const IS_BY_TWO: &'static [bool] = &[];
+
+    /// How the equations fall apart into blocks.
+    fn blocks() -> &'static Blocks<'static>;
+
+    /// The blocks whose determinants change.
+    fn turning() -> &'static [usize];
+
+    /// The width of a cell of each coordinate's grid.
+    fn cells() -> &'static Self::Q;
+
+    /// The right side of the jerk equation.
+    fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    fn varied_right(
+        &self,
+        _orders: [&Self::Q; 3],
+        _varied: &Self::Varied,
+        _t: f64,
+        _sides: &Self::Sides,
+    ) -> Self::Varied {
+        Self::Varied::ZERO
+    }
+
+    /// The right sides for the derivatives by what the motion goes along.
+    fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
+
+    /// What is measured, from the coordinates with their first three derivatives.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, t: f64) -> Self::Measures;
+}
+
+/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
+    let mut at = Solution::near(q, t);
+    let mut elimination = Elimination::<M>::new();
+    if !settle(m, &mut at, sides, &mut elimination) {
+        return Err(at.fault());
+    }
+    let slopes = m.phi_q(&at.q, t, sides);
+    let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
+    let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
+    let orders = [&at.q, &qd, &qdd];
+    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let rights = m.rights(&at.q, t, sides);
+    for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
+        *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
+    }
+    let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, t);
+    (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
+    at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
+    at.q = without_signs_of_zero(at.q);
+    at.steepest = 1.0 / pivot;
+    let negative = elimination.is_negative.as_ref();
+    for (turned, block) in at.is_negative.as_mut().iter_mut().zip(M::turning()) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration; whether it has arrived.
+fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = m.phi_q(&at.q, at.t, sides);
+        let mut right = m.phi(&at.q, at.t, sides);
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, M::scales());
+        }
+        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
+        if largest(&x, M::cells()) <= HALF_A_CELL {
+            return true;
+        }
+    }
+    false
+}
+
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
+/// each order from those before.
+fn vary<M: Pivoting>(
+    m: &M,
+    elimination: &mut Elimination<M>,
+    slopes: &M::Entries,
+    orders: [&M::Q; 3],
+    t: f64,
+    sides: &M::Sides,
+) -> M::Varied {
+    let mut varied = M::Varied::ZERO;
+    let n = M::scales().as_ref().len();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = m.varied_right(orders, &varied, t, sides);
+            for (number, _) in M::IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * n;
+                let mut right = M::Q::ZERO;
+                let given = rights.as_ref().iter().skip(first);
+                right.as_mut().iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+                let (x, _) = elimination.solve(slopes, &right);
+                let places = varied.as_mut().iter_mut().skip(first);
+                places.zip(x.as_ref()).for_each(|(place, x)| *place = *x);
+            }
+        }
+    }
+    varied
+}
+
+/// The work of solving linear equations in blocks.
+pub struct Elimination<M: Pivoting> {
+    work: M::Work,
+    is_negative: M::Blocks,
+}
+
+impl<M: Pivoting> Elimination<M> {
+    /// Room for the work.
+    pub fn new() -> Self {
+        Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
+        let mut x = M::Q::ZERO;
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
+        (x, pivot)
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
+    let mut bounds = M::Q::ZERO;
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let bound = bounds.as_mut().get_mut(row);
+        let sizes = (M::scales().as_ref().get(column), q.as_ref().get(column), bound);
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += M::TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+}
+
+pub mod way {
+//! The way of the signals that lead a mechanism.
+
+use super::equations::Equations;
+use super::limits::FARTHEST_AHEAD;
+use super::numbers::{Numbers, largest};
+use super::solution::{Along, Solution, Solved};
+use super::state::Parameters;
+
+/// Values, rates and accelerations of signals.
+pub type Signals<const K: usize> = [[f64; K]; 3];
+
+/// A way of the signals: a straight line from 0 to 1.
+#[derive(Clone, Debug)]
+pub struct Way<P, const K: usize> {
+    /// The parameters of the mechanism.
+    pub params: P,
+    /// The values at its beginning.
+    pub from: [f64; K],
+    /// The values at its end.
+    pub to: [f64; K],
+    /// The rates all along.
+    pub rates: [f64; K],
+    /// The accelerations all along.
+    pub accelerations: [f64; K],
+}
+
+impl<P: Parameters, const K: usize> Way<P, K> {
+    /// A way that leads nowhere.
+    pub fn new(params: &P) -> Self {
+        let zero = [0.0; K];
+        Self { params: *params, from: zero, to: zero, rates: zero, accelerations: zero }
+    }
+
+    /// Goes on from some values to signals.
+    pub fn turn(&mut self, from: &[f64; K], to: &Signals<K>) {
+        self.from = *from;
+        [self.to, self.rates, self.accelerations] = *to;
+    }
+
+    /// The value of a signal at a place of the way.
+    #[inline]
+    pub fn value(&self, k: usize, t: f64) -> f64 {
+        match (self.from.get(k), self.to.get(k)) {
+            (Some(_), Some(to)) if t >= 1.0 => *to,
+            (Some(from), Some(to)) => from + t * (to - from),
+            _ => f64::NAN,
+        }
+    }
+
+    /// Those of all.
+    pub fn values(&self, t: f64) -> [f64; K] {
+        core::array::from_fn(|k| self.value(k, t))
+    }
+
+    /// How the signals change along the whole way.
+    pub fn direction(&self) -> [f64; K] {
+        core::array::from_fn(|k| self.value(k, 1.0) - self.value(k, 0.0))
+    }
+
+    /// How much the one changes that changes most.
+    pub fn length(&self) -> f64 {
+        largest(&self.direction(), &[1.0; K])
+    }
+}
+
+/// A mechanism whose motion goes along signals.
+pub trait Led<const K: usize>: Solved<Along = Slopes<<Self as Equations>::Q, K>> {
+    /// Its parameters.
+    type Params: Parameters;
+
+    /// The mechanism on a way.
+    fn new(way: &Way<Self::Params, K>) -> Self;
+
+    /// The way that it is on.
+    fn way(&self) -> &Way<Self::Params, K>;
+
+    /// The same, to be written.
+    fn way_mut(&mut self) -> &mut Way<Self::Params, K>;
+
+    /// What the text's formulas say of the signals at a time (s).
+    fn by_text(params: &Self::Params, t: f64) -> Signals<K>;
+
+    /// Derivatives in whose direction an equation that was left out would cease to hold have no value.
+    fn hold_apart(&self, _by: &mut [Self::Q; K], _at: &Solution<Self>) {}
+}
+
+/// The motion goes along signals: the derivatives of the coordinates by each, and what these are.
+#[derive(Clone, Debug)]
+pub struct Slopes<Q, const K: usize> {
+    /// By signal: how the coordinates change with it.
+    pub by_signal: [Q; K],
+    /// The values of the signals.
+    pub signals: [f64; K],
+}
+
+impl<Q: Numbers, const K: usize> Slopes<Q, K> {
+    /// How the coordinates change along a direction of the signals.
+    pub fn along(&self, direction: &[f64; K]) -> Q {
+        sum(self.by_signal, direction)
+    }
+}
+
+/// The sum of some lists of numbers, each with its factor.
+pub fn sum<N: Numbers, const K: usize>(lists: [N; K], factors: &[f64; K]) -> N {
+    let mut sum = N::ZERO;
+    for (list, factor) in lists.iter().zip(factors) {
+        let pairs = sum.as_mut().iter_mut().zip(list.as_ref());
+        pairs.for_each(|(sum, value)| *sum += value * factor);
+    }
+    sum
+}
+
+impl<M: Led<K>, const K: usize> Along<M> for Slopes<M::Q, K> {
+    const ZERO: Self = Self { by_signal: [M::Q::ZERO; K], signals: [0.0; K] };
+
+    fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q {
+        moved(&from.q, &from.along.along(&m.way().direction()), h)
+    }
+
+    fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let rates = at.along.along(&m.way().direction());
+        let ahead = f64::min(FARTHEST_AHEAD, FARTHEST_AHEAD / largest(&rates, M::scales()));
+        (moved(&at.q, &rates, ahead), at.t)
+    }
+
+    fn note(&mut self, m: &M, t: f64) {
+        self.signals = m.way().values(t);
+    }
+
+    fn slopes(&self) -> &[M::Q] {
+        &self.by_signal
+    }
+
+    fn slopes_mut(&mut self) -> &mut [M::Q] {
+        &mut self.by_signal
+    }
+}
+
+/// Coordinates a distance on, with their rates.
+fn moved<N: Numbers>(q: &N, rates: &N, distance: f64) -> N {
+    let mut moved = *q;
+    let pairs = moved.as_mut().iter_mut().zip(rates.as_ref());
+    pairs.for_each(|(q, rate)| *q += distance * rate);
+    moved
+}
+}
+
+pub mod follow {
+//! What follows inputs.
+
+use super::branches::{first_edge, sides_near};
+use super::error::{Error, Fault};
+use super::explain::{meeting, regular, until_turn};
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP,
+    SINGULAR,
+};
+use super::numbers::{Numbers, difference, larger, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+use super::way::{Led, Signals, Way, sum};
+
+/// What leads a mechanism by its inputs.
+#[derive(Clone, Debug)]
+pub struct Leading<E: Led<K>, const K: usize> {
+    pub(super) model: E,
+    /// The solution of now and the one before, or the next one in the making; their times are places of the way.
+    solutions: [Solution<E>; 2],
+    /// Whether that of now is the second.
+    is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    is_smooth: bool,
+    /// The change of a signal that goes well in a step.
+    stride: f64,
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    is_leading: bool,
+}
+
+/// A mechanism with what leads it: they have the same coordinates, measures and parameters.
+pub trait Follows<E: Led<K>, const K: usize>:
+    Timed<Q = E::Q, Measures = E::Measures, Params = E::Params, Lead = Leading<E, K>>
+{
+    /// Whether time is the last of the signals.
+    const HAS_TIME: bool;
+}
+
+impl<E: Led<K>, M: Follows<E, K>, const K: usize> Lead<M> for Leading<E, K> {
+    fn new(params: &M::Params) -> Self {
+        Self::with(params)
+    }
+
+    fn is_leading(&self) -> bool {
+        self.is_leading
+    }
+
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error> {
+        let t = state.at().t;
+        follow_within(&E::by_text(state.params(), t), state, most)?;
+        let q = state.at().q;
+        let mut near = Solution::near(&q, t);
+        near.sides = sides_near(&q, t, &state.model);
+        let [first, second] = &mut state.solutions;
+        let at = if state.is_second { second } else { first };
+        reach(&M::tears(&q), &near, t, &state.model, at).map_err(Fault::at_start)?;
+        (state.lead.is_leading, state.is_smooth) = (false, false);
+        Ok(())
+    }
+}
+
+/// Leads a state from its inputs to others in so many steps at most, along the straight line between them.
+pub fn follow_within<E: Led<K>, M: Follows<E, K>, const K: usize>(
+    signals: &Signals<K>,
+    state: &mut State<M>,
+    most: usize,
+) -> Result<(), Error> {
+    if !signals.iter().flatten().all(|value| value.is_finite()) {
+        return Err(Error::NotANumber);
+    }
+    if !state.is_led() {
+        let at = state.at();
+        let (q, t) = (at.q, at.t);
+        state.lead.begin(&q, t)?;
+    }
+    let result = state.lead.go(signals, most, state.steepness);
+    if matches!(result, Ok(()) | Err(Error::TooFar)) {
+        state.lead.is_leading = true;
+        let State { lead, solutions: [first, second], is_second, .. } = state;
+        let (at, to) = (lead.at(), if *is_second { second } else { first });
+        (to.q, to.qd, to.qdd, to.measures) = (at.q, at.qd, at.qdd, at.measures);
+        if let (true, [.., t]) = (M::HAS_TIME, at.along.signals.as_slice()) {
+            to.t = *t;
+        }
+    }
+    result
+}
+
+/// The signals at a state: what they were followed to, or what their formulas say at its time.
+pub fn signals<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Signals<K> {
+    if state.is_led() {
+        let way = state.lead.model.way();
+        [state.lead.at().along.signals, way.rates, way.accelerations]
+    } else {
+        E::by_text(state.params(), state.t())
+    }
+}
+
+/// The derivatives of the coordinates by each signal: for a constant shift of it, along the branch that the state is on.
+pub fn influence<E: Led<K>, M: Follows<E, K>, const K: usize>(state: &State<M>) -> Result<[M::Q; K], Error> {
+    let at = |lead: &Leading<E, K>| {
+        let at = lead.at();
+        let mut by_signal = at.along.by_signal;
+        lead.model.hold_apart(&mut by_signal, at);
+        by_signal
+    };
+    if state.is_led() {
+        return Ok(at(&state.lead));
+    }
+    let mut lead = Leading::with(state.params());
+    lead.begin(state.q(), state.t())?;
+    Ok(at(&lead))
+}
+
+impl<E: Led<K>, const K: usize> Leading<E, K> {
+    fn with(params: &E::Params) -> Self {
+        Self {
+            model: E::new(&Way::new(params)),
+            solutions: [Solution::ZERO, Solution::ZERO],
+            is_second: false,
+            is_smooth: false,
+            stride: f64::INFINITY,
+            is_leading: false,
+        }
+    }
+
+    /// The solution of now.
+    pub(super) fn at(&self) -> &Solution<E> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The same, to be written; with the mechanism.
+    fn at_mut(&mut self) -> (&E, &mut Solution<E>) {
+        let [first, second] = &mut self.solutions;
+        (&self.model, if self.is_second { second } else { first })
+    }
+
+    /// The one before, or the next one in the making.
+    fn other(&self) -> &Solution<E> {
+        let [first, second] = &self.solutions;
+        if self.is_second { first } else { second }
+    }
+
+    /// Begins at a position that the text's formulas give at a time (s).
+    fn begin(&mut self, q: &E::Q, t: f64) -> Result<(), Error> {
+        let way = self.model.way_mut();
+        let signals = E::by_text(&way.params, t);
+        way.turn(&signals[0], &signals);
+        let mut near = Solution::near(q, 1.0);
+        near.sides = sides_near(q, 1.0, &self.model);
+        self.is_smooth = false;
+        let (model, now) = self.at_mut();
+        reach(&E::tears(q), &near, 1.0, model, now).map_err(Fault::at_start)?;
+        if now.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Error::Divergence) }
+    }
+
+    /// Goes from the signals of now to others.
+    fn go(&mut self, signals: &Signals<K>, most: usize, steepness: f64) -> Result<(), Error> {
+        let from = self.at().along.signals;
+        let before = self.model.way().clone();
+        self.model.way_mut().turn(&from, signals);
+        self.at_mut().1.t = 0.0;
+        let length = self.model.way().length();
+        // the branch asks for steps of the same change on any way
+        let smallest = SHORTEST_STEP / larger(length, 1.0);
+        let stride = self.stride;
+        // the solution at the beginning, once it is behind the one before
+        let mut home = None;
+        for _ in 0..most {
+            let now = self.at().t;
+            let step = f64::max(self.stride / length, smallest);
+            // no crumb at the end; a way without length is one step
+            let wanted = if step < 0.999 * (1.0 - now) { now + step } else { 1.0 };
+            let next = first_edge(now, wanted, &self.model);
+            let (is_last, size) = (next >= 1.0, next - now);
+            match self.advance(next, is_last, steepness) {
+                Ok(is_calm) => {
+                    if is_calm {
+                        self.stride = f64::max(self.stride, 2.0 * size * length);
+                    } else if length > 0.0 {
+                        self.stride = f64::min(self.stride, size * length);
+                    }
+                    if is_last {
+                        return Ok(());
+                    }
+                    if home.is_none() {
+                        home = Some(self.other().clone());
+                    }
+                }
+                Err(fault) => {
+                    let half = 0.5 * size;
+                    self.stride = half * length;
+                    self.is_smooth = false;
+                    if half < smallest || now + half == now {
+                        let why = self.explain(fault, next, steepness);
+                        self.stride = stride;
+                        *self.model.way_mut() = before;
+                        if let Some(home) = home {
+                            *self.at_mut().1 = home;
+                        }
+                        return Err(why);
+                    }
+                }
+            }
+        }
+        Err(Error::TooFar)
+    }
+
+    /// One step to a place of the way; says whether a longer one would do as well.
+    fn advance(&mut self, t: f64, is_wanted: bool, steepness: f64) -> Result<bool, Fault> {
+        let [first, second] = &mut self.solutions;
+        let (from, at) = if self.is_second { (second, first) } else { (first, second) };
+        let (from, m) = (&*from, &self.model);
+        let h = t - from.t;
+        let change = m.way().direction().map(|rate| h * rate);
+        let v = tears_along(from, &change);
+        let mut way = if self.is_smooth { bend(from, at, &v, &change) } else { E::Tears::ZERO };
+        let mut guess = E::tears(&from.q);
+        for ((way, guess), v) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(v.as_ref()) {
+            *way += v;
+            *guess += *way;
+        }
+        // what is not a number is not small either
+        let is_short = largest(&way, E::tear_scales()) <= LARGEST_MOTION;
+        if !is_short {
+            return Err(Fault::TooFar);
+        }
+        reach(&guess, from, t, m, at)?;
+        let gap = gap(from, at, &v, &change);
+        let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+        if !is_near {
+            return Err(Fault::TooFar);
+        }
+        if !stays_on_branch(from, at, m, is_wanted, steepness) {
+            return Err(Fault::Singular);
+        }
+        if E::OF_TIME && at.sides != from.sides && jumps(from, at, m) {
+            return Err(Fault::NotSmooth);
+        }
+        self.is_smooth = at.sides == from.sides;
+        self.is_second = !self.is_second;
+        Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+    }
+
+    /// Why even the shortest step towards a place of the way is refused.
+    fn explain(&self, fault: Fault, t: f64, steepness: f64) -> Error {
+        let (at, m) = (self.at(), &self.model);
+        if let Some(error) = regular(at, fault, t, m) {
+            return error;
+        }
+        if at.steepest < SINGULAR * steepness {
+            if fault == Fault::LeftOut {
+                return Error::Inconsistent;
+            }
+            // a formula may jump without a branch of its own
+            let mut beyond = at.clone();
+            let is_there = fault == Fault::TooFar && reach(&E::tears(&at.q), at, t, m, &mut beyond).is_ok();
+            return if is_there { Error::NotSmooth } else { Error::Divergence };
+        }
+        // all by the signal that changes most; a way may be short itself
+        let longest = m.way().length();
+        let mut along = m.clone();
+        along.way_mut().rates = m.way().direction().map(|change| change / longest);
+        along.way_mut().accelerations = [0.0; K];
+        let mut moving = at.clone();
+        along.solve(&E::tears(&at.q), at.t, &at.sides, &mut moving);
+        meeting(until_turn(&moving), 1.0 + longest)
+    }
+}
+
+/// How those coordinates change that Newton solves for, along a direction of the signals.
+fn tears_along<E: Led<K>, const K: usize>(at: &Solution<E>, direction: &[f64; K]) -> E::Tears {
+    sum(at.along.by_signal.each_ref().map(E::tears), direction)
+}
+
+/// How far positions are from what the slopes at both ends make of the way between, scaled.
+fn gap<E: Led<K>, const K: usize>(from: &Solution<E>, at: &Solution<E>, v: &E::Tears, change: &[f64; K]) -> f64 {
+    let (x, y, w) = (E::tears(&from.q), E::tears(&at.q), tears_along(at, change));
+    let mut gaps = E::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    for ((gap, (y, x)), (v, w)) in gaps.as_mut().iter_mut().zip(ways).zip(rates) {
+        *gap = y - x - 0.5 * (v + w);
+    }
+    largest(&gaps, E::tear_scales())
+}
+
+/// What the motion since the solution before adds to the way `v` that the slopes of now make of a change of the signals: values and
+/// slopes at two places make a cubic (Hermite). Where the signals turn elsewhere, the change of the slopes counts alone.
+fn bend<E: Led<K>, const K: usize>(
+    now: &Solution<E>,
+    before: &Solution<E>,
+    v: &E::Tears,
+    change: &[f64; K],
+) -> E::Tears {
+    let (mut product, mut square, mut size) = (0.0, 0.0, 0.0);
+    let behind = difference(&now.along.signals, &before.along.signals);
+    for (behind, change) in behind.iter().zip(change) {
+        product += behind * change;
+        square += behind * behind;
+        size += change * change;
+    }
+    let u = product / square;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return E::Tears::ZERO;
+    }
+    let (x, y) = (E::tears(&now.q), E::tears(&before.q));
+    let is_straight = size - u * product <= LARGEST_TURN * size;
+    let mut bend = E::Tears::ZERO;
+    if is_straight {
+        let (v, w) = (tears_along(now, &behind), tears_along(before, &behind));
+        let ways = x.as_ref().iter().zip(y.as_ref());
+        let slopes = v.as_ref().iter().zip(w.as_ref());
+        for ((bend, (x, y)), (v, w)) in bend.as_mut().iter_mut().zip(ways).zip(slopes) {
+            let (value, slope) = (y - x + v, v - w);
+            *bend = u * u * (3.0 * value - slope + u * (2.0 * value - slope));
+        }
+    } else {
+        let w = tears_along(before, change);
+        let slopes = v.as_ref().iter().zip(w.as_ref());
+        for (bend, (v, w)) in bend.as_mut().iter_mut().zip(slopes) {
+            *bend = 0.5 * u * (v - w);
+        }
+    }
+    bend
+}
+
+/// Whether a position differs on the two sides of a place at which formulas change their branches: `at` is the later side, and `from`
+/// has the branches of the earlier one.
+fn jumps<M: Solved>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    largest(&difference(&at.q, &before.q), M::scales()) > POSITION_JUMP
+}
+}
+
+pub mod sine_and_cosine {
 // Sine and cosine of one angle (rad), together: the same bits on every platform, within 1 ulp, for arguments of any size.
 //
 // The angle is reduced to |r + tail| <= pi/4 with `angle = n pi/2 + r + tail`: up to a million by subtracting n times
@@ -3353,5 +4102,61 @@ fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
     let r = product + tail;
     (r, (product - r) + tail)
 }
+}
 
+/// Where to stop, and what counts as large.
+pub mod limits {
+/// Rounding may make so much of velocities and accelerations that are given out.
+pub const ACCURACY: f64 = 1e-9;
+/// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
+pub const AHEAD: f64 = 1e-9;
+/// Nothing may move farther than this meanwhile, scaled.
+pub const FARTHEST_AHEAD: f64 = 1e-7;
+/// The step before tells of one that is so many times as long at most.
+pub const FARTHEST_BEND: f64 = 4.0;
+/// A correction of just half a cell of the grid, to rounding, stays in it.
+pub const HALF_A_CELL: f64 = 0.500001;
+/// Iterations of Newton at most.
+pub const ITERATIONS: usize = 6;
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+pub const LARGEST_CORRECTION: f64 = 0.05;
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+pub const LARGEST_GAP: f64 = 0.001;
+/// The largest motion of a step, beside the size of a body or 1 rad.
+pub const LARGEST_MOTION: f64 = 0.5;
+/// Signals go straight on if the square of what leads aside is no larger part of that of the whole.
+pub const LARGEST_TURN: f64 = 0.01;
+/// How far before a rim its sides are looked at, as a part of the span.
+pub const LEAD: f64 = 0.001;
+/// And at most (s).
+pub const LONGEST_AHEAD: f64 = 1e-9;
+/// How often the branches of formulas are chosen anew at one time.
+pub const MOST_BRANCHES: usize = 8;
+/// Halvings until two times are neighbours.
+pub const MOST_HALVINGS: usize = 100;
+/// Trials on the way from the file's parameters to others at most.
+pub const MOST_PARTS: usize = 10_000;
+/// Steps that one call takes at most that has no bound of its own.
+pub const MOST_STEPS: usize = 1_000_000;
+/// A dead point is no further off than this part of the span.
+pub const NEAR_FOLD: f64 = 1e-5;
+/// A position that changes by more than this at an edge jumps, scaled.
+pub const POSITION_JUMP: f64 = 1e-9;
+/// A speed below this part of one per span is rest, scaled.
+pub const REST: f64 = 0.001;
+/// The shortest step, as a part of the way of signals; of a long one, as a change of a signal.
+pub const SHORTEST_STEP: f64 = 1e-12;
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+pub const SINGULAR: f64 = 100.0;
+/// So many units in the last place of a time it may be off from what is meant to happen then.
+pub const SLACK: f64 = 4.0;
+/// The smallest part of the way to other parameters.
+pub const SMALLEST_PART: f64 = 1e-6;
+/// One over a pivot, scaled: beyond this the position is looked at more closely.
+pub const STEEP: f64 = 1000.0;
+/// One over a pivot, scaled: beyond this it is too near to a singular one.
+pub const STEEPEST: f64 = 1000000.0;
+/// A velocity that changes by more than this part of the fastest at an edge jumps.
+pub const VELOCITY_JUMP: f64 = 1e-7;
+}
 }

@@ -12,11 +12,28 @@
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::grid::on_grid;
+use runtime::limits::ITERATIONS;
+use runtime::newton::Newton;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::sine_and_cosine::sin_cos;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
 /// The mechanism has no parameters.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Params;
 
-impl Params {
+impl Parameters for Params {
     fn towards(&self, _: &Self, _: f64) -> Self {
         Self
     }
@@ -136,7 +153,7 @@ pub struct Pose {
 impl Pose {
     /// That of a body, out of the coordinates or their derivatives.
     #[rustfmt::skip]
-    #[must_use]
+#[must_use]
     pub fn of(q: &[f64; N], body: Body) -> Self {
         match body {
             Body::Crank => Self { x: q[0], y: q[1], phi: q[2] },
@@ -321,297 +338,31 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     full
 }
 
-/// Number of results at a time.
-pub const COLUMNS: usize = 28;
-
-/// Why a mechanism could not be brought to a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Error {
-    /// The time, a parameter or a formula is not a number.
-    NotANumber,
-    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
-    LockUp,
-    /// Two branches of the motion meet: which one goes on is not determined.
-    Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
-    Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
-    TooFar,
-    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
-    NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
-    Inconsistent,
-}
-
-impl core::fmt::Display for Error {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
-            Error::LockUp => "the mechanism locks up: its driver cannot go on",
-            Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
-            Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
-        })
-    }
-}
-
-impl core::error::Error for Error {}
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
 
 /// The mechanism at a time.
-#[derive(Clone, Debug)]
-pub struct State {
-    model: Model,
-    /// The solution of now and the one before, or the next one in the making.
-    solutions: [Solution; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// How much steeper these parameters make the equations than the file's.
-    steepness: f64,
-    /// The step that goes well (s).
-    step: f64,
-}
+pub type State = runtime::state::State<Model>;
 
 impl State {
-    /// The solution of now.
-    fn at(&self) -> &Solution {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
-    }
-
-    /// The time (s).
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.at().t
-    }
-
-    /// The parameters.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.model.params
-    }
-
-    /// The coordinates (m, rad), by the indices in [`coordinate`].
-    #[must_use]
-    pub fn q(&self) -> &Q {
-        &self.at().q
-    }
-
-    /// Their velocities (m/s, rad/s).
-    #[must_use]
-    pub fn qd(&self) -> &Qd {
-        &self.at().qd
-    }
-
-    /// Their accelerations (m/s^2, rad/s^2).
-    #[must_use]
-    pub fn qdd(&self) -> &Qdd {
-        &self.at().qdd
-    }
-
     /// Where a body is (m, m, rad).
     #[must_use]
     pub fn pose(&self, body: Body) -> Pose {
-        Pose::of(&self.at().q, body)
+        Pose::of(self.q(), body)
     }
 
     /// How fast a body moves (m/s, m/s, rad/s).
     #[must_use]
     pub fn velocity(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qd, body)
+        Pose::of(self.qd(), body)
     }
 
     /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
     #[must_use]
     pub fn acceleration(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qdd, body)
-    }
-
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
-    /// then their first and their second derivatives.
-    #[must_use]
-    pub fn row(&self) -> [f64; COLUMNS] {
-        let at = self.at();
-        let all = at.q.iter().chain(&at.qd).chain(&at.qdd);
-        let mut row = [at.t; COLUMNS];
-        for (cell, value) in row.iter_mut().skip(1).zip(all) {
-            *cell = *value;
-        }
-        row
+        Pose::of(self.qdd(), body)
     }
 }
-
-/// The first time of the file's analysis (s), at which the mechanism is assembled.
-pub const START_TIME: f64 = 0.0;
-
-/// How long the file's analysis takes (s).
-const SPAN: f64 = 3.2;
-
-/// The longest step (s).
-pub const LONGEST_STEP: f64 = 0.1;
-
-/// The shortest step (s).
-const SMALLEST_STEP: f64 = 3.2e-12;
-
-/// Iterations of Newton at most.
-const ITERATIONS: usize = 6;
-
-/// Newton's first correction at most, beside the size of a body or 1 rad.
-const LARGEST_CORRECTION: f64 = 0.05;
-
-/// A correction of just half a cell of the grid, to rounding, stays in it.
-const HALF_A_CELL: f64 = 0.500001;
-
-/// Number of coordinates that Newton solves for; the others follow.
-const TEARS: usize = 2;
-
-/// What a change of each of them is judged against (m, or 1 rad).
-#[rustfmt::skip]
-static TEAR_SCALES: [f64; TEARS] = [
-    1.0, 1.0,
-];
-
-/// The width of a cell of the grid of each of them.
-#[rustfmt::skip]
-static TEAR_CELLS: [f64; TEARS] = [
-    7.450580596923828e-9, 7.450580596923828e-9,
-];
-
-/// What a change of each coordinate is judged against.
-#[rustfmt::skip]
-static SCALES: [f64; N] = [
-    1.0, 1.0, 1.0, 3.5,
-    3.5, 1.0, 3.0, 3.0,
-    1.0,
-];
-
-/// The assembled position (m, rad).
-#[rustfmt::skip]
-static START: [f64; N] = [
-    0.0, 0.0, 0.5, 0.8775825618903728,
-    0.479425538604203, 0.7771164948091609, 3.68643363770732, 1.466859276290175,
-    1.7813938323744904,
-];
-
-/// Number of blocks of equations whose determinants change with the position.
-const TURNS: usize = 1;
-
-/// Whether they are negative where all pivots are positive.
-#[rustfmt::skip]
-static TURNED: [bool; TURNS] = [
-    false,
-];
-
-/// The width of a cell of each coordinate's grid.
-#[rustfmt::skip]
-static CELLS: [f64; N] = [
-    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
-    1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
-    7.450580596923828e-9,
-];
-
-/// Number of blocks of equations that can be solved one after the other.
-const BLOCKS: usize = 6;
-
-/// The blocks whose determinants change.
-#[rustfmt::skip]
-static TURNING: [usize; TURNS] = [
-    5,
-];
-
-/// Numbers that the elimination of the largest block works on.
-const WORK: usize = blocks::work_of(4);
-
-/// What may be left of an equation, beside the norm of its row.
-const TOLERANCE: f64 = 1e-12;
-
-/// How the equations fall apart into blocks.
-#[rustfmt::skip]
-static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
-    sizes: &[
-        1, 1, 1, 1,
-        1, 4,
-    ],
-    rows: &[
-        0, 1, 8, 2,
-        3, 4, 5, 6,
-        7,
-    ],
-    columns: &[
-        0, 1, 2, 3,
-        4, 5, 7, 6,
-        8,
-    ],
-    starts: &[
-        0, 1, 2, 5,
-        8, 12, 16, 18,
-        20, 21,
-    ],
-    entries: &[
-        0, 1, 0, 2,
-        3, 1, 2, 4,
-        3, 5, 6, 8,
-        4, 5, 7, 8,
-        6, 8, 7, 8,
-        2,
-    ],
-    places: &[
-        0, 1, 2, 3,
-        4, 5, 7, 6,
-        8,
-    ],
-    units: &[
-        1.0, 1.0, 1.0, 2.0,
-        2.0, 1.0, 2.0, 2.0,
-        1.0,
-    ],
-};
-
-/// The mechanism with its parameters.
-#[derive(Clone, Debug)]
-struct Model {
-    params: Params,
-}
-
-impl Model {
-    fn new(params: &Params) -> Self {
-        Self { params: *params }
-    }
-}
-
-/// Steps that one call of [`step`] takes at most.
-pub const MOST_STEPS: usize = 1_000_000;
-
-/// Trials on the way from the file's parameters to others at most, and the smallest part of it.
-const MOST_PARTS: usize = 10_000;
-const SMALLEST_PART: f64 = 1e-6;
-
-/// The largest motion of a step, beside the size of a body or 1 rad.
-const LARGEST_MOTION: f64 = 0.5;
-
-/// The step before tells of one that is so many times as long at most.
-const FARTHEST_BEND: f64 = 4.0;
-
-/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
-const LARGEST_GAP: f64 = 1e-3;
-
-/// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the
-/// second it is too near to a singular one.
-const STEEP: f64 = 1e3;
-const STEEPEST: f64 = 1e6;
-
-/// Rounding may make so much of velocities and accelerations that are given out.
-const ACCURACY: f64 = 1e-9;
-
-/// Where steps become too small, this is steep enough for a singular position to be the reason.
-const SINGULAR: f64 = 1e2;
-
-/// A dead point is no further off than this part of the span.
-const NEAR_FOLD: f64 = 1e-5;
 
 /// Brings the mechanism to its first time with some parameters, along the branch that the file's
 /// parameters give.
@@ -619,62 +370,7 @@ const NEAR_FOLD: f64 = 1e-5;
 /// # Errors
 /// It cannot be assembled with these, or not on that branch.
 pub fn assemble(params: &Params) -> Result<State, Error> {
-    if !params.is_finite() {
-        return Err(Error::NotANumber);
-    }
-    let file = Params;
-    let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 {
-            file.towards(params, next)
-        } else {
-            *params
-        };
-        let model = Model::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
-                return Ok(State {
-                    steepness,
-                    model,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: LONGEST_STEP,
-                });
-            }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
-        }
-        if part < SMALLEST_PART {
-            break;
-        }
-    }
-    Err(why)
-}
-
-/// Solves at the first time, from a position nearby.
-fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
-    let mut near = Solution::ZERO;
-    (near.t, near.q) = (START_TIME, *q);
-    reach(&tears(q), &near, START_TIME, m, at)?;
-    if at.first <= LARGEST_CORRECTION {
-        Ok(())
-    } else {
-        Err(Fault::TooFar)
-    }
+    runtime::assemble::assemble(params)
 }
 
 /// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
@@ -697,444 +393,72 @@ pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
 /// Why it cannot get there; the state stays at the last time that it could reach. Where that is
 /// [`Error::TooFar`] the same call goes on from there.
 pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    if !(t - state.at().t).is_finite() {
-        return Err(Error::NotANumber);
-    }
-    for _ in 0..most {
-        let now = state.at().t;
-        let left = t - now;
-        if left == 0.0 {
-            return Ok(());
-        }
-        // no crumb at the end
-        let next = if state.step >= 0.999 * left.abs() {
-            t
-        } else {
-            now + state.step.copysign(left)
-        };
-        let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
-            Ok(is_calm) => {
-                let longest = if is_calm {
-                    state.step.max(2.0 * size)
-                } else {
-                    state.step.min(size)
-                };
-                state.step = longest.min(LONGEST_STEP);
-                if is_last {
-                    return Ok(());
-                }
-            }
-            Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < SMALLEST_STEP || now + state.step == now {
-                    state.step = SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
-                }
-            }
-        }
-    }
-    if state.at().t == t {
-        Ok(())
-    } else {
-        Err(Error::TooFar)
-    }
+    runtime::step::step_within(t, state, most)
 }
 
-/// Why a step is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fault {
-    /// Something is not a number.
-    NotANumber,
-    /// The step is too long for the motion.
-    TooFar,
-    /// The position is on another branch, or too near to one.
-    Singular,
+/// Number of results at a time.
+pub const COLUMNS: usize = 28;
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 3.2;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.1;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 3.2e-12;
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    1.0, 1.0, 1.0, 3.5,
+    3.5, 1.0, 3.0, 3.0,
+    1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 0.5, 0.8775825618903728,
+    0.479425538604203, 0.7771164948091609, 3.68643363770732, 1.466859276290175,
+    1.7813938323744904,
+];
+
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
 }
 
-impl Fault {
-    /// Why a mechanism cannot be assembled.
-    fn at_start(self) -> Error {
-        match self {
-            Self::NotANumber => Error::NotANumber,
-            _ => Error::Divergence,
-        }
-    }
-}
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 2;
 
-/// One step to a time; says whether a longer one would do as well.
-fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second {
-        (second, first)
-    } else {
-        (first, second)
-    };
-    let from = &*from;
-    let h = t - from.t;
-    let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    let mut way = if state.is_smooth {
-        bend(from, at, h)
-    } else {
-        [0.0; TEARS]
-    };
-    let mut guess = x;
-    let rates = v.iter().zip(&a);
-    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
-        // Taylor
-        *way += h * (v + 0.5 * h * a);
-        *guess += *way;
-    }
-    // what is not a number is not small either
-    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
-    if !is_short {
-        return Err(Fault::TooFar);
-    }
-    reach(&guess, from, t, &state.model, at)?;
-    // what both ends' velocities and accelerations make of the way between (Hermite)
-    let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let mut gaps = [0.0; TEARS];
-    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
-    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
-    }
-    let gap = largest(&gaps, &TEAR_SCALES);
-    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-    if !is_near {
-        return Err(Fault::TooFar);
-    }
-    let steepest = at.steepest / state.steepness;
-    if at.is_negative != from.is_negative || steepest > STEEPEST {
-        return Err(Fault::Singular);
-    }
-    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
-        return Err(Fault::Singular);
-    }
-    state.is_smooth = true;
-    state.is_second = !state.is_second;
-    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
-}
+/// What a change of each of them is judged against (m, or 1 rad).
+#[rustfmt::skip]
+static TEAR_SCALES: [f64; TEARS] = [
+    1.0, 1.0,
+];
 
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value,
-/// velocity and acceleration at two times make a polynomial of degree 5 (Hermite).
-fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
-    let back = now.t - before.t;
-    let u = h / back;
-    if u.is_nan() || u.abs() > FARTHEST_BEND {
-        return [0.0; TEARS];
-    }
-    let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
-    let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    let mut bend = [0.0; TEARS];
-    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
-    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        let value = y - x + back * (v - 0.5 * back * a);
-        let slope = back * (v - back * a - w);
-        let curvature = 0.5 * back * back * (b - a);
-        let cubic = 4.0 * slope - 10.0 * value - curvature;
-        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-        let quintic = 3.0 * slope - 6.0 * value - curvature;
-        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
-    }
-    bend
-}
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 1;
 
-/// The largest value beside its scale; what is not a number wins.
-fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
-    let pairs = values.iter().zip(scales);
-    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
-    sizes.fold(0.0, larger)
-}
+/// Whether they are negative where all pivots are positive.
+#[rustfmt::skip]
+static TURNED: [bool; TURNS] = [
+    false,
+];
 
-/// The larger one; what is not a number wins.
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
-}
+/// Number of places where formulas have branches.
+const SIDES: usize = 0;
 
-/// Solves at a time, from a guess; `from` is where the motion comes from.
-fn reach(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    solve(guess, t, m, at);
-    if !at.is_settled || !at.holds {
-        // once more from a position that is known, and if that does not help either, that
-        let h = t - from.t;
-        let mut q = from.q;
-        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
-            *q += h * (qd + 0.5 * h * qdd);
-        }
-        let pivoted = solve_with_pivoting(&q, t, m)?;
-        solve(&tears(&pivoted.q), t, m, at);
-        let first = pivoted.first;
-        if !at.is_settled || !at.holds {
-            *at = pivoted;
-        }
-        at.first = first;
-    }
-    if at.is_finite() {
-        Ok(())
-    } else {
-        Err(Fault::NotANumber)
-    }
-}
-
-/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
-/// amplified by as much as the position is near to a singular one.
-fn rounding(at: &Solution, m: &Model) -> f64 {
-    let p = &m.params;
-    let slopes = phi_q(&at.q, at.t, p);
-    let mut norms = [f64::MIN_POSITIVE; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
-            *norm = larger(*norm, slope.abs() * scale);
-        }
-    }
-    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-    let nu = nu(&at.q, at.t, p);
-    let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
-    let gamma = gamma(&at.q, &at.qd, at.t, p);
-    let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
-    let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * amplified
-}
-
-/// Why even the shortest step from a state towards a time is refused.
-fn explain(state: &State, fault: Fault, t: f64) -> Error {
-    let (at, p) = (state.at(), &state.model.params);
-    let values = phi(&at.q, t, p);
-    if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
-        return Error::NotANumber;
-    }
-    if at.steepest < SINGULAR * state.steepness {
-        return Error::Divergence;
-    }
-    // a motion that comes to a dead point after a time u is as the root of u, whose slope over
-    // twice its curvature is u
-    let rates = at.qd.iter().zip(&at.qdd).zip(&SCALES);
-    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
-        if v.abs() / scale > speed {
-            (v.abs() / scale, 0.5 * v / a)
-        } else {
-            (speed, left)
-        }
-    };
-    let (_, left) = rates.fold((0.0, 0.0), sooner);
-    let left = if t < at.t { -left } else { left };
-    if left > 0.0 && left < NEAR_FOLD * SPAN {
-        Error::LockUp
-    } else {
-        Error::Bifurcation
-    }
-}
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
-struct Solution {
-    t: f64,
-    q: Q,
-    qd: Qd,
-    qdd: Qdd,
-    /// By block of equations: whether its determinant is negative.
-    is_negative: [bool; TURNS],
-    /// Whether Newton has arrived.
-    is_settled: bool,
-    /// Whether no digits were lost, and the equations hold.
-    holds: bool,
-    /// Newton's largest first correction, scaled.
-    first: f64,
-    /// One over the smallest pivot, scaled.
-    steepest: f64,
-}
-
-impl Solution {
-    const ZERO: Self = Self {
-        t: 0.0,
-        q: [0.0; N],
-        qd: [0.0; N],
-        qdd: [0.0; N],
-        is_negative: [false; TURNS],
-        is_settled: true,
-        holds: true,
-        first: 0.0,
-        steepest: 0.0,
-    };
-
-    /// Makes ready for being solved for.
-    fn begin(&mut self, t: f64) {
-        self.t = t;
-        self.is_negative = TURNED;
-        (self.is_settled, self.holds) = (true, true);
-        (self.first, self.steepest) = (0.0, 0.0);
-    }
-
-    /// Takes over how an iteration went.
-    fn note(&mut self, newton: &Newton) {
-        self.is_settled &= newton.has_settled;
-        self.first = larger(self.first, newton.first);
-    }
-
-    /// Takes note of one over a pivot, and of what makes that a pure number.
-    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
-        if let Some(is_negative) = self.is_negative.get_mut(turn) {
-            *is_negative ^= inverse < 0.0;
-        }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
-    }
-
-    /// Why it cannot be used.
-    fn fault(&self) -> Fault {
-        if self.is_finite() {
-            Fault::TooFar
-        } else {
-            Fault::NotANumber
-        }
-    }
-
-    fn is_finite(&self) -> bool {
-        let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-        all.all(|value| value.is_finite())
-    }
-}
-
-/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace
-/// in where it ends.
-struct Newton {
-    is_first: bool,
-    is_open: bool,
-    is_lost: bool,
-    has_settled: bool,
-    first: f64,
-}
-
-impl Newton {
-    fn new() -> Self {
-        Self {
-            is_first: true,
-            is_open: false,
-            is_lost: false,
-            has_settled: false,
-            first: 0.0,
-        }
-    }
-
-    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
-    fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
-        let size = delta.abs();
-        if self.is_first {
-            self.first = larger(self.first, size / scale);
-        }
-        self.is_open |= size > HALF_A_CELL * cell;
-        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
-        x + delta
-    }
-
-    /// Whether no further iteration is needed, or none helps.
-    fn is_done(&mut self) -> bool {
-        self.has_settled = !self.is_open && !self.is_lost;
-        let is_done = self.has_settled || self.is_lost;
-        (self.is_first, self.is_open) = (false, false);
-        is_done
-    }
-}
-
-/// The grid point next to a value.
-fn on_grid(x: f64, cell: f64) -> f64 {
-    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
-    let rounding = 6_755_399_441_055_744.0 * cell;
-    (x + rounding) - rounding
-}
-
-/// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
-/// digits. All coordinates lie on a grid while Newton goes on.
-fn solve_with_pivoting(q: &Q, t: f64, m: &Model) -> Result<Solution, Fault> {
-    let p = &m.params;
-    let mut at = Solution::ZERO;
-    (at.t, at.q) = (t, *q);
-    let mut elimination = Elimination::new();
-    let mut is_settled = false;
-    for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.iter_mut().zip(&CELLS) {
-            *q = on_grid(*q, *cell);
-        }
-        let slopes = phi_q(&at.q, t, p);
-        let right = phi(&at.q, t, p).map(|value| -value);
-        let (x, _) = elimination.solve(&slopes, &right);
-        if iteration == 0 {
-            at.first = largest(&x, &SCALES);
-        }
-        is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
-        at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
-        if is_settled {
-            break;
-        }
-    }
-    if !is_settled {
-        return Err(at.fault());
-    }
-    let slopes = phi_q(&at.q, t, p);
-    let (qd, pivot) = elimination.solve(&slopes, &nu(&at.q, t, p));
-    let (qdd, _) = elimination.solve(&slopes, &gamma(&at.q, &qd, t, p));
-    (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
-    let values = phi(&at.q, t, p);
-    at.holds = is_next_to_nothing(&values, &slopes, &at.q);
-    at.q = at.q.map(|x| x + 0.0);
-    at.steepest = 1.0 / pivot;
-    let negative = &elimination.is_negative;
-    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
-        *turned = negative.get(*block).copied().unwrap_or(false);
-    }
-    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
-}
-
-/// The work of solving linear equations in blocks.
-struct Elimination {
-    work: [f64; WORK],
-    is_negative: [bool; BLOCKS],
-}
-
-impl Elimination {
-    fn new() -> Self {
-        Self {
-            work: [0.0; WORK],
-            is_negative: [false; BLOCKS],
-        }
-    }
-
-    /// The solution for a right side, and the smallest pivot.
-    fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
-        let mut x = [0.0; N];
-        let (work, is_negative) = (&mut self.work, &mut self.is_negative);
-        let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
-        (x, pivot)
-    }
-}
-
-/// Whether what is left of the equations is within their tolerance, and what rounding makes of
-/// the coordinates.
-fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
-    let mut bounds = [0.0; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
-        if let (Some(scale), Some(q), Some(bound)) = sizes {
-            *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
-        }
-    }
-    let mut pairs = values.iter().zip(&bounds);
-    pairs.all(|(value, bound)| value.abs() <= *bound)
-}
-
-/// Of all coordinates those that Newton solves for.
-#[rustfmt::skip]
-fn tears(q: &[f64; N]) -> [f64; TEARS] {
-    [
-        q[8], q[5],
-    ]
-}
+type Solution = runtime::solution::Solution<Model>;
 
 /// Position, velocity and acceleration at a time. Newton begins with a guess of `rocker.phi`,
 /// `coupler.phi`; all else follows.
@@ -1287,171 +611,184 @@ fn solve(guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
     at.qdd[8] = rocker_phi_dd + 0.0;
 }
 
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        phi(q, t, &self.params)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+        phi_q(q, t, &self.params)
+    }
+
+    fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        nu(q, t, &self.params)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+        gamma(q, qd, t, &self.params)
+    }
+}
+
+impl Branches for Model {}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = ();
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(q: &Q) -> Self::Tears {
+        [
+            q[8], q[5],
+        ]
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
 #[rustfmt::skip]
-mod blocks {
+static CELLS: [f64; N] = [
+    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9, 1.4901161193847656e-8,
+    1.4901161193847656e-8, 7.450580596923828e-9, 1.4901161193847656e-8, 1.4901161193847656e-8,
+    7.450580596923828e-9,
+];
 
-// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
-//
-// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
-// round nothing.
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 6;
 
-/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
-/// before it.
-#[derive(Clone, Copy, Debug)]
-pub struct Blocks<'b> {
-    /// How many equations each block has.
-    pub sizes: &'b [usize],
-    /// The equations, block by block.
-    pub rows: &'b [usize],
-    /// The unknowns, block by block.
-    pub columns: &'b [usize],
-    /// Where the entries of each equation begin, and where those of the last one end.
-    pub starts: &'b [usize],
-    /// The unknown of each entry.
-    pub entries: &'b [usize],
-    /// By unknown: its place in `columns`.
-    pub places: &'b [usize],
-    /// By unknown: the power of two that it is measured by.
-    pub units: &'b [f64],
+/// The blocks whose determinants change.
+#[rustfmt::skip]
+static TURNING: [usize; TURNS] = [
+    5,
+];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(4);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 4,
+    ],
+    rows: &[
+        0, 1, 8, 2,
+        3, 4, 5, 6,
+        7,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 12, 16, 18,
+        20, 21,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        3, 5, 6, 8,
+        4, 5, 7, 8,
+        6, 8, 7, 8,
+        2,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 5, 7, 6,
+        8,
+    ],
+    units: &[
+        1.0, 1.0, 1.0, 2.0,
+        2.0, 1.0, 2.0, 2.0,
+        1.0,
+    ],
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
+    }
+
+    fn turning() -> &'static [usize] {
+        &TURNING
+    }
+
+    fn cells() -> &'static Q {
+        &CELLS
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
 }
 
-/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
-///
-/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
-/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
-/// number wins.
-pub fn solve(
-    blocks: &Blocks<'_>,
-    values: &[f64],
-    right: &[f64],
-    x: &mut [f64],
-    work: &mut [f64],
-    is_negative: &mut [bool],
-) -> f64 {
-    let (mut smallest, mut at) = (f64::INFINITY, 0);
-    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
-        let places = at..at + size;
-        at += size;
-        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
-            break;
-        };
-        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
-            break;
-        };
-        for (line, &row) in lines(matrix, size + 1).zip(rows) {
-            fill(blocks, row, places.start, values, right, x, line);
-        }
-        let Some(solution) = solution.get_mut(..size) else {
-            break;
-        };
-        let pivot;
-        (pivot, *is_negative) = eliminate(matrix, solution);
-        smallest = if pivot >= smallest { smallest } else { pivot };
-        for (&column, &value) in columns.iter().zip(&*solution) {
-            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
-                *x = value * unit;
-            }
-        }
-    }
-    smallest
-}
+impl Timed for Model {
+    type Params = Params;
+    type Lead = ();
+    type Passed = [f64; 0];
+    type Row = [f64; COLUMNS];
 
-/// How many numbers the work for a block of a size takes.
-#[must_use]
-pub const fn work_of(size: usize) -> usize {
-    size * (size + 2)
-}
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
 
-/// A matrix row by row.
-fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
-    let mut left = matrix;
-    core::iter::from_fn(move || {
-        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
-        left = rest;
-        Some(line)
-    })
-}
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
 
-/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
-fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
-    line.fill(0.0);
-    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
-    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
-    let (Some(&from), Some(&to)) = ends else {
-        return;
-    };
-    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
-    let size = line.len() - 1;
-    for (&column, &value) in entries {
-        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
-        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
-        match line.get_mut(place).filter(|_| place < size) {
-            Some(entry) => {
-                *entry = value * unit;
-                largest = if entry.abs() > largest { entry.abs() } else { largest };
-            }
-            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
-        }
+    fn params(&self) -> &Params {
+        &self.params
     }
-    if let Some(last) = line.last_mut() {
-        *last = sum;
-    }
-    if largest > 0.0 && largest.is_finite() {
-        // two over the power of two that is not above it
-        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
-        for entry in line {
-            *entry *= factor;
-        }
-    }
-}
 
-/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
-/// determinant is negative.
-fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
-    let width = x.len() + 1;
-    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
-    let mut left = &mut *matrix;
-    for k in 0..x.len() {
-        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
-            break;
-        };
-        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
-        for line in lines(below, width) {
-            if entry(line).abs() > entry(first).abs() {
-                is_negative = !is_negative;
-                for (a, b) in first.iter_mut().zip(line) {
-                    core::mem::swap(a, b);
-                }
-            }
-        }
-        let pivot = entry(first);
-        is_negative ^= pivot < 0.0;
-        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
-        for line in lines(below, width) {
-            let factor = entry(line) / pivot;
-            if factor != 0.0 {
-                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
-                    *a -= factor * b;
-                }
-            }
-        }
-        left = below;
+    fn start() -> &'static Q {
+        &START
     }
-    let mut rest = &*matrix;
-    for k in (0..x.len()).rev() {
-        let Some((before, line)) = rest.split_at_checked(k * width) else {
-            break;
-        };
-        rest = before;
-        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
-        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
-        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
-            *x = sum / pivot;
-        }
-    }
-    (smallest, is_negative)
-}
-
 }
 
 /// The same for several variants of the mechanism, or several times, at once: in loops over the
@@ -1463,6 +800,12 @@ pub mod lanes {
 
     use super::*;
 
+    use super::runtime::grid::on_grid;
+    use super::runtime::lane_newton::Settling;
+    use super::runtime::lane_solutions::Laned;
+    use super::runtime::limits::ITERATIONS;
+    use super::runtime::without_branches::sin_cos_below_a_million;
+
     /// Lanes that are worked on together.
     pub const LANES: usize = 16;
 
@@ -1470,105 +813,16 @@ pub mod lanes {
     pub type Each = [f64; LANES];
 
     /// As many mechanisms, each with its own parameters, at a time of its own.
-    #[derive(Clone, Debug)]
-    pub struct States {
-        models: [Model; LANES],
-        /// The solutions of now and the ones before, or the next ones in the making.
-        solutions: [Solutions; 2],
-        /// Whether those of now are the second.
-        is_second: bool,
-        is_smooth: [bool; LANES],
-        steepness: Each,
-        step: Each,
-    }
+    pub type States = super::runtime::lanes::States<Model, LANES>;
 
-    impl States {
-        /// The solutions of now.
-        fn now(&self) -> &Solutions {
-            let [first, second] = &self.solutions;
-            if self.is_second { second } else { first }
-        }
+    /// What solves the equations in every lane.
+    type Solutions = super::runtime::lane_solutions::Solutions<Model, LANES>;
 
-        /// The ones before, or the next ones in the making.
-        fn other(&self) -> &Solutions {
-            let [first, second] = &self.solutions;
-            if self.is_second { first } else { second }
-        }
-
-        /// Both, to be changed: those of now, and the others.
-        fn both(&mut self) -> (&mut Solutions, &mut Solutions) {
-            let [first, second] = &mut self.solutions;
-            if self.is_second {
-                (second, first)
-            } else {
-                (first, second)
-            }
-        }
-
-        /// The times (s).
-        #[must_use]
-        pub fn t(&self) -> &Each {
-            &self.now().t
-        }
-
-        /// The coordinates (m, rad), by the indices in [`coordinate`].
-        #[must_use]
-        pub fn q(&self) -> &[Each; N] {
-            &self.now().q
-        }
-
-        /// Their velocities (m/s, rad/s).
-        #[must_use]
-        pub fn qd(&self) -> &[Each; N] {
-            &self.now().qd
-        }
-
-        /// Their accelerations (m/s^2, rad/s^2).
-        #[must_use]
-        pub fn qdd(&self) -> &[Each; N] {
-            &self.now().qdd
-        }
-
-        /// A lane on its own; none where there is no such lane.
-        #[must_use]
-        pub fn get(&self, lane: usize) -> Option<State> {
-            (lane < LANES).then(|| self.lane(lane))
-        }
-
-        /// A lane, which is below [`LANES`], on its own.
-        fn lane(&self, k: usize) -> State {
-            let [first, ..] = &self.models;
-            let model = self.models.get(k).unwrap_or(first).clone();
-            let mut solutions = [self.now().lane(k), self.other().lane(k)];
-            for at in &mut solutions {
-                at.is_settled = true;
-            }
-            State {
-                model,
-                solutions,
-                is_second: false,
-                is_smooth: self.is_smooth.get(k).copied().unwrap_or(false),
-                steepness: of(&self.steepness, k),
-                step: of(&self.step, k),
-            }
-        }
-
-        /// Moves a lane on its own, and leaves it among the other solutions.
-        fn alone(&mut self, k: usize, t: f64) -> Result<(), Error> {
-            let mut state = self.lane(k);
-            // where the solution before was, the one that has been tried is now
-            state.is_smooth = false;
-            let result = step(t, &mut state);
-            self.both().1.set_lane(k, state.at());
-            if let Some(is_smooth) = self.is_smooth.get_mut(k) {
-                *is_smooth = false;
-            }
-            if let Some(step) = self.step.get_mut(k) {
-                *step = state.step;
-            }
-            result
-        }
-    }
+    /// The width of a cell of the grid of each coordinate that Newton solves for.
+    #[rustfmt::skip]
+    static TEAR_CELLS: [f64; TEARS] = [
+        7.450580596923828e-9, 7.450580596923828e-9,
+    ];
 
     /// Brings the mechanisms to the first time, each with its own parameters; says of each lane why
     /// it cannot be assembled, if it cannot. Such a lane has the parameters of the file.
@@ -1576,30 +830,10 @@ pub mod lanes {
     /// # Errors
     /// Not even the file's own mechanism can be assembled.
     #[rustfmt::skip]
-    pub fn assemble(params: &[Params; LANES]) -> Result<(States, [Result<(), Error>; LANES]), Error> {
-        let one = super::assemble(&Params)?;
-        let mut states = States {
-            models: core::array::from_fn(|_| one.model.clone()),
-            solutions: [Solutions::ZERO, Solutions::ZERO],
-            is_second: false,
-            is_smooth: [false; LANES],
-            steepness: [one.steepness; LANES],
-            step: [LONGEST_STEP; LANES],
-        };
-        let mut results = [Ok(()); LANES];
-        for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
-            let found = super::assemble(params);
-            *result = found.as_ref().map(|_| ()).map_err(|error| *error);
-            let state = found.unwrap_or_else(|_| one.clone());
-            states.both().0.set_lane(k, state.at());
-            if let Some(model) = states.models.get_mut(k) {
-                *model = state.model.clone();
-            }
-            if let Some(steepness) = states.steepness.get_mut(k) {
-                *steepness = state.steepness;
-            }
-        }
-        Ok((states, results))
+    pub fn assemble(
+        params: &[Params; LANES],
+    ) -> Result<(States, [Result<(), Error>; LANES]), Error> {
+        super::runtime::lanes::assemble_each(params)
     }
 
     /// Moves every lane to a time of its own (s). A lane that asks for more than one step, as any
@@ -1608,264 +842,36 @@ pub mod lanes {
     /// What comes back says of each lane whether it has got there, and if not, why; it stays at the
     /// last time that it could reach.
     pub fn step_each(t: &Each, states: &mut States) -> [Result<(), Error>; LANES] {
-        let is_done = advance(t, states);
-        let mut results = [Ok(()); LANES];
-        for k in 0..LANES {
-            if !is_done[k] {
-                results[k] = states.alone(k, t[k]);
-            }
-        }
-        states.is_second = !states.is_second;
-        results
+        super::runtime::lanes::step_each(t, states)
     }
 
-    /// Tries one step of every lane; says which ones have got there.
-    fn advance(t: &Each, states: &mut States) -> [bool; LANES] {
-        let [first, second] = &mut states.solutions;
-        let (from, at) = if states.is_second {
-            (second, first)
-        } else {
-            (first, second)
-        };
-        let from = &*from;
-        let mut h = [0.0; LANES];
-        for k in 0..LANES {
-            h[k] = t[k] - from.t[k];
-        }
-        let mut back = [0.0; LANES];
-        let mut u = [0.0; LANES];
-        for k in 0..LANES {
-            back[k] = from.t[k] - at.t[k];
-            let ratio = h[k] / back[k];
-            let is_known = states.is_smooth[k] && ratio.abs() <= FARTHEST_BEND;
-            u[k] = if is_known { ratio } else { 0.0 };
-        }
-        let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-        let mut guess = [[0.0; LANES]; TEARS];
-        let mut motion = [0.0; LANES];
-        for i in 0..TEARS {
-            for k in 0..LANES {
-                // as `bend` has it
-                let (h, back, u) = (h[k], back[k], u[k]);
-                let (x, v, a) = (x[i][k], v[i][k], a[i][k]);
-                let value = y[i][k] - x + back * (v - 0.5 * back * a);
-                let slope = back * (v - back * a - w[i][k]);
-                let curvature = 0.5 * back * back * (b[i][k] - a);
-                let cubic = 4.0 * slope - 10.0 * value - curvature;
-                let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-                let quintic = 3.0 * slope - 6.0 * value - curvature;
-                let bend = u * u * u * (cubic + u * (quartic + u * quintic));
-                let way = h * (v + 0.5 * h * a) + bend;
-                guess[i][k] = x + way;
-                motion[k] = larger(motion[k], way.abs() / TEAR_SCALES[i]);
-            }
-        }
-        solve(&guess, t, &states.models, at);
-        let mut gap = [0.0; LANES];
-        let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-        for i in 0..TEARS {
-            for k in 0..LANES {
-                let rates = 0.5 * h[k] * (v[i][k] + w[i][k]);
-                let bends = h[k] * h[k] * (1.0 / 12.0) * (a[i][k] - b[i][k]);
-                let gap_here = y[i][k] - x[i][k] - rates - bends;
-                gap[k] = larger(gap[k], gap_here.abs() / TEAR_SCALES[i]);
-            }
-        }
-        let is_finite = at.are_finite();
-        let mut is_done = [false; LANES];
-        for k in 0..LANES {
-            let is_short = h[k].abs() <= states.step[k] && h[k] != 0.0;
-            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP * states.steepness[k];
-            let is_solved = is_solved && is_finite[k];
-            is_done[k] = is_solved && is_short;
-        }
-        for k in 0..LANES {
-            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
-            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
-        }
-        for i in 0..TURNS {
-            for k in 0..LANES {
-                is_done[k] &= (at.signs[i][k] ^ from.signs[i][k]) >> 63 == 0;
-            }
-        }
-        for k in 0..LANES {
-            if is_done[k] {
-                let first = states.other().first[k];
-                let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
-                let size = h[k].abs();
-                let longest = if is_calm { 2.0 * size } else { 0.0 };
-                let shortest = if is_calm { states.step[k] } else { size };
-                states.step[k] = f64::max(longest, shortest).min(LONGEST_STEP);
-                states.is_smooth[k] = true;
-            }
-        }
-        is_done
-    }
+    impl Laned<LANES> for Model {
+        type Coordinates = [Each; N];
+        type Guesses = [Each; TEARS];
+        type Values = [Each; 0];
+        type Rates = [Each; 0];
+        type Accelerations = [Each; 0];
+        type OfJoined = [Each; 0];
+        type Signs = [[u64; LANES]; TURNS];
 
-    /// What solves the equations in every lane.
-    #[derive(Clone, Debug)]
-    struct Solutions {
-        t: Each,
-        q: [Each; N],
-        qd: [Each; N],
-        qdd: [Each; N],
-        /// By block: what has the sign of its determinant.
-        signs: [[u64; LANES]; TURNS],
-        /// Multipliers, residuals and angles beside what is bearable: 1 at most.
-        strain: Each,
-        /// Newton's largest first correction, scaled.
-        first: Each,
-        /// Its largest last correction, in cells of the grid.
-        open: Each,
-        /// One over the smallest pivot, scaled.
-        steepest: Each,
-    }
+        const HAS_CHECKS: bool = false;
 
-    impl Solutions {
-        const ZERO: Self = Self {
-            t: [0.0; LANES],
-            q: [[0.0; LANES]; N],
-            qd: [[0.0; LANES]; N],
-            qdd: [[0.0; LANES]; N],
-            signs: [[0; LANES]; TURNS],
-            strain: [0.0; LANES],
-            first: [0.0; LANES],
-            open: [0.0; LANES],
-            steepest: [0.0; LANES],
-        };
-
-        /// Makes ready for being solved for.
-        fn begin(&mut self, t: &Each) {
-            self.t = *t;
-            let zero = [0.0; LANES];
-            (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
-            for (signs, is_negative) in self.signs.iter_mut().zip(&TURNED) {
-                *signs = [u64::from(*is_negative) << 63; LANES];
-            }
+        #[rustfmt::skip]
+        fn tears_of(q: &[Each; N]) -> [Each; TEARS] {
+            [
+                q[8], q[5],
+            ]
         }
 
-        fn are_finite(&self) -> [bool; LANES] {
-            let mut sum = [0.0; LANES];
-            for each in self.q.iter().chain(&self.qd).chain(&self.qdd) {
-                for k in 0..LANES {
-                    sum[k] += 0.0 * each[k];
-                }
-            }
-            sum.map(|sum| sum == 0.0)
+        fn solve_each(
+            guess: &[Each; TEARS],
+            t: &Each,
+            models: &[Model; LANES],
+            _sides: &[Sides; LANES],
+            at: &mut Solutions,
+        ) {
+            solve(guess, t, models, at);
         }
-
-        /// A lane on its own.
-        fn lane(&self, k: usize) -> Solution {
-            let mut at = Solution::ZERO;
-            at.t = of(&self.t, k);
-            at.q = self.q.map(|each| of(&each, k));
-            at.qd = self.qd.map(|each| of(&each, k));
-            at.qdd = self.qdd.map(|each| of(&each, k));
-            for (is_negative, signs) in at.is_negative.iter_mut().zip(&self.signs) {
-                *is_negative = signs.get(k).is_some_and(|sign| sign >> 63 == 1);
-            }
-            at.steepest = of(&self.steepest, k);
-            at
-        }
-
-        fn set_lane(&mut self, k: usize, at: &Solution) {
-            let put = |each: &mut Each, value: f64| {
-                if let Some(place) = each.get_mut(k) {
-                    *place = value;
-                }
-            };
-            put(&mut self.t, at.t);
-            put(&mut self.steepest, at.steepest);
-            let all = self.q.iter_mut().chain(&mut self.qd).chain(&mut self.qdd);
-            let values = at.q.iter().chain(&at.qd).chain(&at.qdd);
-            for (each, value) in all.zip(values) {
-                put(each, *value);
-            }
-            for (signs, is_negative) in self.signs.iter_mut().zip(at.is_negative) {
-                if let Some(sign) = signs.get_mut(k) {
-                    *sign = u64::from(is_negative) << 63;
-                }
-            }
-        }
-
-        /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
-        #[inline]
-        fn watch(&mut self, k: usize, value: f64, factor: f64) {
-            self.strain[k] = larger(self.strain[k], value.abs() * factor);
-        }
-
-        /// Takes note of one over a pivot, and of what makes that a pure number.
-        #[inline]
-        fn pivot(&mut self, k: usize, turn: usize, inverse: f64, weight: f64) {
-            self.signs[turn][k] ^= inverse.to_bits();
-            self.steepest[k] = larger(self.steepest[k], inverse.abs() * weight);
-        }
-    }
-
-    /// The number of a lane.
-    fn of(each: &Each, k: usize) -> f64 {
-        each.get(k).copied().unwrap_or(f64::NAN)
-    }
-
-    /// An iteration of Newton in every lane, until all have settled or are lost.
-    struct Settling {
-        is_first: bool,
-        first: Each,
-        far: Each,
-        open: Each,
-    }
-
-    impl Settling {
-        fn new() -> Self {
-            let zero = [0.0; LANES];
-            Self {
-                is_first: true,
-                first: zero,
-                far: zero,
-                open: zero,
-            }
-        }
-
-        fn begin(&mut self) {
-            self.open = [0.0; LANES];
-        }
-
-        /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
-        #[inline]
-        fn correct(&mut self, k: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
-            let size = delta.abs();
-            self.far[k] = larger(self.far[k], size / scale);
-            self.open[k] = larger(self.open[k], size / cell);
-            *x += delta;
-        }
-
-        /// Whether no further iteration is needed, or none helps.
-        fn is_done(&mut self) -> bool {
-            if self.is_first {
-                self.first = self.far;
-                self.is_first = false;
-            }
-            let mut pairs = self.open.iter().zip(&self.far);
-            let is_lost = |far: f64| far.is_nan() || far > LARGEST_CORRECTION;
-            pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
-        }
-
-        /// Leaves word of how it went.
-        fn note(&self, at: &mut Solutions) {
-            for k in 0..LANES {
-                at.first[k] = larger(at.first[k], self.first[k]);
-                at.open[k] = larger(at.open[k], self.open[k]);
-                let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
-                at.strain[k] = larger(at.strain[k], lost);
-            }
-        }
-    }
-
-    /// Out of all coordinates those that Newton solves for.
-    #[rustfmt::skip]
-    fn tears(q: &[Each; N]) -> [Each; TEARS] {
-        [q[8], q[5]]
     }
 
     /// Position, velocity and acceleration in every lane. Newton begins with a guess of
@@ -2063,11 +1069,2101 @@ pub mod lanes {
     }
 }
 
-use sine_and_cosine::sin_cos;
-
+/// What solves the equations and follows the motion, the same for all mechanisms.
 #[rustfmt::skip]
-mod sine_and_cosine {
+mod runtime {
+pub mod numbers {
+//! Numbers by place, and how large they are.
 
+use core::fmt::Debug;
+
+/// So many numbers.
+pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize> Numbers for [f64; K] {
+    const ZERO: Self = [0.0; K];
+}
+
+/// So many answers.
+pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
+    /// All of them no.
+    const NONE: Self;
+}
+
+impl<const K: usize> Flags for [bool; K] {
+    const NONE: Self = [false; K];
+}
+
+/// The largest value beside its scale; a last one that is not a number wins.
+pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
+    let pairs = values.as_ref().iter().zip(scales.as_ref());
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; a second one that is not a number wins.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// What leads from some numbers to others.
+pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
+    let mut way = *to;
+    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
+    way
+}
+
+/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
+    let mut later = *q;
+    let rates = qd.as_ref().iter().zip(qdd.as_ref());
+    for (q, (qd, qdd)) in later.as_mut().iter_mut().zip(rates) {
+        *q += h * (qd + 0.5 * h * qdd);
+    }
+    later
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
+}
+}
+
+pub mod error {
+//! Why something cannot be done.
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out does not hold.
+    LeftOut,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    pub fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            Self::LeftOut => Error::Inconsistent,
+            _ => Error::Divergence,
+        }
+    }
+}
+}
+
+pub mod equations {
+//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// The equations `phi = 0` and what follows from them.
+pub trait Equations: Clone + Debug {
+    /// A number for each coordinate, and for each equation.
+    type Q: Numbers;
+    /// One for each entry of `phi_q` that does not vanish.
+    type Entries: Numbers;
+    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    type Sides: Numbers + PartialEq;
+
+    /// Row and column of each entry of `phi_q`.
+    fn pattern() -> &'static [(usize, usize)];
+
+    /// What a change of each coordinate is judged against.
+    fn scales() -> &'static Self::Q;
+
+    /// What is left of the equations.
+    fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The entries of their Jacobian.
+    fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
+
+    /// The right side of the velocity equation.
+    fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The right side of the acceleration equation.
+    fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+}
+
+/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+pub trait Branches: Equations {
+    /// Whether time alone decides some.
+    const OF_TIME: bool = false;
+
+    /// Whether the motion decides some.
+    const OF_MOTION: bool = false;
+
+    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    const END: Option<f64> = None;
+
+    /// Which of them time alone decides.
+    fn is_of_time() -> &'static [bool] {
+        &[]
+    }
+
+    /// The branches that time alone decides, the others as 0.
+    fn sides_of_time(&self, _t: f64) -> Self::Sides {
+        Self::Sides::ZERO
+    }
+
+    /// The branches at a position, those of time being known.
+    fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
+        *sides
+    }
+}
+
+/// What must hold beside the equations; of most mechanisms nothing.
+pub trait Checks: Equations {
+    /// Which quantities that keep their signs along a branch are positive.
+    type Watched: Flags;
+
+    /// Whether distances are positive, and places within their intervals and tables.
+    fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// Whether the equations that were left out hold.
+    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// What keeps its sign along a branch of the motion.
+    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
+        Self::Watched::NONE
+    }
+}
+}
+
+pub mod measured {
+//! What is measured.
+
+use core::fmt::Debug;
+
+/// Measures with their first and second time derivatives.
+pub trait Measured: Copy + Debug {
+    /// Nothing is measured yet.
+    const ZERO: Self;
+
+    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters.
+    const IS_VARIED: &'static [bool] = &[];
+
+    /// Values, rates and accelerations.
+    fn lists(&self) -> [&[f64]; 3];
+
+    /// The same, to be written.
+    fn lists_mut(&mut self) -> [&mut [f64]; 3];
+
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
+                *value = f64::NAN;
+            }
+        }
+    }
+
+    /// Close to a singular position derivatives by inputs and parameters have no value.
+    fn leave_varied_out(&mut self) {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+/// Where nothing is measured.
+impl Measured for () {
+    const ZERO: Self = ();
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&[]; 3]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut [], &mut [], &mut []]
+    }
+}
+}
+
+pub mod solution {
+//! What solves the equations at a time, and what that is found by.
+
+use super::equations::{Branches, Checks};
+use super::error::Fault;
+use super::measured::Measured;
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// Equations with the operations that solve them.
+pub trait Solved: Branches + Checks {
+    /// A number for each coordinate that Newton solves for; the others follow.
+    type Tears: Numbers;
+    /// An answer for each block of equations whose determinant changes with the position.
+    type Turns: Flags;
+    /// What is measured.
+    type Measures: Measured;
+    /// Values that only measures need.
+    type Joined: Numbers;
+    /// What the motion goes along: time, or signals.
+    type Along: Along<Self>;
+
+    /// What a change of each coordinate that Newton solves for is judged against.
+    fn tear_scales() -> &'static Self::Tears;
+
+    /// Whether determinants are negative where all pivots are positive.
+    fn turned() -> &'static Self::Turns;
+
+    /// Of all coordinates those that Newton solves for.
+    fn tears(q: &Self::Q) -> Self::Tears;
+
+    /// Position, velocity and acceleration at a time.
+    fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
+
+    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
+    /// a fault where blocks are too large for that.
+    fn pivoted(
+        &self,
+        _q: &Self::Q,
+        _t: f64,
+        _sides: &Self::Sides,
+        at: &Solution<Self>,
+    ) -> Result<Solution<Self>, Fault> {
+        Err(at.fault())
+    }
+}
+
+/// What a motion goes along, with what a solution holds of that.
+pub trait Along<M: Solved>: Clone + Debug {
+    /// Nothing is known yet.
+    const ZERO: Self;
+
+    /// Coordinates at a distance `h` from a solution.
+    fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
+
+    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
+
+    /// Takes down what a solution has been found for.
+    fn note(&mut self, _m: &M, _t: f64) {}
+
+    /// The derivatives of the coordinates, by what the motion goes along.
+    fn slopes(&self) -> &[M::Q] {
+        &[]
+    }
+
+    /// The same, to be written.
+    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    fn slopes_mut(&mut self) -> &mut [M::Q] {
+        &mut []
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+pub struct Solution<M: Solved> {
+    /// The time (s), or the place on a way.
+    pub t: f64,
+    /// Coordinates.
+    pub q: M::Q,
+    /// Velocities.
+    pub qd: M::Q,
+    /// Accelerations.
+    pub qdd: M::Q,
+    /// Measures.
+    pub measures: M::Measures,
+    /// What only measures need.
+    #[allow(dead_code)] // mostly they need nothing
+    pub joined: M::Joined,
+    /// What it holds of what the motion goes along.
+    pub along: M::Along,
+    /// The branches of formulas.
+    pub sides: M::Sides,
+    /// Which quantities that must keep their signs are positive.
+    pub watched: M::Watched,
+    /// By block of equations: whether its determinant is negative.
+    pub is_negative: M::Turns,
+    /// Whether Newton has arrived.
+    pub is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    pub holds: bool,
+    /// Newton's largest first correction, scaled.
+    pub first: f64,
+    /// One over the smallest pivot, scaled.
+    pub steepest: f64,
+}
+
+impl<M: Solved> Solution<M> {
+    /// Nothing is solved yet.
+    pub const ZERO: Self = Self {
+        t: 0.0,
+        q: M::Q::ZERO,
+        qd: M::Q::ZERO,
+        qdd: M::Q::ZERO,
+        measures: M::Measures::ZERO,
+        joined: M::Joined::ZERO,
+        along: M::Along::ZERO,
+        sides: M::Sides::ZERO,
+        watched: M::Watched::NONE,
+        is_negative: M::Turns::NONE,
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Nothing but a position and its time.
+    pub fn near(q: &M::Q, t: f64) -> Self {
+        let mut near = Self::ZERO;
+        (near.t, near.q) = (t, *q);
+        near
+    }
+
+    /// Makes ready for being solved for.
+    pub fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = *M::turned();
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Why it cannot be used.
+    pub fn fault(&self) -> Fault {
+        if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
+    }
+
+    /// Whether all of it is numbers; measures may be none.
+    pub fn is_finite(&self) -> bool {
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
+    }
+}
+}
+
+pub mod pivots {
+//! What pivots tell of a position.
+
+use super::numbers::larger;
+use super::solution::{Solution, Solved};
+
+impl<M: Solved> Solution<M> {
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    pub fn pivot(&mut self, turn: usize, inverse: f64, weight: f64) {
+        if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
+            *is_negative ^= inverse < 0.0;
+        }
+        self.steepest = larger(self.steepest, inverse.abs() * weight);
+    }
+}
+}
+
+pub mod grid {
+//! The grid on which Newton's iteration goes from point to point.
+
+/// The grid point next to a value.
+pub fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+}
+
+pub mod newton {
+//! Newton's iteration.
+
+use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::numbers::larger;
+use super::solution::{Solution, Solved};
+
+/// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
+#[allow(clippy::struct_excessive_bools)] // each is an answer of its own
+pub struct Newton {
+    is_first: bool,
+    is_open: bool,
+    is_lost: bool,
+    has_settled: bool,
+    first: f64,
+}
+
+impl Newton {
+    /// It has not begun.
+    pub fn new() -> Self {
+        Self { is_first: true, is_open: false, is_lost: false, has_settled: false, first: 0.0 }
+    }
+
+    /// A coordinate with its correction; its grid has cells so wide, and it is judged against `scale`.
+    pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
+        let size = delta.abs();
+        if self.is_first {
+            self.first = larger(self.first, size / scale);
+        }
+        self.is_open |= size > HALF_A_CELL * cell;
+        self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
+        x + delta
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    pub fn is_done(&mut self) -> bool {
+        self.has_settled = !self.is_open && !self.is_lost;
+        let is_done = self.has_settled || self.is_lost;
+        (self.is_first, self.is_open) = (false, false);
+        is_done
+    }
+}
+
+impl<M: Solved> Solution<M> {
+    /// Takes over how an iteration went.
+    pub fn note(&mut self, newton: &Newton) {
+        self.is_settled &= newton.has_settled;
+        self.first = larger(self.first, newton.first);
+    }
+}
+}
+
+pub mod branches {
+//! The branches of formulas along the motion.
+
+use super::equations::Branches;
+use super::limits::{MOST_HALVINGS, SLACK};
+use super::solution::{Along, Solution, Solved};
+
+/// A time on the later side of whatever is meant to happen at `t` (s).
+fn shortly_after(t: f64) -> f64 {
+    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+
+/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
+/// the earlier ones.
+pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+    match M::END {
+        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
+        _ => m.sides_of_time(shortly_after(t)),
+    }
+}
+
+/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
+    let here = sides_at(from, m);
+    if sides_at(to, m) == here {
+        return to;
+    }
+    let (mut near, mut far) = (from, to);
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * (near + far);
+        if middle == near || middle == far {
+            break;
+        }
+        if sides_at(middle, m) == here {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    far
+}
+
+/// The branches at a position that is next to one that is looked for.
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m))
+}
+
+/// The branches with those of time exchanged.
+pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
+    let mut all = *sides;
+    let pairs = of_time.as_ref().iter().zip(M::is_of_time());
+    for (side, (of_time, is_of_time)) in all.as_mut().iter_mut().zip(pairs) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
+}
+
+/// The branches of formulas of the motion that lie ahead of a position.
+pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
+    let (q, t) = M::Along::ahead(m, at);
+    m.sides_of_motion(&q, t, &at.sides)
+}
+}
+
+pub mod reach {
+//! Solving at a time, on the branches that are there.
+
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Fault;
+use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
+use super::measured::Measured;
+use super::numbers::{larger, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+pub fn reach<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let of_time = sides_at(t, m);
+    if !M::OF_MOTION {
+        return find(guess, from, t, m, &of_time, at);
+    }
+    let mut sides = from.sides;
+    for _ in 0..MOST_BRANCHES {
+        sides = with_time::<M>(&sides, &of_time);
+        find(guess, from, t, m, &sides, at)?;
+        let now = sides_ahead(at, m);
+        if now == sides {
+            return Ok(());
+        }
+        sides = now;
+    }
+    Err(Fault::TooFar)
+}
+
+/// Solves with branches of formulas that are known.
+pub fn find<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    m.solve(guess, t, sides, at);
+    if !at.is_settled || !at.holds {
+        find_with_pivoting(from, t, m, sides, at)?;
+    }
+    if !m.conditions_hold(&at.q, t, sides) {
+        return Err(Fault::NotANumber);
+    }
+    if !m.left_out_holds(&at.q, t, sides) {
+        return Err(Fault::LeftOut);
+    }
+    at.watched = m.watched(&at.q, t, sides);
+    at.sides = *sides;
+    at.along.note(m, t);
+    at.measures.leave_out();
+    if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
+}
+
+/// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
+fn find_with_pivoting<M: Solved>(
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let q = M::Along::predicted(m, from, t - from.t);
+    let pivoted = m.pivoted(&q, t, sides, at)?;
+    m.solve(&M::tears(&pivoted.q), t, sides, at);
+    let first = pivoted.first;
+    if !at.is_settled || !at.holds {
+        *at = pivoted;
+    }
+    at.first = first;
+    Ok(())
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
+/// position is near to a singular one.
+pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
+    let (t, sides, scales) = (at.t, &at.sides, M::scales());
+    let slopes = m.phi_q(&at.q, t, sides);
+    let mut norms = at.q;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let norm = norms.as_mut().get_mut(row);
+        if let (Some(norm), Some(scale)) = (norm, scales.as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = m.nu(&at.q, t, sides);
+    let velocity = ratio(largest(&at.qd, scales), largest(&nu, &norms));
+    let gamma = m.gamma(&at.q, &at.qd, t, sides);
+    let acceleration = ratio(largest(&at.qdd, scales), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+pub fn stays_on_branch<M: Solved>(
+    from: &Solution<M>,
+    at: &mut Solution<M>,
+    m: &M,
+    is_wanted: bool,
+    steepness: f64,
+) -> bool {
+    let steepest = at.steepest / steepness;
+    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+        return false;
+    }
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    !is_in_doubt
+}
+}
+
+pub mod state {
+//! A mechanism that moves with time, and where it is.
+
+use super::error::Error;
+use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
+use super::measured::Measured;
+use super::numbers::{Numbers, largest, predicted};
+use super::solution::{Along, Solution, Solved};
+use core::fmt::Debug;
+
+/// What can be set of a mechanism.
+pub trait Parameters: Copy + Debug + Default {
+    /// Part of the way from these to others.
+    #[must_use]
+    fn towards(&self, other: &Self, part: f64) -> Self;
+
+    /// Whether all are numbers.
+    fn is_finite(&self) -> bool;
+}
+
+/// A mechanism whose motion goes along time.
+pub trait Timed: Solved<Along = Time> {
+    /// Its parameters.
+    type Params: Parameters;
+    /// What leads it by its inputs; `()` where it has none.
+    type Lead: Lead<Self>;
+    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Passed: Numbers;
+    /// A number for each result.
+    type Row: Numbers;
+
+    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    const START_TIME: f64;
+    /// How long the file's analysis takes (s).
+    const SPAN: f64;
+    /// The longest step (s).
+    const LONGEST_STEP: f64;
+    /// The shortest step (s).
+    const SMALLEST_STEP: f64;
+
+    /// The mechanism with some parameters.
+    fn new(params: &Self::Params) -> Self;
+
+    /// Its parameters.
+    fn params(&self) -> &Self::Params;
+
+    /// The assembled position with the file's parameters.
+    fn start() -> &'static Self::Q;
+
+    /// The first rim of a step that was not looked at yet, with its time.
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+        None
+    }
+
+    /// Looks at both sides of a rim next to the state.
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What leads a mechanism by its inputs.
+pub trait Lead<M: Timed>: Clone + Debug {
+    /// Nothing is led yet.
+    fn new(params: &M::Params) -> Self;
+
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    fn is_leading(&self) -> bool;
+
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+}
+
+impl<M: Timed> Lead<M> for () {
+    fn new(_: &M::Params) -> Self {}
+
+    fn is_leading(&self) -> bool {
+        false
+    }
+
+    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// The motion goes along time.
+#[derive(Clone, Copy, Debug)]
+pub struct Time;
+
+impl<M: Timed> Along<M> for Time {
+    const ZERO: Self = Self;
+
+    fn predicted(_: &M, from: &Solution<M>, h: f64) -> M::Q {
+        predicted(&from.q, &from.qd, &from.qdd, h)
+    }
+
+    fn ahead(_: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let (speed, acceleration) = (largest(&at.qd, M::scales()), largest(&at.qdd, M::scales()));
+        let mut ahead = f64::min(f64::min(AHEAD * M::SPAN, LONGEST_AHEAD), FARTHEST_AHEAD / speed);
+        ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+        (predicted(&at.q, &at.qd, &at.qdd, ahead), at.t + ahead)
+    }
+}
+
+/// A mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State<M: Timed> {
+    pub(super) model: M,
+    /// The solution of now and the one before, or the next one in the making.
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    pub(super) steepness: f64,
+    /// The step that goes well (s).
+    pub(super) step: f64,
+    /// What leads by inputs.
+    pub(super) lead: M::Lead,
+    /// By rim: the time at which it was looked at last (s).
+    pub(super) passed: M::Passed,
+}
+
+impl<M: Timed> State<M> {
+    /// The solution of now.
+    pub(super) fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &M::Params {
+        self.model.params()
+    }
+
+    /// The coordinates (m, rad), by their indices.
+    #[must_use]
+    pub fn q(&self) -> &M::Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &M::Q {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &M::Q {
+        &self.at().qdd
+    }
+
+    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
+    /// for that.
+    #[must_use]
+    pub fn measures(&self) -> &M::Measures {
+        &self.at().measures
+    }
+
+    /// Whether inputs have led here, rather than the time.
+    pub(super) fn is_led(&self) -> bool {
+        self.lead.is_leading()
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
+    /// derivatives.
+    #[must_use]
+    pub fn row(&self) -> M::Row {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.as_ref().iter().chain(values);
+        let first = at.qd.as_ref().iter().chain(rates);
+        let second = at.qdd.as_ref().iter().chain(accelerations);
+        let all = [at.t].into_iter().chain(zeroth.chain(first).chain(second).copied());
+        let mut row = M::Row::ZERO;
+        row.as_mut().iter_mut().zip(all).for_each(|(cell, value)| *cell = value);
+        row
+    }
+}
+}
+
+pub mod assemble {
+//! The start of a motion.
+
+use super::branches::sides_near;
+use super::error::{Error, Fault};
+use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::numbers::Numbers;
+use super::reach::reach;
+use super::solution::Solution;
+use super::state::{Lead, Parameters, State, Timed};
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
+pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = M::Params::default();
+    let mut at = Solution::ZERO;
+    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
+    let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 { file.towards(params, next) } else { *params };
+        let model = M::new(&params);
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let mut passed = M::Passed::ZERO;
+                passed.as_mut().fill(f64::NEG_INFINITY);
+                return Ok(State {
+                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
+                    lead: M::Lead::new(&params),
+                    model,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: M::LONGEST_STEP,
+                    passed,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+    let mut near = Solution::near(q, M::START_TIME);
+    near.sides = sides_near(q, M::START_TIME, m);
+    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
+}
+}
+
+pub mod explain {
+//! Why a motion cannot go on.
+
+use super::branches::sides_at;
+use super::error::{Error, Fault};
+use super::limits::{NEAR_FOLD, SINGULAR};
+use super::solution::{Solution, Solved};
+use super::state::{State, Timed};
+
+/// Why even the shortest step from a state towards a time is refused.
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+    let at = state.at();
+    if let Some(error) = regular(at, fault, t, &state.model) {
+        return error;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
+    }
+    let left = until_turn(at);
+    meeting(if t < at.t { -left } else { left }, M::SPAN)
+}
+
+/// Why it is, if that has nothing to do with how near the position is to a singular one.
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+    let values = m.phi(&at.q, t, &at.sides);
+    if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
+        return Some(Error::NotANumber);
+    }
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
+    jumps.then_some(Error::NotSmooth)
+}
+
+/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
+/// curvature is u. That of the fastest coordinate counts.
+pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
+    let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed { (v.abs() / scale, 0.5 * v / a) } else { (speed, left) }
+    };
+    rates.fold((0.0, 0.0), sooner).1
+}
+
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
+pub fn meeting(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+}
+}
+
+pub mod step {
+//! Steps from time to time.
+
+use super::branches::first_edge;
+use super::error::{Error, Fault};
+use super::explain::explain;
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+};
+use super::numbers::{Numbers, difference, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+
+/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led() {
+        M::Lead::take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        // what is fast may be over before the step's end
+        let edge = first_edge(now, wanted, &state.model);
+        let next = match state.model.first_rim(now, edge, &state.passed) {
+            None => edge,
+            Some((rim, at)) => {
+                let before = at - (LEAD * M::SPAN).copysign(left);
+                if (before - now) * left <= 0.0 {
+                    M::look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
+                state.step = longest.min(M::LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < M::SMALLEST_STEP || now + state.step == now {
+                    state.step = M::SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut guess = x;
+    let rates = v.as_ref().iter().zip(a.as_ref());
+    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    let gap = gap(from, at, h);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+        return Err(Fault::Singular);
+    }
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+    state.is_smooth = at.sides == from.sides;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
+    let mut gaps = M::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    largest(&gaps, M::tear_scales())
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
+/// make a polynomial of degree 5 (Hermite).
+fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return M::Tears::ZERO;
+    }
+    let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
+    let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
+    let mut bend = M::Tears::ZERO;
+    let ways = x.as_ref().iter().zip(y.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
+/// `from` has the branches of the earlier one.
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let scales = M::scales();
+    let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
+    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+}
+}
+
+pub mod blocks {
+// Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
+//
+// For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
+// round nothing.
+
+/// Equations for as many unknowns, and how they fall apart: a block's equations hold its own unknowns and those of the blocks
+/// before it.
+#[derive(Clone, Copy, Debug)]
+pub struct Blocks<'b> {
+    /// How many equations each block has.
+    pub sizes: &'b [usize],
+    /// The equations, block by block.
+    pub rows: &'b [usize],
+    /// The unknowns, block by block.
+    pub columns: &'b [usize],
+    /// Where the entries of each equation begin, and where those of the last one end.
+    pub starts: &'b [usize],
+    /// The unknown of each entry.
+    pub entries: &'b [usize],
+    /// By unknown: its place in `columns`.
+    pub places: &'b [usize],
+    /// By unknown: the power of two that it is measured by.
+    pub units: &'b [f64],
+}
+
+/// Solves for `x`: the values of the entries times `x` are `right`, which is given by equation.
+///
+/// `work` holds as many numbers as the largest block has entries, and one more for each of its equations. Writes for each block
+/// whether its determinant is negative, and gives the smallest pivot, beside rows whose largest entry is about 1; what is not a
+/// number wins.
+pub fn solve(
+    blocks: &Blocks<'_>,
+    values: &[f64],
+    right: &[f64],
+    x: &mut [f64],
+    work: &mut [f64],
+    is_negative: &mut [bool],
+) -> f64 {
+    let (mut smallest, mut at) = (f64::INFINITY, 0);
+    for (&size, is_negative) in blocks.sizes.iter().zip(is_negative) {
+        let places = at..at + size;
+        at += size;
+        let (Some(rows), Some(columns)) = (blocks.rows.get(places.clone()), blocks.columns.get(places.clone())) else {
+            break;
+        };
+        let Some((matrix, solution)) = work.split_at_mut_checked(size * (size + 1)) else {
+            break;
+        };
+        for (line, &row) in lines(matrix, size + 1).zip(rows) {
+            fill(blocks, row, places.start, values, right, x, line);
+        }
+        let Some(solution) = solution.get_mut(..size) else {
+            break;
+        };
+        let pivot;
+        (pivot, *is_negative) = eliminate(matrix, solution);
+        smallest = if pivot >= smallest { smallest } else { pivot };
+        for (&column, &value) in columns.iter().zip(&*solution) {
+            if let (Some(x), Some(unit)) = (x.get_mut(column), blocks.units.get(column)) {
+                *x = value * unit;
+            }
+        }
+    }
+    smallest
+}
+
+/// How many numbers the work for a block of a size takes.
+#[must_use]
+pub const fn work_of(size: usize) -> usize {
+    size * (size + 2)
+}
+
+/// A matrix row by row.
+fn lines(matrix: &mut [f64], width: usize) -> impl Iterator<Item = &mut [f64]> {
+    let mut left = matrix;
+    core::iter::from_fn(move || {
+        let (line, rest) = core::mem::take(&mut left).split_at_mut_checked(width)?;
+        left = rest;
+        Some(line)
+    })
+}
+
+/// One equation of the block whose unknowns begin at a place, scaled, with what is known brought to the right.
+fn fill(blocks: &Blocks<'_>, row: usize, first: usize, values: &[f64], right: &[f64], x: &[f64], line: &mut [f64]) {
+    line.fill(0.0);
+    let (mut sum, mut largest) = (right.get(row).copied().unwrap_or(f64::NAN), 0.0);
+    let ends = (blocks.starts.get(row), blocks.starts.get(row + 1));
+    let (Some(&from), Some(&to)) = ends else {
+        return;
+    };
+    let entries = blocks.entries.iter().zip(values).take(to).skip(from);
+    let size = line.len() - 1;
+    for (&column, &value) in entries {
+        let place = blocks.places.get(column).map_or(usize::MAX, |place| place.wrapping_sub(first));
+        let unit = blocks.units.get(column).copied().unwrap_or(1.0);
+        match line.get_mut(place).filter(|_| place < size) {
+            Some(entry) => {
+                *entry = value * unit;
+                largest = if entry.abs() > largest { entry.abs() } else { largest };
+            }
+            None => sum -= value * x.get(column).copied().unwrap_or(0.0),
+        }
+    }
+    if let Some(last) = line.last_mut() {
+        *last = sum;
+    }
+    if largest > 0.0 && largest.is_finite() {
+        // two over the power of two that is not above it
+        let factor = 1.0 / f64::from_bits(largest.to_bits() & 0x7ff0_0000_0000_0000);
+        for entry in line {
+            *entry *= factor;
+        }
+    }
+}
+
+/// Elimination with partial pivoting of rows that end with their right sides; gives the smallest pivot, and whether the
+/// determinant is negative.
+fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
+    let width = x.len() + 1;
+    let (mut smallest, mut is_negative) = (f64::INFINITY, false);
+    let mut left = &mut *matrix;
+    for k in 0..x.len() {
+        let Some((first, below)) = core::mem::take(&mut left).split_at_mut_checked(width) else {
+            break;
+        };
+        let entry = |line: &[f64]| line.get(k).copied().unwrap_or(0.0);
+        for line in lines(below, width) {
+            if entry(line).abs() > entry(first).abs() {
+                is_negative = !is_negative;
+                for (a, b) in first.iter_mut().zip(line) {
+                    core::mem::swap(a, b);
+                }
+            }
+        }
+        let pivot = entry(first);
+        is_negative ^= pivot < 0.0;
+        smallest = if pivot.abs() >= smallest { smallest } else { pivot.abs() };
+        for line in lines(below, width) {
+            let factor = entry(line) / pivot;
+            if factor != 0.0 {
+                for (a, b) in line.iter_mut().zip(&*first).skip(k) {
+                    *a -= factor * b;
+                }
+            }
+        }
+        left = below;
+    }
+    let mut rest = &*matrix;
+    for k in (0..x.len()).rev() {
+        let Some((before, line)) = rest.split_at_checked(k * width) else {
+            break;
+        };
+        rest = before;
+        let sum = line.get(width - 1).copied().unwrap_or(f64::NAN);
+        let sum = line.iter().zip(&*x).skip(k + 1).fold(sum, |sum, (a, x)| sum - a * x);
+        if let (Some(x), Some(pivot)) = (x.get_mut(k), line.get(k)) {
+            *x = sum / pivot;
+        }
+    }
+    (smallest, is_negative)
+}
+}
+
+pub mod pivoting {
+//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+
+use super::blocks::{self, Blocks};
+use super::error::Fault;
+use super::grid::on_grid;
+use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::numbers::{Flags, Numbers, largest, without_signs_of_zero};
+use super::solution::{Along, Solution, Solved};
+
+/// Equations that can be solved by elimination with partial pivoting.
+pub trait Pivoting: Solved {
+    /// Numbers that the elimination of the largest block works on.
+    type Work: Numbers;
+    /// An answer for each block of equations.
+    type Blocks: Flags;
+    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    type Varied: Numbers;
+    /// A right side for each derivative by what the motion goes along.
+    type Rights: AsRef<[Self::Q]>;
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64;
+    /// Whether measures hold third derivatives of the coordinates.
+    const HAS_JERK: bool = false;
+    /// By derivative by inputs and parameters: whether it is one by two.
+    const IS_BY_TWO: &'static [bool] = &[];
+
+    /// How the equations fall apart into blocks.
+    fn blocks() -> &'static Blocks<'static>;
+
+    /// The blocks whose determinants change.
+    fn turning() -> &'static [usize];
+
+    /// The width of a cell of each coordinate's grid.
+    fn cells() -> &'static Self::Q;
+
+    /// The right side of the jerk equation.
+    fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    fn varied_right(
+        &self,
+        _orders: [&Self::Q; 3],
+        _varied: &Self::Varied,
+        _t: f64,
+        _sides: &Self::Sides,
+    ) -> Self::Varied {
+        Self::Varied::ZERO
+    }
+
+    /// The right sides for the derivatives by what the motion goes along.
+    fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
+
+    /// What is measured, from the coordinates with their first three derivatives.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, t: f64) -> Self::Measures;
+}
+
+/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
+    let mut at = Solution::near(q, t);
+    let mut elimination = Elimination::<M>::new();
+    if !settle(m, &mut at, sides, &mut elimination) {
+        return Err(at.fault());
+    }
+    let slopes = m.phi_q(&at.q, t, sides);
+    let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
+    let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
+    let orders = [&at.q, &qd, &qdd];
+    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let rights = m.rights(&at.q, t, sides);
+    for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
+        *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
+    }
+    let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, t);
+    (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
+    at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
+    at.q = without_signs_of_zero(at.q);
+    at.steepest = 1.0 / pivot;
+    let negative = elimination.is_negative.as_ref();
+    for (turned, block) in at.is_negative.as_mut().iter_mut().zip(M::turning()) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration; whether it has arrived.
+fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = m.phi_q(&at.q, at.t, sides);
+        let mut right = m.phi(&at.q, at.t, sides);
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, M::scales());
+        }
+        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
+        if largest(&x, M::cells()) <= HALF_A_CELL {
+            return true;
+        }
+    }
+    false
+}
+
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
+/// each order from those before.
+fn vary<M: Pivoting>(
+    m: &M,
+    elimination: &mut Elimination<M>,
+    slopes: &M::Entries,
+    orders: [&M::Q; 3],
+    t: f64,
+    sides: &M::Sides,
+) -> M::Varied {
+    let mut varied = M::Varied::ZERO;
+    let n = M::scales().as_ref().len();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = m.varied_right(orders, &varied, t, sides);
+            for (number, _) in M::IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * n;
+                let mut right = M::Q::ZERO;
+                let given = rights.as_ref().iter().skip(first);
+                right.as_mut().iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+                let (x, _) = elimination.solve(slopes, &right);
+                let places = varied.as_mut().iter_mut().skip(first);
+                places.zip(x.as_ref()).for_each(|(place, x)| *place = *x);
+            }
+        }
+    }
+    varied
+}
+
+/// The work of solving linear equations in blocks.
+pub struct Elimination<M: Pivoting> {
+    work: M::Work,
+    is_negative: M::Blocks,
+}
+
+impl<M: Pivoting> Elimination<M> {
+    /// Room for the work.
+    pub fn new() -> Self {
+        Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
+        let mut x = M::Q::ZERO;
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
+        (x, pivot)
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
+    let mut bounds = M::Q::ZERO;
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let bound = bounds.as_mut().get_mut(row);
+        let sizes = (M::scales().as_ref().get(column), q.as_ref().get(column), bound);
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += M::TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+}
+
+pub mod lane_solutions {
+//! What solves the equations in every lane.
+
+// what is done in every lane reads best, and vectorises best, with the lane's number
+#![allow(clippy::needless_range_loop)]
+
+use super::measured::Measured;
+use super::solution::Solution;
+use super::state::Timed;
+use core::fmt::Debug;
+
+/// So many numbers, each in every lane.
+pub trait Lists<T, const L: usize>: Copy + Debug + AsRef<[[T; L]]> + AsMut<[[T; L]]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize, const L: usize> Lists<f64, L> for [[f64; L]; K] {
+    const ZERO: Self = [[0.0; L]; K];
+}
+
+impl<const K: usize, const L: usize> Lists<u64, L> for [[u64; L]; K] {
+    const ZERO: Self = [[0; L]; K];
+}
+
+/// A mechanism that is solved in several lanes at once.
+pub trait Laned<const L: usize>: Timed {
+    /// A number for each coordinate.
+    type Coordinates: Lists<f64, L>;
+    /// One for each that Newton solves for.
+    type Guesses: Lists<f64, L>;
+    /// One for each measure; each rate; each acceleration.
+    type Values: Lists<f64, L>;
+    /// See [`Values`](Laned::Values).
+    type Rates: Lists<f64, L>;
+    /// See [`Values`](Laned::Values).
+    type Accelerations: Lists<f64, L>;
+    /// One for each value that only measures need.
+    type OfJoined: Lists<f64, L>;
+    /// What has the sign of its determinant, for each block.
+    type Signs: Lists<u64, L>;
+
+    /// Whether anything must hold beside the equations.
+    const HAS_CHECKS: bool;
+
+    /// Out of all coordinates those that Newton solves for.
+    fn tears_of(q: &Self::Coordinates) -> Self::Guesses;
+
+    /// Position, velocity and acceleration in every lane.
+    fn solve_each(
+        guess: &Self::Guesses,
+        t: &[f64; L],
+        models: &[Self; L],
+        sides: &[Self::Sides; L],
+        at: &mut Solutions<Self, L>,
+    );
+}
+
+/// What solves the equations in every lane.
+#[derive(Clone, Debug)]
+pub struct Solutions<M: Laned<L>, const L: usize> {
+    /// Times (s).
+    pub t: [f64; L],
+    /// Coordinates.
+    pub q: M::Coordinates,
+    /// Velocities.
+    pub qd: M::Coordinates,
+    /// Accelerations.
+    pub qdd: M::Coordinates,
+    /// Measures.
+    pub values: M::Values,
+    /// Their rates.
+    pub rates: M::Rates,
+    /// Their accelerations.
+    pub accelerations: M::Accelerations,
+    /// What only measures need.
+    #[allow(dead_code)] // mostly they need nothing
+    pub joined: M::OfJoined,
+    /// By block: what has the sign of its determinant.
+    pub signs: M::Signs,
+    /// Multipliers, residuals and angles beside what is bearable: 1 at most.
+    pub strain: [f64; L],
+    /// Newton's largest first correction, scaled.
+    pub first: [f64; L],
+    /// Its largest last correction, in cells of the grid.
+    pub open: [f64; L],
+    /// One over the smallest pivot, scaled.
+    pub steepest: [f64; L],
+}
+
+impl<M: Laned<L>, const L: usize> Solutions<M, L> {
+    /// Nothing is solved yet.
+    pub const ZERO: Self = Self {
+        t: [0.0; L],
+        q: M::Coordinates::ZERO,
+        qd: M::Coordinates::ZERO,
+        qdd: M::Coordinates::ZERO,
+        values: M::Values::ZERO,
+        rates: M::Rates::ZERO,
+        accelerations: M::Accelerations::ZERO,
+        joined: M::OfJoined::ZERO,
+        signs: M::Signs::ZERO,
+        strain: [0.0; L],
+        first: [0.0; L],
+        open: [0.0; L],
+        steepest: [0.0; L],
+    };
+
+    /// Makes ready for being solved for.
+    pub fn begin(&mut self, t: &[f64; L]) {
+        self.t = *t;
+        let zero = [0.0; L];
+        (self.strain, self.first, self.open, self.steepest) = (zero, zero, zero, zero);
+        for (signs, is_negative) in self.signs.as_mut().iter_mut().zip(M::turned().as_ref()) {
+            *signs = [u64::from(*is_negative) << 63; L];
+        }
+    }
+
+    /// Coordinates that Newton solves for, with their velocities and accelerations.
+    pub fn tears(&self) -> [M::Guesses; 3] {
+        [M::tears_of(&self.q), M::tears_of(&self.qd), M::tears_of(&self.qdd)]
+    }
+
+    /// Which lanes hold nothing but numbers.
+    pub fn are_finite(&self) -> [bool; L] {
+        let mut sum = [0.0; L];
+        let lists = [&self.q, &self.qd, &self.qdd];
+        for each in lists.into_iter().flat_map(|list| list.as_ref()) {
+            for k in 0..L {
+                sum[k] += 0.0 * each[k];
+            }
+        }
+        sum.map(|sum| sum == 0.0)
+    }
+
+    /// A lane on its own.
+    pub fn lane(&self, lane: usize) -> Solution<M> {
+        let mut at = Solution::<M>::ZERO;
+        at.t = of(&self.t, lane);
+        get(self.q.as_ref(), lane, at.q.as_mut());
+        get(self.qd.as_ref(), lane, at.qd.as_mut());
+        get(self.qdd.as_ref(), lane, at.qdd.as_mut());
+        let [values, rates, accelerations] = at.measures.lists_mut();
+        get(self.values.as_ref(), lane, values);
+        get(self.rates.as_ref(), lane, rates);
+        get(self.accelerations.as_ref(), lane, accelerations);
+        at.measures.leave_out();
+        for (is_negative, signs) in at.is_negative.as_mut().iter_mut().zip(self.signs.as_ref()) {
+            *is_negative = signs.get(lane).is_some_and(|sign| sign >> 63 == 1);
+        }
+        at.steepest = of(&self.steepest, lane);
+        at
+    }
+
+    /// Takes over a lane on its own.
+    pub fn set_lane(&mut self, lane: usize, at: &Solution<M>) {
+        set([at.t].as_slice(), lane, core::slice::from_mut(&mut self.t));
+        set([at.steepest].as_slice(), lane, core::slice::from_mut(&mut self.steepest));
+        set(at.q.as_ref(), lane, self.q.as_mut());
+        set(at.qd.as_ref(), lane, self.qd.as_mut());
+        set(at.qdd.as_ref(), lane, self.qdd.as_mut());
+        let [values, rates, accelerations] = at.measures.lists();
+        set(values, lane, self.values.as_mut());
+        set(rates, lane, self.rates.as_mut());
+        set(accelerations, lane, self.accelerations.as_mut());
+        for (signs, is_negative) in self.signs.as_mut().iter_mut().zip(at.is_negative.as_ref()) {
+            if let Some(sign) = signs.get_mut(lane) {
+                *sign = u64::from(*is_negative) << 63;
+            }
+        }
+    }
+}
+
+/// The number of a lane.
+fn of<const L: usize>(each: &[f64; L], lane: usize) -> f64 {
+    each.get(lane).copied().unwrap_or(f64::NAN)
+}
+
+/// The numbers of a lane.
+fn get<const L: usize>(each: &[[f64; L]], lane: usize, to: &mut [f64]) {
+    to.iter_mut().zip(each).for_each(|(to, each)| *to = of(each, lane));
+}
+
+/// Leaves numbers in a lane.
+fn set<const L: usize>(values: &[f64], lane: usize, to: &mut [[f64; L]]) {
+    for (each, value) in to.iter_mut().zip(values) {
+        if let Some(place) = each.get_mut(lane) {
+            *place = *value;
+        }
+    }
+}
+}
+
+pub mod lane_strain {
+//! What must not be too large in a lane.
+
+use super::lane_solutions::{Laned, Solutions};
+use super::numbers::larger;
+
+impl<M: Laned<L>, const L: usize> Solutions<M, L> {
+    /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
+    #[inline]
+    pub fn watch(&mut self, lane: usize, value: f64, factor: f64) {
+        if let Some(strain) = self.strain.get_mut(lane) {
+            *strain = larger(*strain, value.abs() * factor);
+        }
+    }
+}
+}
+
+pub mod lane_pivots {
+//! What pivots tell of a position in a lane.
+
+use super::lane_solutions::{Laned, Solutions};
+use super::numbers::larger;
+
+impl<M: Laned<L>, const L: usize> Solutions<M, L> {
+    /// Takes note of one over a pivot, and of what makes that a pure number.
+    #[inline]
+    pub fn pivot(&mut self, lane: usize, turn: usize, inverse: f64, weight: f64) {
+        let signs = self.signs.as_mut().get_mut(turn).and_then(|signs| signs.get_mut(lane));
+        if let (Some(sign), Some(steepest)) = (signs, self.steepest.get_mut(lane)) {
+            *sign ^= inverse.to_bits();
+            *steepest = larger(*steepest, inverse.abs() * weight);
+        }
+    }
+}
+}
+
+pub mod lane_newton {
+//! Newton's iteration in lanes.
+
+// what is done in every lane reads best, and vectorises best, with the lane's number
+#![allow(clippy::needless_range_loop)]
+
+use super::lane_solutions::{Laned, Solutions};
+use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
+use super::numbers::larger;
+
+/// An iteration of Newton in every lane, until all have settled or are lost.
+pub struct Settling<const L: usize> {
+    is_first: bool,
+    first: [f64; L],
+    far: [f64; L],
+    open: [f64; L],
+}
+
+impl<const L: usize> Settling<L> {
+    /// It has not begun.
+    pub fn new() -> Self {
+        let zero = [0.0; L];
+        Self { is_first: true, first: zero, far: zero, open: zero }
+    }
+
+    /// Another round begins.
+    pub fn begin(&mut self) {
+        self.open = [0.0; L];
+    }
+
+    /// Corrects a coordinate whose grid has cells so wide, and which is judged against `scale`.
+    #[inline]
+    pub fn correct(&mut self, lane: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
+        let size = delta.abs();
+        if let (Some(far), Some(open)) = (self.far.get_mut(lane), self.open.get_mut(lane)) {
+            *far = larger(*far, size / scale);
+            *open = larger(*open, size / cell);
+        }
+        *x += delta;
+    }
+
+    /// Whether no further iteration is needed, or none helps.
+    pub fn is_done(&mut self) -> bool {
+        if self.is_first {
+            self.first = self.far;
+            self.is_first = false;
+        }
+        let mut pairs = self.open.iter().zip(&self.far);
+        let is_lost = |far: f64| far.is_nan() || far > LARGEST_CORRECTION;
+        pairs.all(|(open, far)| *open <= HALF_A_CELL || is_lost(*far))
+    }
+
+    /// Leaves word of how it went.
+    pub fn note<M: Laned<L>>(&self, at: &mut Solutions<M, L>) {
+        for k in 0..L {
+            at.first[k] = larger(at.first[k], self.first[k]);
+            at.open[k] = larger(at.open[k], self.open[k]);
+            let lost = self.far[k] * (1.0 / LARGEST_CORRECTION);
+            at.strain[k] = larger(at.strain[k], lost);
+        }
+    }
+}
+}
+
+pub mod lanes {
+//! The same for several variants of the mechanism, or several times, at once: in loops over the lanes that a compiler turns into vector
+//! instructions. Each lane has the bits that it would have alone.
+
+// what is done in every lane reads best, and vectorises best, with the lane's number
+#![allow(clippy::needless_range_loop)]
+
+use super::assemble::assemble;
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Error;
+use super::lane_solutions::{Laned, Lists, Solutions};
+use super::limits::{FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP};
+use super::numbers::{Numbers, larger};
+use super::state::{Lead, State};
+use super::step::step_within;
+
+/// As many mechanisms, each with its own parameters, at a time of its own.
+#[derive(Clone, Debug)]
+pub struct States<M: Laned<L>, const L: usize> {
+    pub(super) models: [M; L],
+    /// The solutions of now and the ones before, or the next ones in the making.
+    pub(super) solutions: [Solutions<M, L>; 2],
+    /// Whether those of now are the second.
+    pub(super) is_second: bool,
+    pub(super) is_smooth: [bool; L],
+    pub(super) steepness: [f64; L],
+    pub(super) step: [f64; L],
+    pub(super) sides: [M::Sides; L],
+    pub(super) watched: [M::Watched; L],
+    /// What leads each lane by inputs.
+    pub(super) lead: [M::Lead; L],
+}
+
+impl<M: Laned<L>, const L: usize> States<M, L> {
+    /// The solutions of now.
+    fn now(&self) -> &Solutions<M, L> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The ones before, or the next ones in the making.
+    fn other(&self) -> &Solutions<M, L> {
+        let [first, second] = &self.solutions;
+        if self.is_second { first } else { second }
+    }
+
+    /// Both, to be changed: those of now, and the others.
+    pub(super) fn both(&mut self) -> (&mut Solutions<M, L>, &mut Solutions<M, L>) {
+        let [first, second] = &mut self.solutions;
+        if self.is_second { (second, first) } else { (first, second) }
+    }
+
+    /// The times (s).
+    #[must_use]
+    pub fn t(&self) -> &[f64; L] {
+        &self.now().t
+    }
+
+    /// The coordinates (m, rad), by their indices.
+    #[must_use]
+    pub fn q(&self) -> &M::Coordinates {
+        &self.now().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &M::Coordinates {
+        &self.now().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &M::Coordinates {
+        &self.now().qdd
+    }
+
+    /// A lane on its own; none where there is no such lane.
+    #[must_use]
+    pub fn get(&self, lane: usize) -> Option<State<M>> {
+        let (model, lead) = (self.models.get(lane)?.clone(), self.lead.get(lane)?.clone());
+        let mut solutions = [self.now().lane(lane), self.other().lane(lane)];
+        for at in &mut solutions {
+            at.sides = *self.sides.get(lane)?;
+            at.watched = *self.watched.get(lane)?;
+        }
+        let mut passed = M::Passed::ZERO;
+        passed.as_mut().fill(f64::NEG_INFINITY);
+        Some(State {
+            model,
+            solutions,
+            is_second: false,
+            is_smooth: *self.is_smooth.get(lane)?,
+            steepness: *self.steepness.get(lane)?,
+            step: *self.step.get(lane)?,
+            lead,
+            passed,
+        })
+    }
+
+    /// Takes over where a lane on its own has come to.
+    fn set(&mut self, lane: usize, state: &State<M>) {
+        put(&mut self.step, lane, &state.step);
+        put(&mut self.sides, lane, &state.at().sides);
+        put(&mut self.watched, lane, &state.at().watched);
+        put(&mut self.lead, lane, &state.lead);
+        put(&mut self.is_smooth, lane, &false);
+    }
+
+    /// Moves a lane on its own, and leaves it among the other solutions.
+    fn alone(&mut self, lane: usize, t: f64) -> Result<(), Error> {
+        let Some(mut state) = self.get(lane) else {
+            return Ok(());
+        };
+        // where the solution before was, the one that has been tried is now
+        state.is_smooth = false;
+        let result = step_within(t, &mut state, MOST_STEPS);
+        self.both().1.set_lane(lane, state.at());
+        self.set(lane, &state);
+        result
+    }
+
+    /// Tries one step of every lane; says which ones have got there.
+    fn advance(&mut self, t: &[f64; L]) -> [bool; L] {
+        let is_smooth = self.is_smooth;
+        let [first, second] = &mut self.solutions;
+        let (from, at) = if self.is_second { (second, first) } else { (first, second) };
+        let from = &*from;
+        let mut h = [0.0; L];
+        for k in 0..L {
+            h[k] = t[k] - from.t[k];
+        }
+        let (guess, motion) = guess(from, at, &h, &is_smooth);
+        M::solve_each(&guess, t, &self.models, &self.sides, at);
+        let gap = gap(from, at, &h);
+        let is_finite = at.are_finite();
+        let mut is_done = [false; L];
+        for k in 0..L {
+            let is_short = h[k].abs() <= self.step[k] && h[k] != 0.0;
+            let is_solved = at.strain[k] <= 1.0 && at.steepest[k] <= STEEP * self.steepness[k];
+            is_done[k] = is_solved && is_finite[k] && is_short;
+        }
+        for k in 0..L {
+            let is_near = motion[k] <= LARGEST_MOTION && at.first[k] <= LARGEST_CORRECTION;
+            is_done[k] &= is_near && at.open[k] <= HALF_A_CELL && gap[k] <= LARGEST_GAP;
+        }
+        for (now, before) in at.signs.as_ref().iter().zip(from.signs.as_ref()) {
+            for k in 0..L {
+                is_done[k] &= (now[k] ^ before[k]) >> 63 == 0;
+            }
+        }
+        for k in 0..L {
+            is_done[k] = is_done[k] && self.keeps_branch(k);
+            if is_done[k] {
+                let first = self.other().first[k];
+                let is_calm = first < LARGEST_CORRECTION / 12.0 && gap[k] < LARGEST_GAP / 100.0;
+                let size = h[k].abs();
+                let longest = if is_calm { 2.0 * size } else { 0.0 };
+                let shortest = if is_calm { self.step[k] } else { size };
+                self.step[k] = f64::max(longest, shortest).min(M::LONGEST_STEP);
+                self.is_smooth[k] = true;
+            }
+        }
+        is_done
+    }
+
+    /// Whether a lane's next solution lies on the branches of formulas that it comes from; time takes up alone where inputs have led.
+    fn keeps_branch(&self, lane: usize) -> bool {
+        if self.lead.get(lane).is_none_or(Lead::is_leading) {
+            return false;
+        }
+        if !M::HAS_CHECKS {
+            return true;
+        }
+        let (Some(model), Some(sides), Some(watched)) =
+            (self.models.get(lane), self.sides.get(lane), self.watched.get(lane))
+        else {
+            return false;
+        };
+        let (from, mut at) = (self.now().t.get(lane).copied().unwrap_or(f64::NAN), self.other().lane(lane));
+        let (t, of_time) = (at.t, sides_at(at.t, model));
+        let mut passed = M::Passed::ZERO;
+        passed.as_mut().fill(f64::NEG_INFINITY);
+        if model.first_rim(from, t, &passed).is_some() {
+            return false;
+        }
+        at.sides = of_time;
+        if M::OF_MOTION {
+            at.sides = with_time::<M>(sides, &of_time);
+            at.sides = sides_ahead(&at, model);
+        }
+        at.sides == *sides
+            && model.conditions_hold(&at.q, t, sides)
+            && model.left_out_holds(&at.q, t, sides)
+            && model.watched(&at.q, t, sides) == *watched
+    }
+}
+
+/// Brings the mechanisms to the first time, each with its own parameters; says of each lane why it cannot be assembled, if it cannot.
+/// Such a lane has the parameters of the file.
+#[allow(clippy::type_complexity)] // the states, and an answer for each
+pub fn assemble_each<M: Laned<L>, const L: usize>(
+    params: &[M::Params; L],
+) -> Result<(States<M, L>, [Result<(), Error>; L]), Error> {
+    let one = assemble::<M>(&M::Params::default())?;
+    let mut states = States {
+        models: core::array::from_fn(|_| one.model.clone()),
+        solutions: [Solutions::ZERO, Solutions::ZERO],
+        is_second: false,
+        is_smooth: [false; L],
+        steepness: [one.steepness; L],
+        step: [M::LONGEST_STEP; L],
+        sides: [one.at().sides; L],
+        watched: [one.at().watched; L],
+        lead: core::array::from_fn(|_| one.lead.clone()),
+    };
+    let mut results = [Ok(()); L];
+    for (k, (params, result)) in params.iter().zip(&mut results).enumerate() {
+        let found = assemble(params);
+        *result = found.as_ref().map(|_| ()).map_err(|error| *error);
+        let state = found.unwrap_or_else(|_| one.clone());
+        states.both().0.set_lane(k, state.at());
+        states.set(k, &state);
+        put(&mut states.models, k, &state.model);
+        put(&mut states.steepness, k, &state.steepness);
+    }
+    Ok((states, results))
+}
+
+/// Moves every lane to a time of its own (s); one that asks for more than one step goes its way alone. Says of each lane whether it has
+/// got there, and if not, why; it stays at the last time that it could reach.
+pub fn step_each<M: Laned<L>, const L: usize>(t: &[f64; L], states: &mut States<M, L>) -> [Result<(), Error>; L] {
+    let is_done = states.advance(t);
+    let mut results = [Ok(()); L];
+    for k in 0..L {
+        if !is_done[k] {
+            results[k] = states.alone(k, t[k]);
+        }
+    }
+    states.is_second = !states.is_second;
+    results
+}
+
+/// Where Newton begins in every lane, and how far that is, scaled.
+fn guess<M: Laned<L>, const L: usize>(
+    from: &Solutions<M, L>,
+    before: &Solutions<M, L>,
+    h: &[f64; L],
+    is_smooth: &[bool; L],
+) -> (M::Guesses, [f64; L]) {
+    let (mut back, mut u) = ([0.0; L], [0.0; L]);
+    for k in 0..L {
+        back[k] = from.t[k] - before.t[k];
+        let ratio = h[k] / back[k];
+        let is_known = is_smooth[k] && ratio.abs() <= FARTHEST_BEND;
+        u[k] = if is_known { ratio } else { 0.0 };
+    }
+    let [x, v, a] = from.tears();
+    let [y, w, b] = before.tears();
+    let (mut guess, mut motion) = (M::Guesses::ZERO, [0.0; L]);
+    let now = x.as_ref().iter().zip(v.as_ref()).zip(a.as_ref());
+    let then = y.as_ref().iter().zip(w.as_ref()).zip(b.as_ref());
+    let places = guess.as_mut().iter_mut().zip(M::tear_scales().as_ref());
+    for ((guess, scale), (((x, v), a), ((y, w), b))) in places.zip(now.zip(then)) {
+        for k in 0..L {
+            // as `bend` has it
+            let (h, back, u) = (h[k], back[k], u[k]);
+            let (x, v, a) = (x[k], v[k], a[k]);
+            let value = y[k] - x + back * (v - 0.5 * back * a);
+            let slope = back * (v - back * a - w[k]);
+            let curvature = 0.5 * back * back * (b[k] - a);
+            let cubic = 4.0 * slope - 10.0 * value - curvature;
+            let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+            let quintic = 3.0 * slope - 6.0 * value - curvature;
+            let bend = u * u * u * (cubic + u * (quartic + u * quintic));
+            let way = h * (v + 0.5 * h * a) + bend;
+            guess[k] = x + way;
+            motion[k] = larger(motion[k], way.abs() / scale);
+        }
+    }
+    (guess, motion)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between, scaled.
+fn gap<M: Laned<L>, const L: usize>(from: &Solutions<M, L>, at: &Solutions<M, L>, h: &[f64; L]) -> [f64; L] {
+    let [x, v, a] = from.tears();
+    let [y, w, b] = at.tears();
+    let mut gap = [0.0; L];
+    let then = x.as_ref().iter().zip(v.as_ref()).zip(a.as_ref());
+    let now = y.as_ref().iter().zip(w.as_ref()).zip(b.as_ref());
+    for ((((x, v), a), ((y, w), b)), scale) in then.zip(now).zip(M::tear_scales().as_ref()) {
+        for k in 0..L {
+            let rates = 0.5 * h[k] * (v[k] + w[k]);
+            let bends = h[k] * h[k] * (1.0 / 12.0) * (a[k] - b[k]);
+            let gap_here = y[k] - x[k] - rates - bends;
+            gap[k] = larger(gap[k], gap_here.abs() / scale);
+        }
+    }
+    gap
+}
+
+/// Leaves something in a lane.
+pub fn put<T: Clone>(each: &mut [T], lane: usize, value: &T) {
+    if let Some(place) = each.get_mut(lane) {
+        place.clone_from(value);
+    }
+}
+}
+
+pub mod sine_and_cosine {
 // Sine and cosine of one angle (rad), together: the same bits on every platform, within 1 ulp, for arguments of any size.
 //
 // The angle is reduced to |r + tail| <= pi/4 with `angle = n pi/2 + r + tail`: up to a million by subtracting n times
@@ -2221,13 +3317,9 @@ fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
     let r = product + tail;
     (r, (product - r) + tail)
 }
-
 }
 
-use without_branches::sin_cos_below_a_million;
-
-#[rustfmt::skip]
-mod without_branches {
+pub mod without_branches {
 use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};
 
 // Sine and cosine without a branch, so that a loop over many angles does several at once.
@@ -2244,5 +3336,57 @@ pub fn sin_cos_below_a_million(angle: f64) -> (f64, f64) {
     let turned = |quarter: u64| (quarter & 2) << 62;
     (f64::from_bits(first ^ turned(quarter)), f64::from_bits(second ^ turned(quarter.wrapping_add(1))))
 }
+}
 
+/// Where to stop, and what counts as large.
+pub mod limits {
+/// Rounding may make so much of velocities and accelerations that are given out.
+pub const ACCURACY: f64 = 1e-9;
+/// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
+pub const AHEAD: f64 = 1e-9;
+/// Nothing may move farther than this meanwhile, scaled.
+pub const FARTHEST_AHEAD: f64 = 1e-7;
+/// The step before tells of one that is so many times as long at most.
+pub const FARTHEST_BEND: f64 = 4.0;
+/// A correction of just half a cell of the grid, to rounding, stays in it.
+pub const HALF_A_CELL: f64 = 0.500001;
+/// Iterations of Newton at most.
+pub const ITERATIONS: usize = 6;
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+pub const LARGEST_CORRECTION: f64 = 0.05;
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+pub const LARGEST_GAP: f64 = 0.001;
+/// The largest motion of a step, beside the size of a body or 1 rad.
+pub const LARGEST_MOTION: f64 = 0.5;
+/// How far before a rim its sides are looked at, as a part of the span.
+pub const LEAD: f64 = 0.001;
+/// And at most (s).
+pub const LONGEST_AHEAD: f64 = 1e-9;
+/// How often the branches of formulas are chosen anew at one time.
+pub const MOST_BRANCHES: usize = 8;
+/// Halvings until two times are neighbours.
+pub const MOST_HALVINGS: usize = 100;
+/// Trials on the way from the file's parameters to others at most.
+pub const MOST_PARTS: usize = 10_000;
+/// Steps that one call takes at most that has no bound of its own.
+pub const MOST_STEPS: usize = 1_000_000;
+/// A dead point is no further off than this part of the span.
+pub const NEAR_FOLD: f64 = 1e-5;
+/// A position that changes by more than this at an edge jumps, scaled.
+pub const POSITION_JUMP: f64 = 1e-9;
+/// A speed below this part of one per span is rest, scaled.
+pub const REST: f64 = 0.001;
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+pub const SINGULAR: f64 = 100.0;
+/// So many units in the last place of a time it may be off from what is meant to happen then.
+pub const SLACK: f64 = 4.0;
+/// The smallest part of the way to other parameters.
+pub const SMALLEST_PART: f64 = 1e-6;
+/// One over a pivot, scaled: beyond this the position is looked at more closely.
+pub const STEEP: f64 = 1000.0;
+/// One over a pivot, scaled: beyond this it is too near to a singular one.
+pub const STEEPEST: f64 = 1000000.0;
+/// A velocity that changes by more than this part of the fastest at an edge jumps.
+pub const VELOCITY_JUMP: f64 = 1e-7;
+}
 }

@@ -1,6 +1,7 @@
 //! `Φ`, `Φ_q`, `Φ_t`, `ν`, `γ` and what else the program evaluates, as functions of the coordinates.
 
 use super::code::{Code, Function, Input, Out, Scene};
+use super::goods::Uses;
 use super::names::{Names, VARIED};
 use super::operations::slice;
 use super::tables::{self, Tables};
@@ -23,6 +24,8 @@ pub(super) struct Equations<'e> {
     pub is_led: bool,
     /// What operations written as numbers share; none where they are written as lines.
     pub book: Option<RefCell<Book>>,
+    /// What the functions use.
+    pub uses: RefCell<Uses>,
 }
 
 /// Where a register of the program gets its value that no operation of a function writes.
@@ -92,6 +95,7 @@ impl Equations<'_> {
         if let Some(book) = &self.book {
             return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut());
         }
+        self.uses.borrow_mut().instructions(&instructions, false);
         let segments = [Segment::Once(0..instructions.len())];
         let code = Code { instructions: &instructions, segments: &segments, registers: self.program.registers() };
         let (result, first) = (format!("[f64; {}]", wanted.length), format!("[0.0; {}]", wanted.length));
@@ -130,16 +134,20 @@ impl Equations<'_> {
         lists.push("&[]".to_owned());
         let given = |argument: &str| arguments.iter().any(|(name, _)| *name == argument);
         lists.push(if given("sides") { "sides" } else { "&[]" }.to_owned());
-        let time = if self.is_led { "&p.list(t)" } else { "&[t]" };
+        let time = if self.is_led { "&p.list::<{ 3 * SIGNALS }>(t)" } else { "&[t]" };
         lists.push(if given("t") { time } else { "&[]" }.to_owned());
         lists.extend(ARRAYS.map(|array| if given(array) { array } else { "&[]" }.to_owned()));
-        if self.has_varied() {
-            lists.push(if given(VARIED) { VARIED } else { "&[]" }.to_owned());
+        lists.push(if given(VARIED) { VARIED } else { "&[]" }.to_owned());
+        let mut uses = self.uses.borrow_mut();
+        uses.name("tables", "Arrays");
+        uses.name("tables", "run");
+        if self.is_led {
+            uses.file("way_list");
         }
         let turned = if wanted.negated { "    out = out.map(|value| -value);\n" } else { "" };
         let body = format!(
-            "    let inputs: Inputs<'_> = [{}];\n    let mut out = [0.0; {}];\n    let mut v = [0.0; {}];\n    \
-             run(&{name}_CODE, &[], &inputs, &mut v, &mut out);\n{turned}    out\n",
+            "    let inputs: Arrays<'_> = [{}];\n    let mut out = [0.0; {}];\n    let mut v = [0.0; {}];\n    \
+             run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);\n{turned}    out\n",
             lists.join(", "),
             wanted.length,
             shared.registers,
@@ -186,33 +194,34 @@ impl Equations<'_> {
         })
     }
 
-    /// A register of the program that no operation of a function writes.
-    pub fn input(&self, register: Register) -> Input {
+    /// A register of the program that no operation of a function writes; what it is given, the parameters or a way, is reached as
+    /// `given`, and of sides those of a lane are picked.
+    pub fn input(&self, register: Register, given: &str, lane: &str) -> Input {
         let inputs = &self.program.inputs;
         if let Some(&value) = self.constants.get(&register) {
             return Input::Text(literal(value));
         }
         if let Some(side) = self.sides.get(&register) {
-            return Input::Text(format!("sides[{side}]"));
+            return Input::Text(format!("sides{lane}[{side}]"));
         }
         if register == inputs.time {
             return Input::Text("t".to_owned());
         }
         if let Some(k) = register.checked_sub(inputs.params).filter(|&k| register < inputs.time && k < inputs.time) {
             let name = &self.names.params[k as usize];
-            let of = if self.is_led { "p.params" } else { "p" };
+            let of = if self.is_led { ".params" } else { "" };
             return Input::Bound {
                 name: self.names.param_variables[k as usize].clone(),
-                value: format!("{of}.{name}"),
+                value: format!("{given}{of}.{name}"),
             };
         }
         if inputs.all_signals().contains(&register) {
             let place = register - inputs.signals;
             let (signal, order) = ((place / 3) as usize, (place % 3) as usize);
             let value = match order {
-                0 => format!("p.value({signal}, t)"),
-                1 => format!("p.rates[{signal}]"),
-                _ => format!("p.accelerations[{signal}]"),
+                0 => format!("{given}.value({signal}, t)"),
+                1 => format!("{given}.rates[{signal}]"),
+                _ => format!("{given}.accelerations[{signal}]"),
             };
             return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
         }
@@ -262,7 +271,7 @@ struct EquationScene<'s, 'e> {
 impl Scene for EquationScene<'_, '_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(!self.equations.sides.contains_key(&register) || self.given.contains(&register));
-        self.equations.input(register)
+        self.equations.input(register, "p", "")
     }
 
     fn load(&self, _: Register) -> String {

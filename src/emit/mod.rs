@@ -5,12 +5,17 @@
 
 mod code;
 mod equations;
+mod goods;
 mod json;
 mod latex;
+mod limits;
 mod names;
 mod operations;
 mod package;
 mod params;
+mod print;
+#[cfg(test)]
+mod runtime;
 mod rust;
 mod solution;
 mod tables;

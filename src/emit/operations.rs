@@ -123,23 +123,58 @@ impl<V: FnMut(Register) -> String> Machine for Expression<V> {
     }
 }
 
+/// What a function of numbers is called.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Callee {
+    /// The first and the second of the pair.
+    Sine,
+    Cosine,
+    /// A function that goes along.
+    Own(&'static str),
+    /// A method of numbers.
+    Core(&'static str),
+    /// A function of the crate `libm`.
+    Libm(&'static str),
+}
+
+/// What a function of one argument is called.
+pub(super) fn callee(function: Unary) -> Callee {
+    match function {
+        Unary::Sin => Callee::Sine,
+        Unary::Cos => Callee::Cosine,
+        Unary::Abs => Callee::Core("abs"),
+        Unary::Sign => Callee::Own("sign"),
+        Unary::Ln => Callee::Libm("log"),
+        _ => Callee::Libm(function.word()),
+    }
+}
+
+/// What a function of two arguments is called.
+pub(super) fn callee_of_two(function: Binary) -> Callee {
+    match function {
+        Binary::Min => Callee::Own("lesser"),
+        Binary::Max => Callee::Own("greater"),
+        _ => Callee::Libm(function.word()),
+    }
+}
+
+/// A call with some arguments.
+fn call(callee: Callee, arguments: &str) -> String {
+    match callee {
+        Callee::Sine => format!("sin_cos({arguments}).0"),
+        Callee::Cosine => format!("sin_cos({arguments}).1"),
+        Callee::Own(name) => format!("{name}({arguments})"),
+        Callee::Core(name) => format!("f64::{name}({arguments})"),
+        Callee::Libm(name) => format!("libm::{name}({arguments})"),
+    }
+}
+
 /// A function of one argument as Rust.
 pub(super) fn unary(function: Unary, a: &str) -> String {
-    match function {
-        Unary::Sin => format!("sin_cos({a}).0"),
-        Unary::Cos => format!("sin_cos({a}).1"),
-        Unary::Abs => format!("f64::abs({a})"),
-        Unary::Sign => format!("sign({a})"),
-        Unary::Ln => format!("libm::log({a})"),
-        _ => format!("libm::{}({a})", function.word()),
-    }
+    call(callee(function), a)
 }
 
 /// A function of two arguments as Rust.
 pub(super) fn binary(function: Binary, a: &str, b: &str) -> String {
-    match function {
-        Binary::Min => format!("lesser({a}, {b})"),
-        Binary::Max => format!("greater({a}, {b})"),
-        _ => format!("libm::{}({a}, {b})", function.word()),
-    }
+    call(callee_of_two(function), &format!("{a}, {b}"))
 }

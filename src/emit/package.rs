@@ -6,7 +6,7 @@
 use super::Unit;
 use super::names::{Case, Namer, is_keyword};
 use super::params::Params;
-use super::rust;
+use super::rust::{self, Module};
 use super::text::{lines, literal, one_line};
 use crate::ir::Measure;
 use std::fmt::Display;
@@ -69,8 +69,8 @@ pub const MARK: &str = "ritten by mechc ";
 /// crate's, the next to it that can.
 #[must_use]
 pub fn package(unit: &Unit<'_>, reference: &Reference, folder: &str) -> Vec<File> {
-    let module = rust(unit);
-    let writer = Writer { unit, reference, name: crate_name(folder), needs_libm: module.contains("libm::") };
+    let Module { text: module, needs_libm } = rust::module(unit);
+    let writer = Writer { unit, reference, name: crate_name(folder), needs_libm };
     vec![
         File { path: "Cargo.toml", text: writer.manifest() },
         File { path: "README.md", text: writer.page() },
@@ -408,7 +408,7 @@ mod tests {
 
     #[test]
     fn the_page_has_every_error() {
-        let state = include_str!("runtime/state.rs");
+        let state = include_str!("runtime/error.rs");
         let arms = state.lines().filter_map(|line| line.trim().strip_prefix("Error::")?.split_once(" => \""));
         let mut count = 0;
         for (error, text) in arms {

@@ -3,15 +3,14 @@
 use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute};
 use super::equations::Equations;
 use super::names::Names;
+use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
-use super::text::{constant, documented, lines, literal};
+use super::text::literal;
 use super::{Motion, Unit};
 use crate::layout::RowLayout;
 use crate::program::{Column, Register};
 use crate::solver::{Instruction, Segment, Solver};
-use crate::tolerances::solving::lanes::{HALF_A_CELL, ITERATIONS, LARGEST_CORRECTION};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
-use crate::tolerances::steps::march::{FEWEST_STEPS, SMALLEST_STEP};
 use rustc_hash::FxHashMap;
 
 /// What the solver's function is written from.
@@ -59,14 +58,14 @@ impl<'s> Solution<'s> {
         self.known.entry(register).or_insert(next);
     }
 
-    /// What a column of a table is called.
-    fn column(&self, table: u32, column: Column) -> String {
+    /// What a column of a table is called, in a lane or alone.
+    fn column(&self, table: u32, column: Column, lane: &str) -> String {
         if self.equations.is_constant(table, column) {
             return self.equations.table(table, column);
         }
         let cells = self.unit.program.tables()[table as usize].column(column);
         let first = self.known.get(&cells.start).copied().unwrap_or(0);
-        format!("m.known[{first}..{}]", first + cells.len())
+        format!("m{lane}.known[{first}..{}]", first + cells.len())
     }
 
     /// Whether anything is left to iterate for.
@@ -121,8 +120,21 @@ impl<'s> Solution<'s> {
             out: Out::Given { begin: "at.begin(t);" },
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
+        self.note(solver, has_lanes);
         let layout = *solver.layout();
         code.print(&SolverScene { solution: self, solver, layout, has_lanes }, &function)
+    }
+
+    /// Notes what a solver's operations use as lines.
+    fn note(&self, solver: &Solver, has_lanes: bool) {
+        let mut uses = self.equations.uses.borrow_mut();
+        uses.instructions(solver.instructions(), has_lanes);
+        if !solver.tears().is_empty() {
+            uses.name("limits", "ITERATIONS");
+            uses.name("grid", "on_grid");
+            let (file, name) = if has_lanes { ("lane_newton", "Settling") } else { ("newton", "Newton") };
+            uses.name(file, name);
+        }
     }
 
     /// The function that gives the derivatives of the coordinates by parameters too; none where they are not wanted.
@@ -151,37 +163,13 @@ impl<'s> Solution<'s> {
             out: Out::Given { begin: "at.begin(t);" },
             margin: 0,
         };
+        self.note(solver, false);
         let layout = *solver.layout();
         Some(code.print(&SolverScene { solution: self, solver, layout, has_lanes: false }, &function))
     }
 
-    /// The function that reads its operations from lists of numbers, with these lists.
-    pub fn as_numbers(&self, template: &str, book: &mut Book) -> String {
-        template.to_owned() + &self.lists(&self.motion.solver, "", book)
-    }
-
-    /// The function that gives the derivatives of the coordinates by parameters too, likewise; none where they are not wanted.
-    pub fn sensitive_as_numbers(&self, template: &str, book: &mut Book) -> Option<String> {
-        let solver = self.motion.sensitive.as_ref()?;
-        let (_, solve) = template.split_once(SOLVE_AS_NUMBERS)?;
-        let solve = solve
-            .replace("fn solve(", "fn solve_by_params(")
-            .replace("at: &mut Solution", "at: &mut Solution, by: &mut [Q; PARAMS]")
-            .replace("at.begin(t);", "at.begin(t);\n    let mut all = Derivatives { at, by };")
-            .replace("&mut v, at)", "&mut v, &mut all)")
-            .replace("at.note(", "all.at.note(");
-        let named = |text: String| {
-            ["REGISTERS", "SEGMENTS", "SETTLING", "SOLVE"]
-                .into_iter()
-                .fold(text, |text, name| text.replace(name, &format!("{name}_BY_PARAMS")))
-        };
-        let results = (self.results() + self.joined.len() as u32).to_string();
-        let lists = self.lists(solver, "_BY_PARAMS", book);
-        Some(BY_PARAMS.replace("$results", &results) + "/// As [`solve`], with" + &named(solve) + &lists)
-    }
-
-    /// The lists of numbers of a solver's operations, by names with an ending.
-    fn lists(&self, solver: &Solver, ending: &str, book: &mut Book) -> String {
+    /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
+    pub fn listing(&self, solver: &Solver, ending: &str, book: &mut Book, page: &mut Page) {
         let Shared { instructions, segments, registers } =
             tape::share(solver.instructions(), solver.segments(), solver.registers());
         let notes = Notes {
@@ -194,36 +182,48 @@ impl<'s> Solution<'s> {
         };
         let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
         let Tape { words, starts } = book.encode(&instructions, self.equations, &self.known, &notes);
-        let (mut list, mut settling) = (String::new(), Vec::new());
+        let (mut list, mut settling) = (Vec::new(), Vec::new());
         for segment in &segments {
             let (range, tears) = match segment {
                 Segment::Once(range) => (range, &[][..]),
                 Segment::Newton { instructions, tears } => (instructions, tears.as_slice()),
             };
-            let first = settling.len();
+            let (first, code) = (settling.len(), [starts[range.start], starts[range.end]]);
             settling.extend(tears.iter().map(|tear| {
-                let sizes = [literal(tear.cell), literal(tear.scale)].join(", ");
-                format!("([{}, {}], [{sizes}])", tear.x, tear.delta)
+                let (registers, sizes) = ([tear.x, tear.delta], [tear.cell, tear.scale]);
+                format!("Settling {{ registers: {registers:?}, sizes: {sizes:?} }}")
             }));
-            let code = [starts[range.start], starts[range.end]];
-            let tears = format!(", tears: [{first}, {}]", settling.len());
-            let tears = if self.has_newton() { tears } else { String::new() };
-            list += &format!("    Segment {{ code: {code:?}{tears} }},\n");
+            list.push(format!("Segment {{ code: {code:?}, tears: [{first}, {}] }}", settling.len()));
+        }
+        let mut uses = self.equations.uses.borrow_mut();
+        uses.name("listed", "Listing");
+        uses.name("listed", "Segment");
+        if !settling.is_empty() {
+            uses.name("listed", "Settling");
         }
         let solve = format!("solve{}", ending.to_lowercase());
-        let mut text = format!("/// Registers of [`{solve}`].\nconst REGISTERS{ending}: usize = {registers};\n\n");
-        text += &format!("/// What [`{solve}`] runs, in order.\n#[rustfmt::skip]\n");
-        text += &format!("static SEGMENTS{ending}: [Segment; {}] = [\n{list}];\n\n", segments.len());
-        if self.has_newton() {
-            text += "/// Of each coordinate that Newton solves for: the registers of it and of its correction, the width of a cell of its\n\
-                /// grid, and what it is judged against.\n#[rustfmt::skip]\n";
-            text += &format!(
-                "static SETTLING{ending}: [([usize; 2], [f64; 2]); {}] = [\n{}];\n\n",
-                settling.len(),
-                lines(&settling, "")
-            );
-        }
-        text + &tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words)
+        page.constant(
+            &format!("Registers of [`{solve}`]."),
+            &format!("const REGISTERS{ending}: usize"),
+            &registers.to_string(),
+        );
+        page.docs(&format!("What [`{solve}`] runs."));
+        page.line("#[rustfmt::skip]");
+        page.block(&format!("static LISTING{ending}: Listing = Listing"), |page| {
+            for (name, values) in [("segments", list), ("settling", settling)] {
+                page.line(&format!("{name}: &["));
+                values.iter().for_each(|value| page.line(&format!("    {value},")));
+                page.line("],");
+            }
+            page.line(&format!("code: &SOLVE{ending},"));
+        });
+        page.end_statement();
+        page.text(&tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words));
+    }
+
+    /// The column of the first derivative by parameters.
+    pub fn first_by_params(&self) -> u32 {
+        self.results() + self.joined.len() as u32
     }
 
     /// The place behind the lists of results of a solution, one behind the other.
@@ -252,7 +252,7 @@ impl<'s> Solution<'s> {
     }
 
     /// By coordinate that Newton solves for: the width of a cell of its grid.
-    fn cells(&self) -> Vec<f64> {
+    pub fn cells(&self) -> Vec<f64> {
         let solver = &self.motion.solver;
         let mut cell_of: FxHashMap<Register, f64> = FxHashMap::default();
         for segment in solver.segments() {
@@ -268,135 +268,6 @@ impl<'s> Solution<'s> {
         }
         cells
     }
-
-    /// The constants that the functions of the motion use.
-    pub fn constants(&self, solve: &str, has_lanes: bool) -> String {
-        let Motion { solver, q, from, to, .. } = self.motion;
-        let (n, tears) = (q.len(), solver.tears());
-        let coordinates = &self.unit.system.coordinates;
-        let span = to.map_or(1.0, |to| if to > *from { to - from } else { 1.0 });
-        let number = |docs: &str, name: &str, value: f64| {
-            format!("{}const {name}: f64 = {};\n\n", documented(docs, ""), literal(value))
-        };
-        let numbers = |values: &mut dyn Iterator<Item = f64>| values.map(literal).collect::<Vec<String>>();
-        let is_led = self.equations.is_led;
-        let mut text = String::new();
-        if !is_led {
-            text += &format!(
-                "/// The first time of the file's analysis (s), at which the mechanism is assembled.\n\
-                 pub const START_TIME: f64 = {};\n\n",
-                literal(*from)
-            );
-            text += &number("How long the file's analysis takes (s).", "SPAN", span);
-            text += &("/// The longest step (s).\npub ".to_owned() + &number("", "LONGEST_STEP", span / FEWEST_STEPS));
-            text += &number("The shortest step (s).", "SMALLEST_STEP", SMALLEST_STEP * span);
-        }
-        let iterates = self.has_newton() || self.motion.blocks.is_some();
-        if iterates {
-            text += &format!("/// Iterations of Newton at most.\nconst ITERATIONS: usize = {ITERATIONS};\n\n");
-        }
-        text += &number(
-            "Newton's first correction at most, beside the size of a body or 1 rad.",
-            "LARGEST_CORRECTION",
-            LARGEST_CORRECTION,
-        );
-        if iterates {
-            text += &number(
-                "A correction of just half a cell of the grid, to rounding, stays in it.",
-                "HALF_A_CELL",
-                HALF_A_CELL,
-            );
-        }
-        if solve.contains("LARGEST_MULTIPLIER") {
-            text += &number("A multiplier beyond this loses digits.", "LARGEST_MULTIPLIER", LARGEST_MULTIPLIER);
-        }
-        text += "/// Number of coordinates that Newton solves for; the others follow.\n";
-        text += &format!("const TEARS: usize = {};\n\n", tears.len());
-        text += &constant(
-            "What a change of each of them is judged against (m, or 1 rad).",
-            "TEAR_SCALES",
-            "f64",
-            "TEARS",
-            &numbers(&mut tears.iter().map(|&tear| coordinates[tear as usize].scale)),
-        );
-        if has_lanes {
-            text += &constant(
-                "The width of a cell of the grid of each of them.",
-                "TEAR_CELLS",
-                "f64",
-                "TEARS",
-                &numbers(&mut self.cells().into_iter()),
-            );
-        }
-        if !is_led {
-            text += &constant(
-                "What a change of each coordinate is judged against.",
-                "SCALES",
-                "f64",
-                "N",
-                &numbers(&mut coordinates.iter().map(|coordinate| coordinate.scale)),
-            );
-            text +=
-                &constant("The assembled position (m, rad).", "START", "f64", "N", &numbers(&mut q.iter().copied()));
-        }
-        text += "/// Number of blocks of equations whose determinants change with the position.\n";
-        text += &format!("const TURNS: usize = {};\n\n", solver.turns().len());
-        let turned: Vec<String> = solver.turns().iter().map(|turn| turn.is_negative.to_string()).collect();
-        text +=
-            &constant("Whether they are negative where all pivots are positive.", "TURNED", "bool", "TURNS", &turned);
-        if !self.joined.is_empty() {
-            text += "/// Number of values that measures join, beside those that are given out.\n";
-            text += &format!("const JOINED: usize = {};\n\n", self.joined.len());
-        }
-        debug_assert_eq!(n, coordinates.len());
-        text + &self.tables()
-    }
-
-    /// The tables for elimination with partial pivoting.
-    fn tables(&self) -> String {
-        let Some(tables) = &self.motion.blocks else {
-            return String::new();
-        };
-        let cells: Vec<String> = tables.cells.iter().copied().map(literal).collect();
-        let turning: Vec<String> = self.motion.solver.turns().iter().map(|turn| turn.block.to_string()).collect();
-        let mut text = constant("The width of a cell of each coordinate's grid.", "CELLS", "f64", "N", &cells);
-        text += "/// Number of blocks of equations that can be solved one after the other.\n";
-        text += &format!("const BLOCKS: usize = {};\n\n", tables.sizes.len());
-        text += &constant("The blocks whose determinants change.", "TURNING", "usize", "TURNS", &turning);
-        text += "/// Numbers that the elimination of the largest block works on.\n";
-        text += &format!("const WORK: usize = blocks::work_of({});\n\n", tables.largest());
-        text += "/// What may be left of an equation, beside the norm of its row.\n";
-        text += &format!("const TOLERANCE: f64 = {};\n\n", literal(self.motion.tolerance));
-        text += "/// How the equations fall apart into blocks.\n#[rustfmt::skip]\nstatic EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {\n";
-        let mut list = |name: &str, values: Vec<String>| {
-            text += &format!("    {name}: &[\n{}    ],\n", lines(&values, "    "));
-        };
-        let whole = |values: &[usize]| values.iter().map(usize::to_string).collect::<Vec<String>>();
-        list("sizes", whole(&tables.sizes));
-        list("rows", whole(&tables.rows));
-        list("columns", whole(&tables.columns));
-        list("starts", whole(&tables.starts));
-        list("entries", whole(&tables.entries));
-        list("places", whole(&tables.places));
-        list("units", tables.units.iter().copied().map(literal).collect());
-        text + "};\n\n"
-    }
-
-    /// The coordinates that Newton solves for, out of all.
-    pub fn tears(&self) -> String {
-        let tears: Vec<String> = self.motion.solver.tears().iter().map(|tear| format!("q[{tear}]")).collect();
-        if tears.len() > MOST_TEARS_IN_LINE {
-            let columns: Vec<String> = self.motion.solver.tears().iter().map(u32::to_string).collect();
-            return constant("Which coordinates Newton solves for.", "TEAR_COLUMNS", "usize", "TEARS", &columns)
-                + TEARS_BY_TABLE;
-        }
-        let body =
-            if tears.is_empty() { "    []\n".to_owned() } else { format!("    [\n{}    ]\n", lines(&tears, "    ")) };
-        let q = if tears.is_empty() { "_q" } else { "q" };
-        format!(
-            "/// Of all coordinates those that Newton solves for.\n#[rustfmt::skip]\nfn tears({q}: &[f64; N]) -> [f64; TEARS] {{\n{body}}}\n\n"
-        )
-    }
 }
 
 /// The columns that a solver stores to read them again, but those of results.
@@ -411,26 +282,6 @@ fn joined(solver: &Solver) -> Vec<u32> {
     columns.dedup();
     columns
 }
-
-/// Where the function begins that reads its operations from lists of numbers.
-const SOLVE_AS_NUMBERS: &str = "/// Position, velocity and acceleration at a time, by";
-
-/// What it leaves derivatives by parameters in.
-const BY_PARAMS: &str = include_str!("runtime/by_params.rs");
-
-/// More coordinates that Newton solves for are looked up in a table.
-const MOST_TEARS_IN_LINE: usize = 64;
-
-const TEARS_BY_TABLE: &str = "/// Of all coordinates those that Newton solves for.
-fn tears(q: &[f64; N]) -> [f64; TEARS] {
-    let mut tears = [0.0; TEARS];
-    for (tear, column) in tears.iter_mut().zip(&TEAR_COLUMNS) {
-        *tear = q.get(*column).copied().unwrap_or(f64::NAN);
-    }
-    tears
-}
-
-";
 
 /// Breaks documentation into lines.
 pub(super) fn wrapped(text: &str) -> String {
@@ -492,18 +343,13 @@ impl Scene for SolverScene<'_> {
     }
 
     fn load(&self, register: Register) -> String {
+        let lane = self.lane();
         if let Some(place) = self.solution.known.get(&register) {
-            return format!("m{}.known[{place}]", self.lane());
+            return format!("m{lane}.known[{place}]");
         }
-        match self.solution.equations.input(register) {
-            Input::Bound { value, .. } => {
-                let of = if self.solution.equations.is_led { "way." } else { "params." };
-                format!("m{}.{}", self.lane(), value.replacen("p.", of, 1))
-            }
-            Input::Text(text) if text.starts_with("sides") => {
-                text.replacen("sides", &format!("sides{}", self.lane()), 1)
-            }
-            Input::Text(text) => text,
+        let of = if self.solution.equations.is_led { "way" } else { "params" };
+        match self.solution.equations.input(register, &format!("m{lane}.{of}"), lane) {
+            Input::Bound { value, .. } | Input::Text(value) => value,
         }
     }
 
@@ -515,7 +361,7 @@ impl Scene for SolverScene<'_> {
             let inputs = &self.solution.unit.program.inputs;
             let (number, k) = (k / inputs.n, k % inputs.n);
             return match number.checked_sub(inputs.count) {
-                None => format!("at.by_signal[{number}][{k}]"),
+                None => format!("at.along.by_signal[{number}][{k}]"),
                 Some(param) => format!("by[{param}][{k}]"),
             };
         }
@@ -538,8 +384,7 @@ impl Scene for SolverScene<'_> {
     }
 
     fn table(&self, table: u32, column: Column) -> String {
-        let column = self.solution.column(table, column);
-        column.strip_prefix("m.").map_or(column.clone(), |known| format!("m{}.{known}", self.lane()))
+        self.solution.column(table, column, self.lane())
     }
 
     fn cells(&self, _: u32, _: Column) -> Vec<Register> {

@@ -4,8 +4,9 @@
 //! for a large stack.
 
 use super::equations::{Equations, Loaded};
-use super::operations::{binary, unary};
-use super::text::{lines, literal};
+use super::operations::{binary, callee, callee_of_two, unary};
+use super::print::{Head, Page};
+use super::text::literal;
 use crate::expr::{Binary, Unary};
 use crate::program::{Column, Op, Register, codes};
 use crate::solver::{Instruction, Segment, from_bits};
@@ -207,42 +208,61 @@ impl Book {
         words.extend(about);
     }
 
-    /// The numbers, and the functions by their numbers.
-    pub fn print(&self, equations: &Equations<'_>) -> String {
+    /// The numbers, the functions and the columns of tables by their numbers.
+    pub fn print(&self, equations: &Equations<'_>, page: &mut Page) {
+        let mut uses = equations.uses.borrow_mut();
+        uses.name("tables", "Book");
         let values: Vec<String> = self.numbers.values.iter().copied().map(literal).collect();
-        let mut text = format!(
-            "/// The numbers among the operations.\n#[rustfmt::skip]\nstatic NUMBERS: [f64; {}] = [\n{}];\n\n",
-            values.len(),
-            lines(&values, "")
-        );
-        let arm = |number: &u32, call: String| format!("        {number} => {call},\n");
-        let arms: String = self.unary.iter().map(|(number, of)| arm(number, unary(*of, "a"))).collect();
-        text += &choice("unary_function", "a function of one argument", &["a: f64"], "f64", &arms);
-        let arms: String = self.binary.iter().map(|(number, of)| arm(number, binary(*of, "a", "b"))).collect();
-        text += &choice("binary_function", "a function of two arguments", &["a: f64", "b: f64"], "f64", &arms);
-        let mut arms = String::new();
+        page.docs("The numbers among the operations.");
+        page.line("#[rustfmt::skip]");
+        page.list(&format!("static NUMBERS: [f64; {}] = [", values.len()), &values, "];");
+        page.blank();
+        page.docs("What operations name by numbers.");
+        page.line("struct Numbers;\n");
+        let mut unary_arms = Vec::new();
+        for (number, of) in &self.unary {
+            uses.callee(callee(*of));
+            unary_arms.push((*number, unary(*of, "a")));
+        }
+        let mut binary_arms = Vec::new();
+        for (number, of) in &self.binary {
+            uses.callee(callee_of_two(*of));
+            binary_arms.push((*number, binary(*of, "a", "b")));
+        }
+        let mut column_arms = Vec::new();
         for table in 0..equations.program.tables().len() as u32 {
             for column in Column::ALL {
                 let number = table * Column::ALL.len() as u32 + column.number();
-                arms += &arm(&number, format!("&{}", equations.table(table, column)));
+                column_arms.push((number, format!("&{}", equations.table(table, column))));
             }
         }
-        text + &choice("column_of_table", "a column of a table", &[], "&'static [f64]", &arms)
+        page.line("#[rustfmt::skip]");
+        page.item("impl Book for Numbers", |page| {
+            let number = Head { kind: "fn", name: "number", arguments: &[("number", "usize")], result: "f64" };
+            page.function(&number, |page| page.line("NUMBERS.get(number).copied().unwrap_or(f64::NAN)"));
+            choice(page, "unary", &["a"], "f64", &unary_arms);
+            choice(page, "binary", &["a", "b"], "f64", &binary_arms);
+            choice(page, "column", &[], "&'static [f64]", &column_arms);
+        });
     }
 }
 
 /// A function that gives one of several things by its number.
-fn choice(name: &str, what: &str, arguments: &[&str], result: &str, arms: &str) -> String {
+fn choice(page: &mut Page, name: &str, arguments: &[&str], result: &str, arms: &[(u32, String)]) {
     let none = if result == "f64" { "f64::NAN" } else { "&[]" };
     let mark = |name: &str| if arms.is_empty() { format!("_{name}") } else { name.to_owned() };
-    let arguments: Vec<String> = std::iter::once(&"number: usize").chain(arguments).map(|name| mark(name)).collect();
-    let body = if arms.is_empty() {
-        format!("    {none}\n")
-    } else {
-        format!("    match number {{\n{arms}        _ => {none},\n    }}\n")
-    };
-    let arguments = arguments.join(", ");
-    format!("/// Gives {what}, by its number.\n#[rustfmt::skip]\nfn {name}({arguments}) -> {result} {{\n{body}}}\n\n")
+    let names: Vec<String> = std::iter::once(&"number").chain(arguments).map(|name| mark(name)).collect();
+    let types = std::iter::once("usize").chain(std::iter::repeat("f64"));
+    let arguments: Vec<(&str, &str)> = names.iter().map(String::as_str).zip(types).collect();
+    page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
+        if arms.is_empty() {
+            return page.line(none);
+        }
+        page.block("match number", |page| {
+            arms.iter().for_each(|(number, value)| page.line(&format!("{number} => {value},")));
+            page.line(&format!("_ => {none},"));
+        });
+    });
 }
 
 /// A list of words.

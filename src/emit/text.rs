@@ -39,17 +39,6 @@ pub(super) fn contains_word(text: &str, word: &str) -> bool {
     })
 }
 
-/// Whether a text calls a function.
-pub(super) fn is_called(text: &str, function: &str) -> bool {
-    let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == ':';
-    text.match_indices(&format!("{function}(")).any(|(at, _)| !text[..at].ends_with(is_part))
-}
-
-/// Text some columns to the right.
-pub(super) fn indented(text: &str, by: &str) -> String {
-    text.lines().map(|line| if line.is_empty() { "\n".to_owned() } else { format!("{by}{line}\n") }).collect()
-}
-
 /// The head of a function that will stand some columns to the right; an argument that the body does not use is marked.
 pub(super) fn signature(
     visibility: &str,
@@ -85,28 +74,9 @@ pub(super) fn constant(docs: &str, name: &str, of: &str, length: &str, values: &
     format!("{docs}#[rustfmt::skip]\nstatic {name}: [{of}; {length}] = [\n{}];\n\n", lines(values, ""))
 }
 
-/// A text of Rust in which the lines between `//# if NAME` and `//# end` stay if that is wanted, `//# if !NAME` if not.
-pub(super) fn chosen(template: &str, wanted: &[(&str, bool)]) -> String {
-    let mut text = String::new();
-    let mut stays = Vec::new();
-    for line in template.lines() {
-        let trimmed = line.trim_start();
-        if let Some(name) = trimmed.strip_prefix("//# if ") {
-            let (name, sign) = name.strip_prefix('!').map_or((name, true), |name| (name, false));
-            stays.push(wanted.iter().any(|(known, is_wanted)| *known == name && *is_wanted == sign));
-        } else if trimmed == "//# end" {
-            stays.pop();
-        } else if stays.iter().all(|stays| *stays) {
-            text += line;
-            text.push('\n');
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{chosen, contains_word, signature};
+    use super::{contains_word, signature};
 
     #[test]
     fn words_are_whole() {
@@ -127,12 +97,5 @@ mod tests {
             ("third", "&mut [f64; 12345678901234]"),
         ];
         assert!(signature("", "long", &long, "", "first second third", 0).starts_with("fn long(\n    first: "));
-    }
-
-    #[test]
-    fn templates_keep_what_is_wanted() {
-        let template = "a\n//# if b\nb\n//# if !c\nbc\n//# end\n//# end\nd\n";
-        assert_eq!(chosen(template, &[("b", true), ("c", false)]), "a\nb\nbc\nd\n");
-        assert_eq!(chosen(template, &[("b", false), ("c", false)]), "a\nd\n");
     }
 }

@@ -8,6 +8,7 @@
 
 pub mod assembly;
 pub mod determinacy;
+pub mod emitted;
 pub mod results;
 pub mod scales;
 pub mod singular;

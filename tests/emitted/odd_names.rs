@@ -12,6 +12,23 @@
 #![allow(clippy::approx_constant, clippy::eq_op)]
 #![allow(clippy::excessive_precision, clippy::large_const_arrays)]
 
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::either::either;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::select::select;
+use runtime::sign::sign;
+use runtime::sine_and_cosine::sin_cos;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
 /// The parameters, in SI; those of the file by default.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Params {
@@ -49,8 +66,7 @@ impl Default for Params {
     }
 }
 
-impl Params {
-    /// Part of the way from these to others.
+impl Parameters for Params {
     #[rustfmt::skip]
     fn towards(&self, other: &Self, part: f64) -> Self {
         Self {
@@ -161,7 +177,7 @@ pub struct Pose {
 impl Pose {
     /// That of a body, out of the coordinates or their derivatives.
     #[rustfmt::skip]
-    #[must_use]
+#[must_use]
     pub fn of(q: &[f64; N], body: Body) -> Self {
         match body {
             Body::Loop => Self { x: q[0], y: q[1], phi: q[2] },
@@ -336,129 +352,68 @@ pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
     full
 }
 
-/// Number of results at a time.
-pub const COLUMNS: usize = 19;
-
-/// Why a mechanism could not be brought to a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Error {
-    /// The time, a parameter or a formula is not a number.
-    NotANumber,
-    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
-    LockUp,
-    /// Two branches of the motion meet: which one goes on is not determined.
-    Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
-    Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
-    TooFar,
-    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
-    NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
-    Inconsistent,
-}
-
-impl core::fmt::Display for Error {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
-            Error::LockUp => "the mechanism locks up: its driver cannot go on",
-            Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
-            Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
-        })
-    }
-}
-
-impl core::error::Error for Error {}
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
 
 /// The mechanism at a time.
-#[derive(Clone, Debug)]
-pub struct State {
-    model: Model,
-    /// The solution of now and the one before, or the next one in the making.
-    solutions: [Solution; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// How much steeper these parameters make the equations than the file's.
-    steepness: f64,
-    /// The step that goes well (s).
-    step: f64,
-}
+pub type State = runtime::state::State<Model>;
 
 impl State {
-    /// The solution of now.
-    fn at(&self) -> &Solution {
-        let [first, second] = &self.solutions;
-        if self.is_second { second } else { first }
-    }
-
-    /// The time (s).
-    #[must_use]
-    pub fn t(&self) -> f64 {
-        self.at().t
-    }
-
-    /// The parameters.
-    #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.model.params
-    }
-
-    /// The coordinates (m, rad), by the indices in [`coordinate`].
-    #[must_use]
-    pub fn q(&self) -> &Q {
-        &self.at().q
-    }
-
-    /// Their velocities (m/s, rad/s).
-    #[must_use]
-    pub fn qd(&self) -> &Qd {
-        &self.at().qd
-    }
-
-    /// Their accelerations (m/s^2, rad/s^2).
-    #[must_use]
-    pub fn qdd(&self) -> &Qdd {
-        &self.at().qdd
-    }
-
     /// Where a body is (m, m, rad).
     #[must_use]
     pub fn pose(&self, body: Body) -> Pose {
-        Pose::of(&self.at().q, body)
+        Pose::of(self.q(), body)
     }
 
     /// How fast a body moves (m/s, m/s, rad/s).
     #[must_use]
     pub fn velocity(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qd, body)
+        Pose::of(self.qd(), body)
     }
 
     /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
     #[must_use]
     pub fn acceleration(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qdd, body)
-    }
-
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
-    /// then their first and their second derivatives.
-    #[must_use]
-    pub fn row(&self) -> [f64; COLUMNS] {
-        let at = self.at();
-        let all = at.q.iter().chain(&at.qd).chain(&at.qdd);
-        let mut row = [at.t; COLUMNS];
-        for (cell, value) in row.iter_mut().skip(1).zip(all) {
-            *cell = *value;
-        }
-        row
+        Pose::of(self.qdd(), body)
     }
 }
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    runtime::assemble::assemble(params)
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+/// At the end of the file's analysis the formulas of time take their earlier branches, as
+/// `mechc run` has it; at any other time where they change, the later ones.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    runtime::step::step_within(t, state, most)
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 19;
 
 /// The first time of the file's analysis (s), at which the mechanism is assembled.
 pub const START_TIME: f64 = 0.0;
@@ -471,21 +426,6 @@ pub const LONGEST_STEP: f64 = 0.028125;
 
 /// The shortest step (s).
 const SMALLEST_STEP: f64 = 9e-13;
-
-/// Iterations of Newton at most.
-const ITERATIONS: usize = 6;
-
-/// Newton's first correction at most, beside the size of a body or 1 rad.
-const LARGEST_CORRECTION: f64 = 0.05;
-
-/// A correction of just half a cell of the grid, to rounding, stays in it.
-const HALF_A_CELL: f64 = 0.500001;
-
-/// Number of coordinates that Newton solves for; the others follow.
-const TEARS: usize = 0;
-
-/// What a change of each of them is judged against (m, or 1 rad).
-static TEAR_SCALES: [f64; TEARS] = [];
 
 /// What a change of each coordinate is judged against.
 #[rustfmt::skip]
@@ -501,86 +441,8 @@ static START: [f64; N] = [
     0.024999999999999998, 0.9424777960769378,
 ];
 
-/// Number of blocks of equations whose determinants change with the position.
-const TURNS: usize = 0;
-
-/// Whether they are negative where all pivots are positive.
-static TURNED: [bool; TURNS] = [];
-
-/// The width of a cell of each coordinate's grid.
-#[rustfmt::skip]
-static CELLS: [f64; N] = [
-    2.3283064365386963e-10, 2.3283064365386963e-10, 7.450580596923828e-9, 2.3283064365386963e-10,
-    2.3283064365386963e-10, 7.450580596923828e-9,
-];
-
-/// Number of blocks of equations that can be solved one after the other.
-const BLOCKS: usize = 6;
-
-/// The blocks whose determinants change.
-static TURNING: [usize; TURNS] = [];
-
-/// Numbers that the elimination of the largest block works on.
-const WORK: usize = blocks::work_of(1);
-
-/// What may be left of an equation, beside the norm of its row.
-const TOLERANCE: f64 = 1e-12;
-
-/// How the equations fall apart into blocks.
-#[rustfmt::skip]
-static EQUATIONS: blocks::Blocks<'static> = blocks::Blocks {
-    sizes: &[
-        1, 1, 1, 1,
-        1, 1,
-    ],
-    rows: &[
-        0, 1, 4, 2,
-        3, 5,
-    ],
-    columns: &[
-        0, 1, 2, 3,
-        4, 5,
-    ],
-    starts: &[
-        0, 1, 2, 5,
-        8, 9, 11,
-    ],
-    entries: &[
-        0, 1, 0, 2,
-        3, 1, 2, 4,
-        2, 2, 5,
-    ],
-    places: &[
-        0, 1, 2, 3,
-        4, 5,
-    ],
-    units: &[
-        0.03125, 0.03125, 1.0, 0.03125,
-        0.03125, 1.0,
-    ],
-};
-
-/// The last time of the file's analysis (s).
-const END: f64 = 0.9;
-
 /// Number of values that follow from the parameters alone.
 const KNOWN: usize = 2;
-
-/// The mechanism with its parameters, and what follows from these alone.
-#[derive(Clone, Debug)]
-struct Model {
-    params: Params,
-    known: [f64; KNOWN],
-}
-
-impl Model {
-    fn new(params: &Params) -> Self {
-        Self {
-            params: *params,
-            known: known(params),
-        }
-    }
-}
 
 /// What follows from the parameters alone.
 ///
@@ -606,556 +468,58 @@ fn known(p: &Params) -> [f64; KNOWN] {
     out
 }
 
-/// Steps that one call of [`step`] takes at most.
-pub const MOST_STEPS: usize = 1_000_000;
+/// The mechanism with its parameters, and what follows from these alone.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
+    known: [f64; KNOWN],
+}
 
-/// Trials on the way from the file's parameters to others at most, and the smallest part of it.
-const MOST_PARTS: usize = 10_000;
-const SMALLEST_PART: f64 = 1e-6;
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 0;
 
-/// The largest motion of a step, beside the size of a body or 1 rad.
-const LARGEST_MOTION: f64 = 0.5;
+/// What a change of each of them is judged against (m, or 1 rad).
+static TEAR_SCALES: [f64; TEARS] = [];
 
-/// The step before tells of one that is so many times as long at most.
-const FARTHEST_BEND: f64 = 4.0;
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 0;
 
-/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
-const LARGEST_GAP: f64 = 1e-3;
+/// Whether they are negative where all pivots are positive.
+static TURNED: [bool; TURNS] = [];
 
-/// One over a pivot, scaled: beyond the first the position is looked at more closely, beyond the
-/// second it is too near to a singular one.
-const STEEP: f64 = 1e3;
-const STEEPEST: f64 = 1e6;
+/// Number of places where formulas have branches.
+const SIDES: usize = 3;
 
-/// Rounding may make so much of velocities and accelerations that are given out.
-const ACCURACY: f64 = 1e-9;
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
 
-/// Where steps become too small, this is steep enough for a singular position to be the reason.
-const SINGULAR: f64 = 1e2;
-
-/// A dead point is no further off than this part of the span.
-const NEAR_FOLD: f64 = 1e-5;
-
-/// What changes by more than this at an edge jumps: positions, scaled, and velocities beside the
-/// fastest one; a speed below that part of one per span is rest.
-const POSITION_JUMP: f64 = 1e-9;
-const VELOCITY_JUMP: f64 = 1e-6;
-const REST: f64 = 1e-3;
-
-/// Brings the mechanism to its first time with some parameters, along the branch that the file's
-/// parameters give.
+/// The branches that time alone decides, the others as 0.
 ///
-/// # Errors
-/// It cannot be assembled with these, or not on that branch.
-pub fn assemble(params: &Params) -> Result<State, Error> {
-    if !params.is_finite() {
-        return Err(Error::NotANumber);
-    }
-    let file = Params::default();
-    let mut at = Solution::ZERO;
-    start(&START, &Model::new(&file), &mut at).map_err(Fault::at_start)?;
-    let mut found = at.clone();
-    let usual = at.steepest;
-    let mut why = Error::Divergence;
-    // the part of the way from the file's parameters to those that are wanted
-    let (mut done, mut part) = (0.0, 1.0);
-    for _ in 0..MOST_PARTS {
-        let next = f64::min(done + part, 1.0);
-        let params = if next < 1.0 {
-            file.towards(params, next)
-        } else {
-            *params
-        };
-        let model = Model::new(&params);
-        let result = start(&at.q, &model, &mut found);
-        if result.is_ok() && found.is_negative == at.is_negative {
-            if next >= 1.0 {
-                let ratio = found.steepest / usual;
-                let steepness = if ratio > 0.0 { ratio } else { 1.0 };
-                return Ok(State {
-                    steepness,
-                    model,
-                    solutions: [found, at],
-                    is_second: false,
-                    is_smooth: false,
-                    step: LONGEST_STEP,
-                });
-            }
-            at.clone_from(&found);
-            (done, part) = (next, 2.0 * part);
-        } else {
-            why = result.err().map_or(Error::Divergence, Fault::at_start);
-            part *= 0.5;
-        }
-        if part < SMALLEST_PART {
-            break;
-        }
-    }
-    Err(why)
-}
+/// 7 operations.
+fn sides_of_time(t: f64, p: &Params) -> [f64; SIDES] {
+    let mut out = [0.0; SIDES];
+    let p7 = p.v1;
+    let select_2 = p.select;
+    let greater_2 = p.greater;
+    let self_ = p.self_;
+    let u00e9 = p.u00e9;
 
-/// Solves at the first time, from a position nearby.
-fn start(q: &Q, m: &Model, at: &mut Solution) -> Result<(), Fault> {
-    let mut near = Solution::ZERO;
-    (near.t, near.q) = (START_TIME, *q);
-    reach(&tears(q), &near, START_TIME, m, at)?;
-    if at.first <= LARGEST_CORRECTION {
-        Ok(())
-    } else {
-        Err(Fault::TooFar)
-    }
-}
+    let v1 = p7 * select_2;
+    let v2 = v1 - greater_2;
+    let v3 = t * self_;
+    let v4 = u00e9 + v3;
+    let v5 = f64::from(v2 < v4);
+    let v6 = sign(t);
+    let v7 = f64::from(t < 1.0);
 
-/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
-/// and acceleration are those of the branch that it is on, whichever way `t` lies.
-///
-/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
-/// allowed. What a driver does and undoes within a
-/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
-/// At the end of the file's analysis the formulas of time take their earlier branches, as
-/// `mechc run` has it; at any other time where they change, the later ones.
-///
-/// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach.
-pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
-    step_within(t, state, MOST_STEPS)
-}
-
-/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
-/// about once, and one that has to be made shorter counts as well.
-///
-/// # Errors
-/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
-/// [`Error::TooFar`] the same call goes on from there.
-pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
-    if !(t - state.at().t).is_finite() {
-        return Err(Error::NotANumber);
-    }
-    for _ in 0..most {
-        let now = state.at().t;
-        let left = t - now;
-        if left == 0.0 {
-            return Ok(());
-        }
-        // no crumb at the end
-        let wanted = if state.step >= 0.999 * left.abs() {
-            t
-        } else {
-            now + state.step.copysign(left)
-        };
-        // what is fast may be over before the step's end
-        let next = first_edge(now, wanted, &state.model);
-        let (is_last, size) = (next == t, (next - now).abs());
-        match advance(state, next, is_last) {
-            Ok(is_calm) => {
-                let longest = if is_calm {
-                    state.step.max(2.0 * size)
-                } else {
-                    state.step.min(size)
-                };
-                state.step = longest.min(LONGEST_STEP);
-                if is_last {
-                    return Ok(());
-                }
-            }
-            Err(fault) => {
-                state.step = 0.5 * size;
-                state.is_smooth = false;
-                if state.step < SMALLEST_STEP || now + state.step == now {
-                    state.step = SMALLEST_STEP;
-                    return Err(explain(state, fault, next));
-                }
-            }
-        }
-    }
-    if state.at().t == t {
-        Ok(())
-    } else {
-        Err(Error::TooFar)
-    }
-}
-
-/// Why a step is refused.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Fault {
-    /// Something is not a number.
-    NotANumber,
-    /// The step is too long for the motion.
-    TooFar,
-    /// The position is on another branch, or too near to one.
-    Singular,
-    /// A position or velocity jumps.
-    NotSmooth,
-}
-
-impl Fault {
-    /// Why a mechanism cannot be assembled.
-    fn at_start(self) -> Error {
-        match self {
-            Self::NotANumber => Error::NotANumber,
-            _ => Error::Divergence,
-        }
-    }
-}
-
-/// One step to a time; says whether a longer one would do as well.
-fn advance(state: &mut State, t: f64, is_wanted: bool) -> Result<bool, Fault> {
-    let [first, second] = &mut state.solutions;
-    let (from, at) = if state.is_second {
-        (second, first)
-    } else {
-        (first, second)
-    };
-    let from = &*from;
-    let h = t - from.t;
-    let (x, v, a) = (tears(&from.q), tears(&from.qd), tears(&from.qdd));
-    let mut way = if state.is_smooth {
-        bend(from, at, h)
-    } else {
-        [0.0; TEARS]
-    };
-    let mut guess = x;
-    let rates = v.iter().zip(&a);
-    for ((way, guess), (v, a)) in way.iter_mut().zip(&mut guess).zip(rates) {
-        // Taylor
-        *way += h * (v + 0.5 * h * a);
-        *guess += *way;
-    }
-    // what is not a number is not small either
-    let is_short = largest(&way, &TEAR_SCALES) <= LARGEST_MOTION;
-    if !is_short {
-        return Err(Fault::TooFar);
-    }
-    reach(&guess, from, t, &state.model, at)?;
-    // what both ends' velocities and accelerations make of the way between (Hermite)
-    let (y, w, b) = (tears(&at.q), tears(&at.qd), tears(&at.qdd));
-    let mut gaps = [0.0; TEARS];
-    let (ways, rates, bends) = (y.iter().zip(&x), v.iter().zip(&w), a.iter().zip(&b));
-    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
-    }
-    let gap = largest(&gaps, &TEAR_SCALES);
-    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
-    if !is_near {
-        return Err(Fault::TooFar);
-    }
-    let steepest = at.steepest / state.steepness;
-    if at.is_negative != from.is_negative || steepest > STEEPEST {
-        return Err(Fault::Singular);
-    }
-    if is_wanted && steepest > STEEP && steepest * rounding(at, &state.model) > ACCURACY {
-        return Err(Fault::Singular);
-    }
-    if at.sides != from.sides && jumps(from, at, &state.model) {
-        return Err(Fault::NotSmooth);
-    }
-    state.is_smooth = at.sides == from.sides;
-    state.is_second = !state.is_second;
-    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
-}
-
-/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value,
-/// velocity and acceleration at two times make a polynomial of degree 5 (Hermite).
-fn bend(now: &Solution, before: &Solution, h: f64) -> [f64; TEARS] {
-    let back = now.t - before.t;
-    let u = h / back;
-    if u.is_nan() || u.abs() > FARTHEST_BEND {
-        return [0.0; TEARS];
-    }
-    let (x, v, a) = (tears(&now.q), tears(&now.qd), tears(&now.qdd));
-    let (y, w, b) = (tears(&before.q), tears(&before.qd), tears(&before.qdd));
-    let mut bend = [0.0; TEARS];
-    let (ways, rates, bends) = (x.iter().zip(&y), v.iter().zip(&w), a.iter().zip(&b));
-    for ((bend, (x, y)), ((v, w), (a, b))) in bend.iter_mut().zip(ways).zip(rates.zip(bends)) {
-        let value = y - x + back * (v - 0.5 * back * a);
-        let slope = back * (v - back * a - w);
-        let curvature = 0.5 * back * back * (b - a);
-        let cubic = 4.0 * slope - 10.0 * value - curvature;
-        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
-        let quintic = 3.0 * slope - 6.0 * value - curvature;
-        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
-    }
-    bend
-}
-
-/// Whether position or velocity differ on the two sides of a time at which formulas change their
-/// branches: `at` is the later side, and `from` has the branches of the earlier one.
-fn jumps(from: &Solution, at: &Solution, m: &Model) -> bool {
-    let mut before = at.clone();
-    if find(&tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
-        return true;
-    }
-    let (mut way, mut change) = (at.q, at.qd);
-    for (way, q) in way.iter_mut().zip(&before.q) {
-        *way -= q;
-    }
-    for (change, qd) in change.iter_mut().zip(&before.qd) {
-        *change -= qd;
-    }
-    let fastest = largest(&at.qd, &SCALES) + largest(&before.qd, &SCALES) + REST / SPAN;
-    largest(&way, &SCALES) > POSITION_JUMP || largest(&change, &SCALES) > VELOCITY_JUMP * fastest
-}
-
-/// The largest value beside its scale; what is not a number wins.
-fn largest<const K: usize>(values: &[f64; K], scales: &[f64; K]) -> f64 {
-    let pairs = values.iter().zip(scales);
-    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
-    sizes.fold(0.0, larger)
-}
-
-/// The larger one; what is not a number wins.
-fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
-}
-
-/// Solves at a time, from a guess; `from` is where the motion comes from.
-fn reach(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    find(guess, from, t, m, &sides_at(t, m), at)
-}
-
-/// Solves with branches of formulas that are known.
-fn find(
-    guess: &[f64; TEARS],
-    from: &Solution,
-    t: f64,
-    m: &Model,
-    sides: &Sides,
-    at: &mut Solution,
-) -> Result<(), Fault> {
-    solve(guess, t, m, sides, at);
-    if !at.is_settled || !at.holds {
-        // once more from a position that is known, and if that does not help either, that
-        let h = t - from.t;
-        let mut q = from.q;
-        for ((q, qd), qdd) in q.iter_mut().zip(&from.qd).zip(&from.qdd) {
-            *q += h * (qd + 0.5 * h * qdd);
-        }
-        let pivoted = solve_with_pivoting(&q, t, m, sides)?;
-        solve(&tears(&pivoted.q), t, m, sides, at);
-        let first = pivoted.first;
-        if !at.is_settled || !at.holds {
-            *at = pivoted;
-        }
-        at.first = first;
-    }
-    at.sides = *sides;
-    if at.is_finite() {
-        Ok(())
-    } else {
-        Err(Fault::NotANumber)
-    }
-}
-
-/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are
-/// amplified by as much as the position is near to a singular one.
-fn rounding(at: &Solution, m: &Model) -> f64 {
-    let p = &m.params;
-    let sides = &at.sides;
-    let slopes = phi_q_with(&at.q, at.t, p, sides);
-    let mut norms = [f64::MIN_POSITIVE; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        if let (Some(norm), Some(scale)) = (norms.get_mut(row), SCALES.get(column)) {
-            *norm = larger(*norm, slope.abs() * scale);
-        }
-    }
-    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-    let nu = nu_with(&at.q, at.t, p, sides);
-    let velocity = ratio(largest(&at.qd, &SCALES), largest(&nu, &norms));
-    let gamma = gamma_with(&at.q, &at.qd, at.t, p, sides);
-    let acceleration = ratio(largest(&at.qdd, &SCALES), largest(&gamma, &norms));
-    let amplified = larger(larger(velocity, acceleration), 1.0);
-    f64::EPSILON * amplified
-}
-
-/// Why even the shortest step from a state towards a time is refused.
-fn explain(state: &State, fault: Fault, t: f64) -> Error {
-    let (at, p) = (state.at(), &state.model.params);
-    let sides = &at.sides;
-    let values = phi_with(&at.q, t, p, sides);
-    if fault == Fault::NotANumber || values.iter().any(|value| !value.is_finite()) {
-        return Error::NotANumber;
-    }
-    // a position that jumps far is not even found on the other side
-    let is_at_edge = sides_at(at.t, &state.model) != sides_at(t, &state.model);
-    if fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge) {
-        return Error::NotSmooth;
-    }
-    if at.steepest < SINGULAR * state.steepness {
-        return Error::Divergence;
-    }
-    // a motion that comes to a dead point after a time u is as the root of u, whose slope over
-    // twice its curvature is u
-    let rates = at.qd.iter().zip(&at.qdd).zip(&SCALES);
-    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
-        if v.abs() / scale > speed {
-            (v.abs() / scale, 0.5 * v / a)
-        } else {
-            (speed, left)
-        }
-    };
-    let (_, left) = rates.fold((0.0, 0.0), sooner);
-    let left = if t < at.t { -left } else { left };
-    if left > 0.0 && left < NEAR_FOLD * SPAN {
-        Error::LockUp
-    } else {
-        Error::Bifurcation
-    }
+    out[0] = v5;
+    out[1] = v6;
+    out[2] = v7;
+    out
 }
 
 /// What solves the equations at a time.
-#[derive(Clone, Debug)]
-struct Solution {
-    t: f64,
-    q: Q,
-    qd: Qd,
-    qdd: Qdd,
-    /// The branches of formulas.
-    sides: Sides,
-    /// By block of equations: whether its determinant is negative.
-    is_negative: [bool; TURNS],
-    /// Whether Newton has arrived.
-    is_settled: bool,
-    /// Whether no digits were lost, and the equations hold.
-    holds: bool,
-    /// Newton's largest first correction, scaled.
-    first: f64,
-    /// One over the smallest pivot, scaled.
-    steepest: f64,
-}
-
-impl Solution {
-    const ZERO: Self = Self {
-        t: 0.0,
-        q: [0.0; N],
-        qd: [0.0; N],
-        qdd: [0.0; N],
-        sides: [0.0; SIDES],
-        is_negative: [false; TURNS],
-        is_settled: true,
-        holds: true,
-        first: 0.0,
-        steepest: 0.0,
-    };
-
-    /// Makes ready for being solved for.
-    fn begin(&mut self, t: f64) {
-        self.t = t;
-        self.is_negative = TURNED;
-        (self.is_settled, self.holds) = (true, true);
-        (self.first, self.steepest) = (0.0, 0.0);
-    }
-
-    /// Why it cannot be used.
-    fn fault(&self) -> Fault {
-        if self.is_finite() {
-            Fault::TooFar
-        } else {
-            Fault::NotANumber
-        }
-    }
-
-    fn is_finite(&self) -> bool {
-        let mut all = self.q.iter().chain(&self.qd).chain(&self.qdd);
-        all.all(|value| value.is_finite())
-    }
-}
-/// The grid point next to a value.
-fn on_grid(x: f64, cell: f64) -> f64 {
-    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
-    let rounding = 6_755_399_441_055_744.0 * cell;
-    (x + rounding) - rounding
-}
-
-/// The solution by elimination with partial pivoting, where the order that [`solve`] has loses
-/// digits. All coordinates lie on a grid while Newton goes on.
-fn solve_with_pivoting(q: &Q, t: f64, m: &Model, sides: &Sides) -> Result<Solution, Fault> {
-    let p = &m.params;
-    let mut at = Solution::ZERO;
-    (at.t, at.q) = (t, *q);
-    let mut elimination = Elimination::new();
-    let mut is_settled = false;
-    for iteration in 0..ITERATIONS {
-        for (q, cell) in at.q.iter_mut().zip(&CELLS) {
-            *q = on_grid(*q, *cell);
-        }
-        let slopes = phi_q_with(&at.q, t, p, sides);
-        let right = phi_with(&at.q, t, p, sides).map(|value| -value);
-        let (x, _) = elimination.solve(&slopes, &right);
-        if iteration == 0 {
-            at.first = largest(&x, &SCALES);
-        }
-        is_settled = largest(&x, &CELLS) <= HALF_A_CELL;
-        at.q.iter_mut().zip(&x).for_each(|(q, x)| *q += x);
-        if is_settled {
-            break;
-        }
-    }
-    if !is_settled {
-        return Err(at.fault());
-    }
-    let slopes = phi_q_with(&at.q, t, p, sides);
-    let (qd, pivot) = elimination.solve(&slopes, &nu_with(&at.q, t, p, sides));
-    let (qdd, _) = elimination.solve(&slopes, &gamma_with(&at.q, &qd, t, p, sides));
-    (at.qd, at.qdd) = (qd.map(|x| x + 0.0), qdd.map(|x| x + 0.0));
-    let values = phi_with(&at.q, t, p, sides);
-    at.holds = is_next_to_nothing(&values, &slopes, &at.q);
-    at.q = at.q.map(|x| x + 0.0);
-    at.steepest = 1.0 / pivot;
-    let negative = &elimination.is_negative;
-    for (turned, block) in at.is_negative.iter_mut().zip(&TURNING) {
-        *turned = negative.get(*block).copied().unwrap_or(false);
-    }
-    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
-}
-
-/// The work of solving linear equations in blocks.
-struct Elimination {
-    work: [f64; WORK],
-    is_negative: [bool; BLOCKS],
-}
-
-impl Elimination {
-    fn new() -> Self {
-        Self {
-            work: [0.0; WORK],
-            is_negative: [false; BLOCKS],
-        }
-    }
-
-    /// The solution for a right side, and the smallest pivot.
-    fn solve(&mut self, slopes: &[f64; ENTRIES], right: &[f64; N]) -> ([f64; N], f64) {
-        let mut x = [0.0; N];
-        let (work, is_negative) = (&mut self.work, &mut self.is_negative);
-        let pivot = blocks::solve(&EQUATIONS, slopes, right, &mut x, work, is_negative);
-        (x, pivot)
-    }
-}
-
-/// Whether what is left of the equations is within their tolerance, and what rounding makes of
-/// the coordinates.
-fn is_next_to_nothing(values: &[f64; N], slopes: &[f64; ENTRIES], q: &Q) -> bool {
-    let mut bounds = [0.0; N];
-    for (&(row, column), slope) in PHI_Q_PATTERN.iter().zip(slopes) {
-        let sizes = (SCALES.get(column), q.get(column), bounds.get_mut(row));
-        if let (Some(scale), Some(q), Some(bound)) = sizes {
-            *bound += TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
-        }
-    }
-    let mut pairs = values.iter().zip(&bounds);
-    pairs.all(|(value, bound)| value.abs() <= *bound)
-}
-
-/// Of all coordinates those that Newton solves for.
-#[rustfmt::skip]
-fn tears(_q: &[f64; N]) -> [f64; TEARS] {
-    []
-}
+type Solution = runtime::solution::Solution<Model>;
 
 /// Position, velocity and acceleration at a time. Every coordinate follows from those before it.
 ///
@@ -1199,35 +563,757 @@ fn solve(_guess: &[f64; TEARS], t: f64, m: &Model, sides: &Sides, at: &mut Solut
     at.qd[5] = loop_phi_d_2 + 0.0;
 }
 
-/// Number of places where formulas have branches.
-const SIDES: usize = 3;
+/// As [`phi`], on branches of formulas that are given.
+///
+/// 22 operations.
+fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
+    let mut out = [0.0; N];
+    let p7 = p.v1;
+    let select_2 = p.select;
+    let greater_2 = p.greater;
+    let self_ = p.self_;
+    let u00e9 = p.u00e9;
+    let loop_phi_2 = q[5];
+    let loop_phi = q[2];
+    let loop_x = q[0];
+    let loop_y = q[1];
+    let r = p.r;
+    let loop_x_2 = q[3];
+    let loop_y_2 = q[4];
+    let fn_ = p.fn_;
+    let r_2 = p.r_2;
 
-/// Which branch is taken at each: what a comparison gives, the number of a piece.
-type Sides = [f64; SIDES];
+    let v1 = p7 * select_2;
+    let v2 = v1 - greater_2;
+    let v3 = t * self_;
+    let v4 = u00e9 + v3;
+    let v5 = either(sides[0], v4, v2);
+    let v6 = select(sides[2], 0.0, sides[1]);
+    let v7 = loop_phi_2 - loop_phi;
+    let (s8, c8) = sin_cos(loop_phi);
+    let v9 = -loop_x;
+    let v10 = -loop_y;
+    let v11 = c8 * r;
+    let v12 = s8 * r;
+    let v13 = loop_x + v11;
+    let v14 = loop_y + v12;
+    let v15 = v13 - loop_x_2;
+    let v16 = v14 - loop_y_2;
+    let v17 = loop_phi - v5;
+    let v18 = loop_phi * fn_;
+    let v19 = v18 * r_2;
+    let v20 = v19 / r;
+    let v21 = v6 + v20;
+    let v22 = v7 - v21;
 
-/// So many units in the last place of a time it may be off from what is meant to happen then.
-const SLACK: f64 = 4.0;
+    out[0] = v9;
+    out[1] = v10;
+    out[2] = v15;
+    out[3] = v16;
+    out[4] = v17;
+    out[5] = v22;
+    out
+}
+
+/// As [`phi_q`], on branches of formulas that are given.
+///
+/// 8 operations.
+fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; ENTRIES] {
+    let mut out = [0.0; ENTRIES];
+    let r = p.r;
+    let r_2 = p.r_2;
+    let fn_ = p.fn_;
+    let loop_phi = q[2];
+
+    let v1 = -1.0 / r;
+    let v2 = r_2 * v1;
+    let v3 = fn_ * v2;
+    let v4 = -1.0 + v3;
+    let (s5, c5) = sin_cos(loop_phi);
+    let v6 = c5 * r;
+    let v7 = s5 * r;
+    let v8 = -v7;
+
+    out[0] = -1.0;
+    out[1] = -1.0;
+    out[2] = 1.0;
+    out[3] = v8;
+    out[4] = -1.0;
+    out[5] = 1.0;
+    out[6] = v6;
+    out[7] = -1.0;
+    out[8] = 1.0;
+    out[9] = v4;
+    out[10] = 1.0;
+    out
+}
+
+/// As [`nu`], on branches of formulas that are given.
+///
+/// 1 operations.
+fn nu_with(_q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; N] {
+    let mut out = [0.0; N];
+    let self_ = p.self_;
+
+    let v1 = select(sides[0], self_, 0.0);
+
+    out[4] = v1;
+    out
+}
+
+/// As [`gamma`], on branches of formulas that are given.
+///
+/// 7 operations.
+fn gamma_with(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; N] {
+    let mut out = [0.0; N];
+    let loop_phi = q[2];
+    let loop_phi_d = qd[2];
+    let r = p.r;
+
+    let (s1, c1) = sin_cos(loop_phi);
+    let v2 = s1 * loop_phi_d;
+    let v3 = c1 * loop_phi_d;
+    let v4 = loop_phi_d * v3;
+    let v5 = loop_phi_d * v2;
+    let v6 = r * v4;
+    let v7 = r * v5;
+
+    out[2] = v6;
+    out[3] = v7;
+    out
+}
+
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, sides: &Sides) -> Q {
+        phi_with(q, t, &self.params, sides)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, sides: &Sides) -> Self::Entries {
+        phi_q_with(q, t, &self.params, sides)
+    }
+
+    fn nu(&self, q: &Q, t: f64, sides: &Sides) -> Q {
+        nu_with(q, t, &self.params, sides)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, sides: &Sides) -> Qdd {
+        gamma_with(q, qd, t, &self.params, sides)
+    }
+}
+
+impl Branches for Model {
+    const OF_TIME: bool = true;
+    const END: Option<f64> = Some(0.9);
+
+    fn sides_of_time(&self, t: f64) -> Sides {
+        sides_of_time(t, &self.params)
+    }
+}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = ();
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(_q: &Q) -> Self::Tears {
+        []
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, sides, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+static CELLS: [f64; N] = [
+    2.3283064365386963e-10, 2.3283064365386963e-10, 7.450580596923828e-9, 2.3283064365386963e-10,
+    2.3283064365386963e-10, 7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 6;
+
+/// The blocks whose determinants change.
+static TURNING: [usize; TURNS] = [];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(1);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1, 1,
+        1, 1,
+    ],
+    rows: &[
+        0, 1, 4, 2,
+        3, 5,
+    ],
+    columns: &[
+        0, 1, 2, 3,
+        4, 5,
+    ],
+    starts: &[
+        0, 1, 2, 5,
+        8, 9, 11,
+    ],
+    entries: &[
+        0, 1, 0, 2,
+        3, 1, 2, 4,
+        2, 2, 5,
+    ],
+    places: &[
+        0, 1, 2, 3,
+        4, 5,
+    ],
+    units: &[
+        0.03125, 0.03125, 1.0, 0.03125,
+        0.03125, 1.0,
+    ],
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
+    }
+
+    fn turning() -> &'static [usize] {
+        &TURNING
+    }
+
+    fn cells() -> &'static Q {
+        &CELLS
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
+}
+
+impl Timed for Model {
+    type Params = Params;
+    type Lead = ();
+    type Passed = [f64; 0];
+    type Row = [f64; COLUMNS];
+
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
+
+    fn new(params: &Params) -> Self {
+        Self {
+            params: *params,
+            known: known(params),
+        }
+    }
+
+    fn params(&self) -> &Params {
+        &self.params
+    }
+
+    fn start() -> &'static Q {
+        &START
+    }
+}
+
+/// What solves the equations and follows the motion, the same for all mechanisms.
+#[rustfmt::skip]
+mod runtime {
+pub mod numbers {
+//! Numbers by place, and how large they are.
+
+use core::fmt::Debug;
+
+/// So many numbers.
+pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize> Numbers for [f64; K] {
+    const ZERO: Self = [0.0; K];
+}
+
+/// So many answers.
+pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
+    /// All of them no.
+    const NONE: Self;
+}
+
+impl<const K: usize> Flags for [bool; K] {
+    const NONE: Self = [false; K];
+}
+
+/// The largest value beside its scale; a last one that is not a number wins.
+pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
+    let pairs = values.as_ref().iter().zip(scales.as_ref());
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; a second one that is not a number wins.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// What leads from some numbers to others.
+pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
+    let mut way = *to;
+    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
+    way
+}
+
+/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
+    let mut later = *q;
+    let rates = qd.as_ref().iter().zip(qdd.as_ref());
+    for (q, (qd, qdd)) in later.as_mut().iter_mut().zip(rates) {
+        *q += h * (qd + 0.5 * h * qdd);
+    }
+    later
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
+}
+}
+
+pub mod error {
+//! Why something cannot be done.
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out does not hold.
+    LeftOut,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    pub fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            Self::LeftOut => Error::Inconsistent,
+            _ => Error::Divergence,
+        }
+    }
+}
+}
+
+pub mod equations {
+//! What is asked of a mechanism with its parameters: its equations, their branches, and what must hold beside them.
+
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// The equations `phi = 0` and what follows from them.
+pub trait Equations: Clone + Debug {
+    /// A number for each coordinate, and for each equation.
+    type Q: Numbers;
+    /// One for each entry of `phi_q` that does not vanish.
+    type Entries: Numbers;
+    /// Which branch formulas take, by place: what a comparison gives, the number of a piece.
+    type Sides: Numbers + PartialEq;
+
+    /// Row and column of each entry of `phi_q`.
+    fn pattern() -> &'static [(usize, usize)];
+
+    /// What a change of each coordinate is judged against.
+    fn scales() -> &'static Self::Q;
+
+    /// What is left of the equations.
+    fn phi(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The entries of their Jacobian.
+    fn phi_q(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Entries;
+
+    /// The right side of the velocity equation.
+    fn nu(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+
+    /// The right side of the acceleration equation.
+    fn gamma(&self, q: &Self::Q, qd: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Q;
+}
+
+/// What decides the branches of formulas. Where formulas have none, all of this is nothing.
+pub trait Branches: Equations {
+    /// Whether time alone decides some.
+    const OF_TIME: bool = false;
+
+    /// Whether the motion decides some.
+    const OF_MOTION: bool = false;
+
+    /// The last time of the file's analysis (s), at which formulas of time take their earlier branches.
+    const END: Option<f64> = None;
+
+    /// Which of them time alone decides.
+    fn is_of_time() -> &'static [bool] {
+        &[]
+    }
+
+    /// The branches that time alone decides, the others as 0.
+    fn sides_of_time(&self, _t: f64) -> Self::Sides {
+        Self::Sides::ZERO
+    }
+
+    /// The branches at a position, those of time being known.
+    fn sides_of_motion(&self, _q: &Self::Q, _t: f64, sides: &Self::Sides) -> Self::Sides {
+        *sides
+    }
+}
+
+/// What must hold beside the equations; of most mechanisms nothing.
+pub trait Checks: Equations {
+    /// Which quantities that keep their signs along a branch are positive.
+    type Watched: Flags;
+
+    /// Whether distances are positive, and places within their intervals and tables.
+    fn conditions_hold(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// Whether the equations that were left out hold.
+    fn left_out_holds(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> bool {
+        true
+    }
+
+    /// What keeps its sign along a branch of the motion.
+    fn watched(&self, _q: &Self::Q, _t: f64, _sides: &Self::Sides) -> Self::Watched {
+        Self::Watched::NONE
+    }
+}
+}
+
+pub mod measured {
+//! What is measured.
+
+use core::fmt::Debug;
+
+/// Measures with their first and second time derivatives.
+pub trait Measured: Copy + Debug {
+    /// Nothing is measured yet.
+    const ZERO: Self;
+
+    /// Which of them, in the order of [`lists`](Measured::lists), are derivatives by inputs or parameters.
+    const IS_VARIED: &'static [bool] = &[];
+
+    /// Values, rates and accelerations.
+    fn lists(&self) -> [&[f64]; 3];
+
+    /// The same, to be written.
+    fn lists_mut(&mut self) -> [&mut [f64]; 3];
+
+    /// What is not finite is no number.
+    fn leave_out(&mut self) {
+        for list in self.lists_mut() {
+            for value in list.iter_mut().filter(|value| !value.is_finite()) {
+                *value = f64::NAN;
+            }
+        }
+    }
+
+    /// Close to a singular position derivatives by inputs and parameters have no value.
+    fn leave_varied_out(&mut self) {
+        let mut rest = Self::IS_VARIED.iter();
+        for list in self.lists_mut() {
+            for (value, _) in list.iter_mut().zip(&mut rest).filter(|(_, is_varied)| **is_varied) {
+                *value = f64::NAN;
+            }
+        }
+    }
+}
+
+/// Where nothing is measured.
+impl Measured for () {
+    const ZERO: Self = ();
+
+    fn lists(&self) -> [&[f64]; 3] {
+        [&[]; 3]
+    }
+
+    fn lists_mut(&mut self) -> [&mut [f64]; 3] {
+        [&mut [], &mut [], &mut []]
+    }
+}
+}
+
+pub mod solution {
+//! What solves the equations at a time, and what that is found by.
+
+use super::equations::{Branches, Checks};
+use super::error::Fault;
+use super::measured::Measured;
+use super::numbers::{Flags, Numbers};
+use core::fmt::Debug;
+
+/// Equations with the operations that solve them.
+pub trait Solved: Branches + Checks {
+    /// A number for each coordinate that Newton solves for; the others follow.
+    type Tears: Numbers;
+    /// An answer for each block of equations whose determinant changes with the position.
+    type Turns: Flags;
+    /// What is measured.
+    type Measures: Measured;
+    /// Values that only measures need.
+    type Joined: Numbers;
+    /// What the motion goes along: time, or signals.
+    type Along: Along<Self>;
+
+    /// What a change of each coordinate that Newton solves for is judged against.
+    fn tear_scales() -> &'static Self::Tears;
+
+    /// Whether determinants are negative where all pivots are positive.
+    fn turned() -> &'static Self::Turns;
+
+    /// Of all coordinates those that Newton solves for.
+    fn tears(q: &Self::Q) -> Self::Tears;
+
+    /// Position, velocity and acceleration at a time.
+    fn solve(&self, guess: &Self::Tears, t: f64, sides: &Self::Sides, at: &mut Solution<Self>);
+
+    /// The same by elimination with partial pivoting from a position nearby, where [`solve`](Solved::solve) has failed with `at`;
+    /// a fault where blocks are too large for that.
+    fn pivoted(
+        &self,
+        _q: &Self::Q,
+        _t: f64,
+        _sides: &Self::Sides,
+        at: &Solution<Self>,
+    ) -> Result<Solution<Self>, Fault> {
+        Err(at.fault())
+    }
+}
+
+/// What a motion goes along, with what a solution holds of that.
+pub trait Along<M: Solved>: Clone + Debug {
+    /// Nothing is known yet.
+    const ZERO: Self;
+
+    /// Coordinates at a distance `h` from a solution.
+    fn predicted(m: &M, from: &Solution<M>, h: f64) -> M::Q;
+
+    /// A place a little ahead, at which the branches of formulas tell those on which the motion goes on.
+    fn ahead(m: &M, at: &Solution<M>) -> (M::Q, f64);
+
+    /// Takes down what a solution has been found for.
+    fn note(&mut self, _m: &M, _t: f64) {}
+
+    /// The derivatives of the coordinates, by what the motion goes along.
+    fn slopes(&self) -> &[M::Q] {
+        &[]
+    }
+
+    /// The same, to be written.
+    #[allow(dead_code)] // what is neither pivoted nor listed knows them by their names
+    fn slopes_mut(&mut self) -> &mut [M::Q] {
+        &mut []
+    }
+}
+
+/// What solves the equations at a time.
+#[derive(Clone, Debug)]
+pub struct Solution<M: Solved> {
+    /// The time (s), or the place on a way.
+    pub t: f64,
+    /// Coordinates.
+    pub q: M::Q,
+    /// Velocities.
+    pub qd: M::Q,
+    /// Accelerations.
+    pub qdd: M::Q,
+    /// Measures.
+    pub measures: M::Measures,
+    /// What only measures need.
+    #[allow(dead_code)] // mostly they need nothing
+    pub joined: M::Joined,
+    /// What it holds of what the motion goes along.
+    pub along: M::Along,
+    /// The branches of formulas.
+    pub sides: M::Sides,
+    /// Which quantities that must keep their signs are positive.
+    pub watched: M::Watched,
+    /// By block of equations: whether its determinant is negative.
+    pub is_negative: M::Turns,
+    /// Whether Newton has arrived.
+    pub is_settled: bool,
+    /// Whether no digits were lost, and the equations hold.
+    pub holds: bool,
+    /// Newton's largest first correction, scaled.
+    pub first: f64,
+    /// One over the smallest pivot, scaled.
+    pub steepest: f64,
+}
+
+impl<M: Solved> Solution<M> {
+    /// Nothing is solved yet.
+    pub const ZERO: Self = Self {
+        t: 0.0,
+        q: M::Q::ZERO,
+        qd: M::Q::ZERO,
+        qdd: M::Q::ZERO,
+        measures: M::Measures::ZERO,
+        joined: M::Joined::ZERO,
+        along: M::Along::ZERO,
+        sides: M::Sides::ZERO,
+        watched: M::Watched::NONE,
+        is_negative: M::Turns::NONE,
+        is_settled: true,
+        holds: true,
+        first: 0.0,
+        steepest: 0.0,
+    };
+
+    /// Nothing but a position and its time.
+    pub fn near(q: &M::Q, t: f64) -> Self {
+        let mut near = Self::ZERO;
+        (near.t, near.q) = (t, *q);
+        near
+    }
+
+    /// Makes ready for being solved for.
+    pub fn begin(&mut self, t: f64) {
+        self.t = t;
+        self.is_negative = *M::turned();
+        (self.is_settled, self.holds) = (true, true);
+        (self.first, self.steepest) = (0.0, 0.0);
+    }
+
+    /// Why it cannot be used.
+    pub fn fault(&self) -> Fault {
+        if self.is_finite() { Fault::TooFar } else { Fault::NotANumber }
+    }
+
+    /// Whether all of it is numbers; measures may be none.
+    pub fn is_finite(&self) -> bool {
+        let are_finite = |list: &M::Q| list.as_ref().iter().all(|value| value.is_finite());
+        let lists = are_finite(&self.q) && are_finite(&self.qd) && are_finite(&self.qdd);
+        lists && self.along.slopes().iter().all(are_finite)
+    }
+}
+}
+
+pub mod grid {
+//! The grid on which Newton's iteration goes from point to point.
+
+/// The grid point next to a value.
+pub fn on_grid(x: f64, cell: f64) -> f64 {
+    // adding and taking away 1.5 * 2^52 cells rounds to a whole number of them
+    let rounding = 6_755_399_441_055_744.0 * cell;
+    (x + rounding) - rounding
+}
+}
+
+pub mod branches {
+//! The branches of formulas along the motion.
+
+use super::equations::Branches;
+use super::limits::{MOST_HALVINGS, SLACK};
+use super::solution::{Along, Solution, Solved};
 
 /// A time on the later side of whatever is meant to happen at `t` (s).
 fn shortly_after(t: f64) -> f64 {
     t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
 }
 
-/// The branches of formulas of time at a time: the later ones where they change
-/// just then, but at the end of the file's analysis the earlier ones.
-fn sides_at(t: f64, m: &Model) -> Sides {
-    if t <= END && shortly_after(t) >= END {
-        return sides_of_time(END - 2.0 * (shortly_after(END) - END), &m.params);
+/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
+/// the earlier ones.
+pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+    match M::END {
+        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
+        _ => m.sides_of_time(shortly_after(t)),
     }
-    sides_of_time(shortly_after(t), &m.params)
 }
 
-/// Halvings until two times are neighbours.
-const MOST_HALVINGS: usize = 100;
-
-/// The first time of a step at which formulas of time take other branches than at its beginning;
-/// its end if they do not.
-fn first_edge(from: f64, to: f64, m: &Model) -> f64 {
+/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
     let here = sides_at(from, m);
     if sides_at(to, m) == here {
         return to;
@@ -1247,34 +1333,618 @@ fn first_edge(from: f64, to: f64, m: &Model) -> f64 {
     far
 }
 
-/// The branches that time alone decides, the others as 0.
-///
-/// 7 operations.
-fn sides_of_time(t: f64, p: &Params) -> [f64; SIDES] {
-    let mut out = [0.0; SIDES];
-    let p7 = p.v1;
-    let select_2 = p.select;
-    let greater_2 = p.greater;
-    let self_ = p.self_;
-    let u00e9 = p.u00e9;
-
-    let v1 = p7 * select_2;
-    let v2 = v1 - greater_2;
-    let v3 = t * self_;
-    let v4 = u00e9 + v3;
-    let v5 = f64::from(v2 < v4);
-    let v6 = sign(t);
-    let v7 = f64::from(t < 1.0);
-
-    out[0] = v5;
-    out[1] = v6;
-    out[2] = v7;
-    out
+/// The branches at a position that is next to one that is looked for.
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m))
 }
 
-#[rustfmt::skip]
-mod blocks {
+/// The branches with those of time exchanged.
+pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
+    let mut all = *sides;
+    let pairs = of_time.as_ref().iter().zip(M::is_of_time());
+    for (side, (of_time, is_of_time)) in all.as_mut().iter_mut().zip(pairs) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
+}
 
+/// The branches of formulas of the motion that lie ahead of a position.
+pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
+    let (q, t) = M::Along::ahead(m, at);
+    m.sides_of_motion(&q, t, &at.sides)
+}
+}
+
+pub mod reach {
+//! Solving at a time, on the branches that are there.
+
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Fault;
+use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
+use super::measured::Measured;
+use super::numbers::{larger, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+pub fn reach<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let of_time = sides_at(t, m);
+    if !M::OF_MOTION {
+        return find(guess, from, t, m, &of_time, at);
+    }
+    let mut sides = from.sides;
+    for _ in 0..MOST_BRANCHES {
+        sides = with_time::<M>(&sides, &of_time);
+        find(guess, from, t, m, &sides, at)?;
+        let now = sides_ahead(at, m);
+        if now == sides {
+            return Ok(());
+        }
+        sides = now;
+    }
+    Err(Fault::TooFar)
+}
+
+/// Solves with branches of formulas that are known.
+pub fn find<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    m.solve(guess, t, sides, at);
+    if !at.is_settled || !at.holds {
+        find_with_pivoting(from, t, m, sides, at)?;
+    }
+    if !m.conditions_hold(&at.q, t, sides) {
+        return Err(Fault::NotANumber);
+    }
+    if !m.left_out_holds(&at.q, t, sides) {
+        return Err(Fault::LeftOut);
+    }
+    at.watched = m.watched(&at.q, t, sides);
+    at.sides = *sides;
+    at.along.note(m, t);
+    at.measures.leave_out();
+    if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
+}
+
+/// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
+fn find_with_pivoting<M: Solved>(
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let q = M::Along::predicted(m, from, t - from.t);
+    let pivoted = m.pivoted(&q, t, sides, at)?;
+    m.solve(&M::tears(&pivoted.q), t, sides, at);
+    let first = pivoted.first;
+    if !at.is_settled || !at.holds {
+        *at = pivoted;
+    }
+    at.first = first;
+    Ok(())
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
+/// position is near to a singular one.
+pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
+    let (t, sides, scales) = (at.t, &at.sides, M::scales());
+    let slopes = m.phi_q(&at.q, t, sides);
+    let mut norms = at.q;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let norm = norms.as_mut().get_mut(row);
+        if let (Some(norm), Some(scale)) = (norm, scales.as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = m.nu(&at.q, t, sides);
+    let velocity = ratio(largest(&at.qd, scales), largest(&nu, &norms));
+    let gamma = m.gamma(&at.q, &at.qd, t, sides);
+    let acceleration = ratio(largest(&at.qdd, scales), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+pub fn stays_on_branch<M: Solved>(
+    from: &Solution<M>,
+    at: &mut Solution<M>,
+    m: &M,
+    is_wanted: bool,
+    steepness: f64,
+) -> bool {
+    let steepest = at.steepest / steepness;
+    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+        return false;
+    }
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    !is_in_doubt
+}
+}
+
+pub mod state {
+//! A mechanism that moves with time, and where it is.
+
+use super::error::Error;
+use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
+use super::measured::Measured;
+use super::numbers::{Numbers, largest, predicted};
+use super::solution::{Along, Solution, Solved};
+use core::fmt::Debug;
+
+/// What can be set of a mechanism.
+pub trait Parameters: Copy + Debug + Default {
+    /// Part of the way from these to others.
+    #[must_use]
+    fn towards(&self, other: &Self, part: f64) -> Self;
+
+    /// Whether all are numbers.
+    fn is_finite(&self) -> bool;
+}
+
+/// A mechanism whose motion goes along time.
+pub trait Timed: Solved<Along = Time> {
+    /// Its parameters.
+    type Params: Parameters;
+    /// What leads it by its inputs; `()` where it has none.
+    type Lead: Lead<Self>;
+    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Passed: Numbers;
+    /// A number for each result.
+    type Row: Numbers;
+
+    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    const START_TIME: f64;
+    /// How long the file's analysis takes (s).
+    const SPAN: f64;
+    /// The longest step (s).
+    const LONGEST_STEP: f64;
+    /// The shortest step (s).
+    const SMALLEST_STEP: f64;
+
+    /// The mechanism with some parameters.
+    fn new(params: &Self::Params) -> Self;
+
+    /// Its parameters.
+    fn params(&self) -> &Self::Params;
+
+    /// The assembled position with the file's parameters.
+    fn start() -> &'static Self::Q;
+
+    /// The first rim of a step that was not looked at yet, with its time.
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+        None
+    }
+
+    /// Looks at both sides of a rim next to the state.
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// What leads a mechanism by its inputs.
+pub trait Lead<M: Timed>: Clone + Debug {
+    /// Nothing is led yet.
+    fn new(params: &M::Params) -> Self;
+
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    fn is_leading(&self) -> bool;
+
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
+}
+
+impl<M: Timed> Lead<M> for () {
+    fn new(_: &M::Params) -> Self {}
+
+    fn is_leading(&self) -> bool {
+        false
+    }
+
+    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// The motion goes along time.
+#[derive(Clone, Copy, Debug)]
+pub struct Time;
+
+impl<M: Timed> Along<M> for Time {
+    const ZERO: Self = Self;
+
+    fn predicted(_: &M, from: &Solution<M>, h: f64) -> M::Q {
+        predicted(&from.q, &from.qd, &from.qdd, h)
+    }
+
+    fn ahead(_: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let (speed, acceleration) = (largest(&at.qd, M::scales()), largest(&at.qdd, M::scales()));
+        let mut ahead = f64::min(f64::min(AHEAD * M::SPAN, LONGEST_AHEAD), FARTHEST_AHEAD / speed);
+        ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+        (predicted(&at.q, &at.qd, &at.qdd, ahead), at.t + ahead)
+    }
+}
+
+/// A mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State<M: Timed> {
+    pub(super) model: M,
+    /// The solution of now and the one before, or the next one in the making.
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    pub(super) steepness: f64,
+    /// The step that goes well (s).
+    pub(super) step: f64,
+    /// What leads by inputs.
+    pub(super) lead: M::Lead,
+    /// By rim: the time at which it was looked at last (s).
+    pub(super) passed: M::Passed,
+}
+
+impl<M: Timed> State<M> {
+    /// The solution of now.
+    pub(super) fn at(&self) -> &Solution<M> {
+        let [first, second] = &self.solutions;
+        if self.is_second { second } else { first }
+    }
+
+    /// The time (s).
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.at().t
+    }
+
+    /// The parameters.
+    #[must_use]
+    pub fn params(&self) -> &M::Params {
+        self.model.params()
+    }
+
+    /// The coordinates (m, rad), by their indices.
+    #[must_use]
+    pub fn q(&self) -> &M::Q {
+        &self.at().q
+    }
+
+    /// Their velocities (m/s, rad/s).
+    #[must_use]
+    pub fn qd(&self) -> &M::Q {
+        &self.at().qd
+    }
+
+    /// Their accelerations (m/s^2, rad/s^2).
+    #[must_use]
+    pub fn qdd(&self) -> &M::Q {
+        &self.at().qdd
+    }
+
+    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
+    /// for that.
+    #[must_use]
+    pub fn measures(&self) -> &M::Measures {
+        &self.at().measures
+    }
+
+    /// Whether inputs have led here, rather than the time.
+    pub(super) fn is_led(&self) -> bool {
+        self.lead.is_leading()
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
+    /// derivatives.
+    #[must_use]
+    pub fn row(&self) -> M::Row {
+        let at = self.at();
+        let [values, rates, accelerations] = at.measures.lists();
+        let zeroth = at.q.as_ref().iter().chain(values);
+        let first = at.qd.as_ref().iter().chain(rates);
+        let second = at.qdd.as_ref().iter().chain(accelerations);
+        let all = [at.t].into_iter().chain(zeroth.chain(first).chain(second).copied());
+        let mut row = M::Row::ZERO;
+        row.as_mut().iter_mut().zip(all).for_each(|(cell, value)| *cell = value);
+        row
+    }
+}
+}
+
+pub mod assemble {
+//! The start of a motion.
+
+use super::branches::sides_near;
+use super::error::{Error, Fault};
+use super::limits::{LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART};
+use super::numbers::Numbers;
+use super::reach::reach;
+use super::solution::Solution;
+use super::state::{Lead, Parameters, State, Timed};
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's parameters give.
+pub fn assemble<M: Timed>(params: &M::Params) -> Result<State<M>, Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    let file = M::Params::default();
+    let mut at = Solution::ZERO;
+    start(M::start(), &M::new(&file), &mut at).map_err(Fault::at_start)?;
+    let mut found = at.clone();
+    let usual = at.steepest;
+    let mut why = Error::Divergence;
+    // the part of the way from the file's parameters to those that are wanted
+    let (mut done, mut part) = (0.0, 1.0);
+    for _ in 0..MOST_PARTS {
+        let next = f64::min(done + part, 1.0);
+        let params = if next < 1.0 { file.towards(params, next) } else { *params };
+        let model = M::new(&params);
+        let result = start(&at.q, &model, &mut found);
+        if result.is_ok() && found.is_negative == at.is_negative {
+            if next >= 1.0 {
+                let ratio = found.steepest / usual;
+                let mut passed = M::Passed::ZERO;
+                passed.as_mut().fill(f64::NEG_INFINITY);
+                return Ok(State {
+                    steepness: if ratio > 0.0 { ratio } else { 1.0 },
+                    lead: M::Lead::new(&params),
+                    model,
+                    solutions: [found, at],
+                    is_second: false,
+                    is_smooth: false,
+                    step: M::LONGEST_STEP,
+                    passed,
+                });
+            }
+            at.clone_from(&found);
+            (done, part) = (next, 2.0 * part);
+        } else {
+            why = result.err().map_or(Error::Divergence, Fault::at_start);
+            part *= 0.5;
+        }
+        if part < SMALLEST_PART {
+            break;
+        }
+    }
+    Err(why)
+}
+
+/// Solves at the first time, from a position nearby.
+fn start<M: Timed>(q: &M::Q, m: &M, at: &mut Solution<M>) -> Result<(), Fault> {
+    let mut near = Solution::near(q, M::START_TIME);
+    near.sides = sides_near(q, M::START_TIME, m);
+    reach(&M::tears(q), &near, M::START_TIME, m, at)?;
+    if at.first <= LARGEST_CORRECTION { Ok(()) } else { Err(Fault::TooFar) }
+}
+}
+
+pub mod explain {
+//! Why a motion cannot go on.
+
+use super::branches::sides_at;
+use super::error::{Error, Fault};
+use super::limits::{NEAR_FOLD, SINGULAR};
+use super::solution::{Solution, Solved};
+use super::state::{State, Timed};
+
+/// Why even the shortest step from a state towards a time is refused.
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+    let at = state.at();
+    if let Some(error) = regular(at, fault, t, &state.model) {
+        return error;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
+    }
+    let left = until_turn(at);
+    meeting(if t < at.t { -left } else { left }, M::SPAN)
+}
+
+/// Why it is, if that has nothing to do with how near the position is to a singular one.
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+    let values = m.phi(&at.q, t, &at.sides);
+    if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
+        return Some(Error::NotANumber);
+    }
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
+    jumps.then_some(Error::NotSmooth)
+}
+
+/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
+/// curvature is u. That of the fastest coordinate counts.
+pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
+    let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed { (v.abs() / scale, 0.5 * v / a) } else { (speed, left) }
+    };
+    rates.fold((0.0, 0.0), sooner).1
+}
+
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
+pub fn meeting(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+}
+}
+
+pub mod step {
+//! Steps from time to time.
+
+use super::branches::first_edge;
+use super::error::{Error, Fault};
+use super::explain::explain;
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+};
+use super::numbers::{Numbers, difference, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+
+/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led() {
+        M::Lead::take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        // what is fast may be over before the step's end
+        let edge = first_edge(now, wanted, &state.model);
+        let next = match state.model.first_rim(now, edge, &state.passed) {
+            None => edge,
+            Some((rim, at)) => {
+                let before = at - (LEAD * M::SPAN).copysign(left);
+                if (before - now) * left <= 0.0 {
+                    M::look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
+                state.step = longest.min(M::LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < M::SMALLEST_STEP || now + state.step == now {
+                    state.step = M::SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut guess = x;
+    let rates = v.as_ref().iter().zip(a.as_ref());
+    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    let gap = gap(from, at, h);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+        return Err(Fault::Singular);
+    }
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+    state.is_smooth = at.sides == from.sides;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
+    let mut gaps = M::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    largest(&gaps, M::tear_scales())
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
+/// make a polynomial of degree 5 (Hermite).
+fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return M::Tears::ZERO;
+    }
+    let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
+    let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
+    let mut bend = M::Tears::ZERO;
+    let ways = x.as_ref().iter().zip(y.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
+/// `from` has the branches of the earlier one.
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let scales = M::scales();
+    let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
+    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+}
+}
+
+pub mod blocks {
 // Sparse linear equations that fall apart into blocks, each solved by elimination with partial pivoting.
 //
 // For places where an order of elimination that was fixed beforehand loses digits. All scaling is by powers of two, which
@@ -1436,161 +2106,184 @@ fn eliminate(matrix: &mut [f64], x: &mut [f64]) -> (f64, bool) {
     }
     (smallest, is_negative)
 }
-
 }
 
-/// As [`phi`], on branches of formulas that are given.
-///
-/// 22 operations.
-fn phi_with(q: &[f64; N], t: f64, p: &Params, sides: &Sides) -> [f64; N] {
-    let mut out = [0.0; N];
-    let p7 = p.v1;
-    let select_2 = p.select;
-    let greater_2 = p.greater;
-    let self_ = p.self_;
-    let u00e9 = p.u00e9;
-    let loop_phi_2 = q[5];
-    let loop_phi = q[2];
-    let loop_x = q[0];
-    let loop_y = q[1];
-    let r = p.r;
-    let loop_x_2 = q[3];
-    let loop_y_2 = q[4];
-    let fn_ = p.fn_;
-    let r_2 = p.r_2;
+pub mod pivoting {
+//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
 
-    let v1 = p7 * select_2;
-    let v2 = v1 - greater_2;
-    let v3 = t * self_;
-    let v4 = u00e9 + v3;
-    let v5 = either(sides[0], v4, v2);
-    let v6 = select(sides[2], 0.0, sides[1]);
-    let v7 = loop_phi_2 - loop_phi;
-    let (s8, c8) = sin_cos(loop_phi);
-    let v9 = -loop_x;
-    let v10 = -loop_y;
-    let v11 = c8 * r;
-    let v12 = s8 * r;
-    let v13 = loop_x + v11;
-    let v14 = loop_y + v12;
-    let v15 = v13 - loop_x_2;
-    let v16 = v14 - loop_y_2;
-    let v17 = loop_phi - v5;
-    let v18 = loop_phi * fn_;
-    let v19 = v18 * r_2;
-    let v20 = v19 / r;
-    let v21 = v6 + v20;
-    let v22 = v7 - v21;
+use super::blocks::{self, Blocks};
+use super::error::Fault;
+use super::grid::on_grid;
+use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::numbers::{Flags, Numbers, largest, without_signs_of_zero};
+use super::solution::{Along, Solution, Solved};
 
-    out[0] = v9;
-    out[1] = v10;
-    out[2] = v15;
-    out[3] = v16;
-    out[4] = v17;
-    out[5] = v22;
-    out
+/// Equations that can be solved by elimination with partial pivoting.
+pub trait Pivoting: Solved {
+    /// Numbers that the elimination of the largest block works on.
+    type Work: Numbers;
+    /// An answer for each block of equations.
+    type Blocks: Flags;
+    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    type Varied: Numbers;
+    /// A right side for each derivative by what the motion goes along.
+    type Rights: AsRef<[Self::Q]>;
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64;
+    /// Whether measures hold third derivatives of the coordinates.
+    const HAS_JERK: bool = false;
+    /// By derivative by inputs and parameters: whether it is one by two.
+    const IS_BY_TWO: &'static [bool] = &[];
+
+    /// How the equations fall apart into blocks.
+    fn blocks() -> &'static Blocks<'static>;
+
+    /// The blocks whose determinants change.
+    fn turning() -> &'static [usize];
+
+    /// The width of a cell of each coordinate's grid.
+    fn cells() -> &'static Self::Q;
+
+    /// The right side of the jerk equation.
+    fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    fn varied_right(
+        &self,
+        _orders: [&Self::Q; 3],
+        _varied: &Self::Varied,
+        _t: f64,
+        _sides: &Self::Sides,
+    ) -> Self::Varied {
+        Self::Varied::ZERO
+    }
+
+    /// The right sides for the derivatives by what the motion goes along.
+    fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
+
+    /// What is measured, from the coordinates with their first three derivatives.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, t: f64) -> Self::Measures;
 }
 
-/// As [`phi_q`], on branches of formulas that are given.
-///
-/// 8 operations.
-fn phi_q_with(q: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; ENTRIES] {
-    let mut out = [0.0; ENTRIES];
-    let r = p.r;
-    let r_2 = p.r_2;
-    let fn_ = p.fn_;
-    let loop_phi = q[2];
-
-    let v1 = -1.0 / r;
-    let v2 = r_2 * v1;
-    let v3 = fn_ * v2;
-    let v4 = -1.0 + v3;
-    let (s5, c5) = sin_cos(loop_phi);
-    let v6 = c5 * r;
-    let v7 = s5 * r;
-    let v8 = -v7;
-
-    out[0] = -1.0;
-    out[1] = -1.0;
-    out[2] = 1.0;
-    out[3] = v8;
-    out[4] = -1.0;
-    out[5] = 1.0;
-    out[6] = v6;
-    out[7] = -1.0;
-    out[8] = 1.0;
-    out[9] = v4;
-    out[10] = 1.0;
-    out
+/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
+    let mut at = Solution::near(q, t);
+    let mut elimination = Elimination::<M>::new();
+    if !settle(m, &mut at, sides, &mut elimination) {
+        return Err(at.fault());
+    }
+    let slopes = m.phi_q(&at.q, t, sides);
+    let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
+    let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
+    let orders = [&at.q, &qd, &qdd];
+    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let rights = m.rights(&at.q, t, sides);
+    for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
+        *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
+    }
+    let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, t);
+    (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
+    at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
+    at.q = without_signs_of_zero(at.q);
+    at.steepest = 1.0 / pivot;
+    let negative = elimination.is_negative.as_ref();
+    for (turned, block) in at.is_negative.as_mut().iter_mut().zip(M::turning()) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
 }
 
-/// As [`nu`], on branches of formulas that are given.
-///
-/// 1 operations.
-fn nu_with(_q: &[f64; N], _t: f64, p: &Params, sides: &Sides) -> [f64; N] {
-    let mut out = [0.0; N];
-    let self_ = p.self_;
-
-    let v1 = select(sides[0], self_, 0.0);
-
-    out[4] = v1;
-    out
+/// Newton's iteration; whether it has arrived.
+fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = m.phi_q(&at.q, at.t, sides);
+        let mut right = m.phi(&at.q, at.t, sides);
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, M::scales());
+        }
+        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
+        if largest(&x, M::cells()) <= HALF_A_CELL {
+            return true;
+        }
+    }
+    false
 }
 
-/// As [`gamma`], on branches of formulas that are given.
-///
-/// 7 operations.
-fn gamma_with(q: &[f64; N], qd: &[f64; N], _t: f64, p: &Params, _sides: &Sides) -> [f64; N] {
-    let mut out = [0.0; N];
-    let loop_phi = q[2];
-    let loop_phi_d = qd[2];
-    let r = p.r;
-
-    let (s1, c1) = sin_cos(loop_phi);
-    let v2 = s1 * loop_phi_d;
-    let v3 = c1 * loop_phi_d;
-    let v4 = loop_phi_d * v3;
-    let v5 = loop_phi_d * v2;
-    let v6 = r * v4;
-    let v7 = r * v5;
-
-    out[2] = v6;
-    out[3] = v7;
-    out
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
+/// each order from those before.
+fn vary<M: Pivoting>(
+    m: &M,
+    elimination: &mut Elimination<M>,
+    slopes: &M::Entries,
+    orders: [&M::Q; 3],
+    t: f64,
+    sides: &M::Sides,
+) -> M::Varied {
+    let mut varied = M::Varied::ZERO;
+    let n = M::scales().as_ref().len();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = m.varied_right(orders, &varied, t, sides);
+            for (number, _) in M::IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * n;
+                let mut right = M::Q::ZERO;
+                let given = rights.as_ref().iter().skip(first);
+                right.as_mut().iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+                let (x, _) = elimination.solve(slopes, &right);
+                let places = varied.as_mut().iter_mut().skip(first);
+                places.zip(x.as_ref()).for_each(|(place, x)| *place = *x);
+            }
+        }
+    }
+    varied
 }
 
-/// The second if the first is not 0, else the third.
-fn select(condition: f64, a: f64, b: f64) -> f64 {
-    if condition == 0.0 { b } else { a }
+/// The work of solving linear equations in blocks.
+pub struct Elimination<M: Pivoting> {
+    work: M::Work,
+    is_negative: M::Blocks,
 }
 
-/// As `select`, but not a number if either is not.
-fn either(condition: f64, a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() {
-        f64::NAN
-    } else if condition == 0.0 {
-        b
-    } else {
-        a
+impl<M: Pivoting> Elimination<M> {
+    /// Room for the work.
+    pub fn new() -> Self {
+        Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
+        let mut x = M::Q::ZERO;
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
+        (x, pivot)
     }
 }
 
-/// -1, 0 or 1; 0 at 0.
-fn sign(x: f64) -> f64 {
-    if x > 0.0 {
-        1.0
-    } else if x < 0.0 {
-        -1.0
-    } else {
-        x
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
+    let mut bounds = M::Q::ZERO;
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let bound = bounds.as_mut().get_mut(row);
+        let sizes = (M::scales().as_ref().get(column), q.as_ref().get(column), bound);
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += M::TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
     }
+    let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}
 }
 
-use sine_and_cosine::sin_cos;
-
-#[rustfmt::skip]
-mod sine_and_cosine {
-
+pub mod sine_and_cosine {
 // Sine and cosine of one angle (rad), together: the same bits on every platform, within 1 ulp, for arguments of any size.
 //
 // The angle is reduced to |r + tail| <= pi/4 with `angle = n pi/2 + r + tail`: up to a million by subtracting n times
@@ -1744,5 +2437,96 @@ fn times_half_pi(a: f64, b: f64) -> (f64, f64) {
     let r = product + tail;
     (r, (product - r) + tail)
 }
+}
 
+pub mod select {
+//! A choice.
+
+/// The second if the first is not 0, else the third.
+pub fn select(condition: f64, a: f64, b: f64) -> f64 {
+    if condition == 0.0 { b } else { a }
+}
+}
+
+pub mod either {
+//! A choice of which both sides are numbers.
+
+/// As `select`, but not a number if either is not.
+pub fn either(condition: f64, a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if condition == 0.0 {
+        b
+    } else {
+        a
+    }
+}
+}
+
+pub mod sign {
+//! The sign of a number.
+
+/// -1, 0 or 1; 0 at 0.
+pub fn sign(x: f64) -> f64 {
+    if x > 0.0 {
+        1.0
+    } else if x < 0.0 {
+        -1.0
+    } else {
+        x
+    }
+}
+}
+
+/// Where to stop, and what counts as large.
+pub mod limits {
+/// Rounding may make so much of velocities and accelerations that are given out.
+pub const ACCURACY: f64 = 1e-9;
+/// How far the motion is looked ahead to tell on which side of an edge it goes on, as a part of the span.
+pub const AHEAD: f64 = 1e-9;
+/// Nothing may move farther than this meanwhile, scaled.
+pub const FARTHEST_AHEAD: f64 = 1e-7;
+/// The step before tells of one that is so many times as long at most.
+pub const FARTHEST_BEND: f64 = 4.0;
+/// A correction of just half a cell of the grid, to rounding, stays in it.
+pub const HALF_A_CELL: f64 = 0.500001;
+/// Iterations of Newton at most.
+pub const ITERATIONS: usize = 6;
+/// Newton's first correction at most, beside the size of a body or 1 rad.
+pub const LARGEST_CORRECTION: f64 = 0.05;
+/// How far velocities may lead elsewhere than positions, likewise: more is another branch.
+pub const LARGEST_GAP: f64 = 0.001;
+/// The largest motion of a step, beside the size of a body or 1 rad.
+pub const LARGEST_MOTION: f64 = 0.5;
+/// How far before a rim its sides are looked at, as a part of the span.
+pub const LEAD: f64 = 0.001;
+/// And at most (s).
+pub const LONGEST_AHEAD: f64 = 1e-9;
+/// How often the branches of formulas are chosen anew at one time.
+pub const MOST_BRANCHES: usize = 8;
+/// Halvings until two times are neighbours.
+pub const MOST_HALVINGS: usize = 100;
+/// Trials on the way from the file's parameters to others at most.
+pub const MOST_PARTS: usize = 10_000;
+/// Steps that one call takes at most that has no bound of its own.
+pub const MOST_STEPS: usize = 1_000_000;
+/// A dead point is no further off than this part of the span.
+pub const NEAR_FOLD: f64 = 1e-5;
+/// A position that changes by more than this at an edge jumps, scaled.
+pub const POSITION_JUMP: f64 = 1e-9;
+/// A speed below this part of one per span is rest, scaled.
+pub const REST: f64 = 0.001;
+/// Where steps become too small, this is steep enough for a singular position to be the reason.
+pub const SINGULAR: f64 = 100.0;
+/// So many units in the last place of a time it may be off from what is meant to happen then.
+pub const SLACK: f64 = 4.0;
+/// The smallest part of the way to other parameters.
+pub const SMALLEST_PART: f64 = 1e-6;
+/// One over a pivot, scaled: beyond this the position is looked at more closely.
+pub const STEEP: f64 = 1000.0;
+/// One over a pivot, scaled: beyond this it is too near to a singular one.
+pub const STEEPEST: f64 = 1000000.0;
+/// A velocity that changes by more than this part of the fastest at an edge jumps.
+pub const VELOCITY_JUMP: f64 = 1e-7;
+}
 }

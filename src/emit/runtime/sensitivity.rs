@@ -1,69 +1,59 @@
-//# if !led
-/// The derivatives of the coordinates by each parameter, by the numbers in [`param`], at the
-/// position that some parameters have next to that of a state; mostly the state's own. After
-/// [`step`] what the text's formulas of inputs make of a parameter counts as well.
-//# end
-//# if led
-/// As [`super::sensitivity`], where inputs have led: they stay what they are.
-//# end
-///
-//# if left_out
-/// Where a parameter alone cannot change, because an equation that was left out would cease to hold,
-/// its derivatives are `NAN`.
-///
-//# end
-/// # Errors
-/// Why there are none: with these parameters there is no such position.
-pub fn sensitivity(params: &Params, state: &State) -> Result<[Q; PARAMS], Error> {
-    if !params.is_finite() {
-        return Err(Error::NotANumber);
+//! The derivatives of the coordinates by parameters.
+
+use super::error::{Error, Fault};
+use super::numbers::Numbers;
+use super::solution::{Solution, Solved};
+use super::state::{Parameters, State, Timed};
+
+/// Equations with the operations that give the derivatives of the coordinates by their parameters too.
+pub trait Sensitive<const K: usize>: Solved {
+    /// As [`solve`](Solved::solve), with the derivatives of the coordinates by parameters.
+    fn solve_by_params(
+        &self,
+        guess: &Self::Tears,
+        t: f64,
+        sides: &Self::Sides,
+        at: &mut Solution<Self>,
+        by: &mut [Self::Q; K],
+    );
+
+    /// The same by elimination with partial pivoting, next to where that has failed with `at`; a fault where blocks are too large for
+    /// that.
+    fn pivoted_by_params(
+        &self,
+        _from: &Solution<Self>,
+        at: &mut Solution<Self>,
+        _by: &mut [Self::Q; K],
+    ) -> Result<(), Fault> {
+        Err(at.fault())
     }
-//# if inputs
-    if state.is_led {
-        return following::sensitivity(params, state);
-    }
-//# end
-//# if !led
-    let (model, from) = (Model::new(params), state.at());
-//# end
-//# if led
-    let way = Way {
-        params: *params,
-        ..state.led.model.way.clone()
-    };
-    let (model, from) = (Model::new(&way), state.led.at());
-//# end
-    by_params(&model, from)
+
+    /// Derivatives in whose direction an equation that was left out would cease to hold have no value.
+    fn hold_apart_by_params(&self, _by: &mut [Self::Q; K], _at: &Solution<Self>, _sides: &Self::Sides) {}
 }
 
-/// What [`sensitivity`] gives, next to a solution.
-fn by_params(m: &Model, from: &Solution) -> Result<[Q; PARAMS], Error> {
-//# if sides
-    let sides = &from.sides;
-//# end
-    let (mut at, mut by) = (from.clone(), [[0.0; N]; PARAMS]);
-    solve_by_params(&tears(&from.q), from.t, m$sides, &mut at, &mut by);
+/// The derivatives of the coordinates by each parameter, next to a solution.
+pub fn by_params<M: Sensitive<K>, const K: usize>(m: &M, from: &Solution<M>) -> Result<[M::Q; K], Error> {
+    let (mut at, mut by) = (from.clone(), [M::Q::ZERO; K]);
+    m.solve_by_params(&M::tears(&from.q), from.t, &from.sides, &mut at, &mut by);
     if !at.is_settled || !at.holds {
-//# if pivoting
-        at = solve_with_pivoting(&from.q, from.t, m$sides).map_err(Fault::at_start)?;
-        let mut elimination = Elimination::new();
-        let slopes = $phi_q(&at.q, from.t, &m.params$sides);
-        let rights = rights_by_param(&at.q, from.t, &m.params$sides);
-        for (by, right) in by.iter_mut().zip(&rights) {
-            *by = elimination.solve(&slopes, right).0.map(|x| x + 0.0);
-        }
-//# end
-//# if !pivoting
-        return Err(at.fault().at_start());
-//# end
+        m.pivoted_by_params(from, &mut at, &mut by).map_err(Fault::at_start)?;
     }
-    if by.iter().flatten().all(|value| value.is_finite()) {
-//# if left_out
-        hold_apart_by_param(&mut by, &at.q, from.t, &m.params$sides);
-//# end
+    if by.iter().flat_map(|by| by.as_ref()).all(|value| value.is_finite()) {
+        m.hold_apart_by_params(&mut by, &at, &from.sides);
         Ok(by)
     } else {
         Err(Error::NotANumber)
     }
 }
 
+/// The same at the position that some parameters have next to that of a state.
+pub fn sensitivity<M: Timed + Sensitive<K>, const K: usize>(
+    params: &M::Params,
+    state: &State<M>,
+) -> Result<[M::Q; K], Error> {
+    if !params.is_finite() {
+        return Err(Error::NotANumber);
+    }
+    by_params(&M::new(params), state.at())
+}

@@ -1,67 +1,128 @@
-/// Why a mechanism could not be brought to a time.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum Error {
-    /// The time, a parameter or a formula is not a number.
-    NotANumber,
-    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
-    LockUp,
-    /// Two branches of the motion meet: which one goes on is not determined.
-    Bifurcation,
-    /// Newton's iteration does not arrive, however short the step.
-    Divergence,
-    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
-    TooFar,
-    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
-    NotSmooth,
-    /// An equation that was left out as redundant does not hold beside the others.
-    Inconsistent,
+//! A mechanism that moves with time, and where it is.
+
+use super::error::Error;
+use super::limits::{AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD};
+use super::measured::Measured;
+use super::numbers::{Numbers, largest, predicted};
+use super::solution::{Along, Solution, Solved};
+use core::fmt::Debug;
+
+/// What can be set of a mechanism.
+pub trait Parameters: Copy + Debug + Default {
+    /// Part of the way from these to others.
+    #[must_use]
+    fn towards(&self, other: &Self, part: f64) -> Self;
+
+    /// Whether all are numbers.
+    fn is_finite(&self) -> bool;
 }
 
-impl core::fmt::Display for Error {
-    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
-        f.write_str(match self {
-            Error::NotANumber => "the time, a parameter or a formula is not a number",
-            Error::LockUp => "the mechanism locks up: its driver cannot go on",
-            Error::Bifurcation => "two branches of the motion meet",
-            Error::Divergence => "the motion cannot be followed",
-            Error::TooFar => "the time is too far away for so few steps",
-            Error::NotSmooth => "a position or velocity jumps",
-            Error::Inconsistent => "an equation that was left out as redundant does not hold",
-        })
+/// A mechanism whose motion goes along time.
+pub trait Timed: Solved<Along = Time> {
+    /// Its parameters.
+    type Params: Parameters;
+    /// What leads it by its inputs; `()` where it has none.
+    type Lead: Lead<Self>;
+    /// By rim, where formulas of time may end: the time at which it was looked at last (s).
+    type Passed: Numbers;
+    /// A number for each result.
+    type Row: Numbers;
+
+    /// The first time of the file's analysis (s), at which the mechanism is assembled.
+    const START_TIME: f64;
+    /// How long the file's analysis takes (s).
+    const SPAN: f64;
+    /// The longest step (s).
+    const LONGEST_STEP: f64;
+    /// The shortest step (s).
+    const SMALLEST_STEP: f64;
+
+    /// The mechanism with some parameters.
+    fn new(params: &Self::Params) -> Self;
+
+    /// Its parameters.
+    fn params(&self) -> &Self::Params;
+
+    /// The assembled position with the file's parameters.
+    fn start() -> &'static Self::Q;
+
+    /// The first rim of a step that was not looked at yet, with its time.
+    fn first_rim(&self, _from: f64, _to: f64, _passed: &Self::Passed) -> Option<(usize, f64)> {
+        None
+    }
+
+    /// Looks at both sides of a rim next to the state.
+    fn look_at_rim(_state: &mut State<Self>, _rim: usize, _t: f64) -> Result<(), Error> {
+        Ok(())
     }
 }
 
-impl core::error::Error for Error {}
+/// What leads a mechanism by its inputs.
+pub trait Lead<M: Timed>: Clone + Debug {
+    /// Nothing is led yet.
+    fn new(params: &M::Params) -> Self;
 
-/// The mechanism at a time.
-#[derive(Clone, Debug)]
-pub struct State {
-    model: Model,
-    /// The solution of now and the one before, or the next one in the making.
-    solutions: [Solution; 2],
-    /// Whether that of now is the second.
-    is_second: bool,
-    /// Whether the one before lies on the same smooth motion.
-    is_smooth: bool,
-    /// How much steeper these parameters make the equations than the file's.
-    steepness: f64,
-    /// The step that goes well (s).
-    step: f64,
-//# if inputs
-    /// What follows inputs, and whether they have led here rather than the time.
-    led: following::Led,
-    is_led: bool,
-//# end
-//# if rims
-    /// By rim: the time at which it was looked at last (s).
-    passed: [f64; RIMS],
-//# end
+    /// Whether inputs have led to where the mechanism is, rather than the time.
+    fn is_leading(&self) -> bool;
+
+    /// Brings a mechanism that inputs have led back to what the formulas of its inputs say at its time.
+    fn take_up_time(state: &mut State<M>, most: usize) -> Result<(), Error>;
 }
 
-impl State {
+impl<M: Timed> Lead<M> for () {
+    fn new(_: &M::Params) -> Self {}
+
+    fn is_leading(&self) -> bool {
+        false
+    }
+
+    fn take_up_time(_: &mut State<M>, _: usize) -> Result<(), Error> {
+        Ok(())
+    }
+}
+
+/// The motion goes along time.
+#[derive(Clone, Copy, Debug)]
+pub struct Time;
+
+impl<M: Timed> Along<M> for Time {
+    const ZERO: Self = Self;
+
+    fn predicted(_: &M, from: &Solution<M>, h: f64) -> M::Q {
+        predicted(&from.q, &from.qd, &from.qdd, h)
+    }
+
+    fn ahead(_: &M, at: &Solution<M>) -> (M::Q, f64) {
+        let (speed, acceleration) = (largest(&at.qd, M::scales()), largest(&at.qdd, M::scales()));
+        let mut ahead = f64::min(f64::min(AHEAD * M::SPAN, LONGEST_AHEAD), FARTHEST_AHEAD / speed);
+        ahead = f64::min(ahead, FARTHEST_AHEAD / (acceleration * ahead));
+        (predicted(&at.q, &at.qd, &at.qdd, ahead), at.t + ahead)
+    }
+}
+
+/// A mechanism at a time.
+#[derive(Clone, Debug)]
+pub struct State<M: Timed> {
+    pub(super) model: M,
+    /// The solution of now and the one before, or the next one in the making.
+    pub(super) solutions: [Solution<M>; 2],
+    /// Whether that of now is the second.
+    pub(super) is_second: bool,
+    /// Whether the one before lies on the same smooth motion.
+    pub(super) is_smooth: bool,
+    /// How much steeper these parameters make the equations than the file's.
+    pub(super) steepness: f64,
+    /// The step that goes well (s).
+    pub(super) step: f64,
+    /// What leads by inputs.
+    pub(super) lead: M::Lead,
+    /// By rim: the time at which it was looked at last (s).
+    pub(super) passed: M::Passed,
+}
+
+impl<M: Timed> State<M> {
     /// The solution of now.
-    fn at(&self) -> &Solution {
+    pub(super) fn at(&self) -> &Solution<M> {
         let [first, second] = &self.solutions;
         if self.is_second { second } else { first }
     }
@@ -72,90 +133,54 @@ impl State {
         self.at().t
     }
 
-//# if inputs
-    /// The inputs: what they were followed to, or what their formulas say at this time.
-    #[must_use]
-    pub fn inputs(&self) -> Inputs {
-        if self.is_led {
-            self.led.inputs()
-        } else {
-            Inputs::at(self.at().t, &self.model.params)
-        }
-    }
-
-//# end
     /// The parameters.
     #[must_use]
-    pub fn params(&self) -> &Params {
-        &self.model.params
+    pub fn params(&self) -> &M::Params {
+        self.model.params()
     }
 
-    /// The coordinates (m, rad), by the indices in [`coordinate`].
+    /// The coordinates (m, rad), by their indices.
     #[must_use]
-    pub fn q(&self) -> &Q {
+    pub fn q(&self) -> &M::Q {
         &self.at().q
     }
 
     /// Their velocities (m/s, rad/s).
     #[must_use]
-    pub fn qd(&self) -> &Qd {
+    pub fn qd(&self) -> &M::Q {
         &self.at().qd
     }
 
     /// Their accelerations (m/s^2, rad/s^2).
     #[must_use]
-    pub fn qdd(&self) -> &Qdd {
+    pub fn qdd(&self) -> &M::Q {
         &self.at().qdd
     }
-//# if bodies
 
-    /// Where a body is (m, m, rad).
+    /// The measures, by their indices, and their first and second time derivatives; `NAN` where one has no value, and no step fails
+    /// for that.
     #[must_use]
-    pub fn pose(&self, body: Body) -> Pose {
-        Pose::of(&self.at().q, body)
-    }
-
-    /// How fast a body moves (m/s, m/s, rad/s).
-    #[must_use]
-    pub fn velocity(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qd, body)
-    }
-
-    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
-    #[must_use]
-    pub fn acceleration(&self, body: Body) -> Pose {
-        Pose::of(&self.at().qdd, body)
-    }
-//# end
-//# if measures
-
-    /// The measures, by the indices in [`measure`], and their first and second time derivatives; `NAN` where
-    /// one has no value, and no step fails for that.
-    #[must_use]
-    pub fn measures(&self) -> &Measures {
+    pub fn measures(&self) -> &M::Measures {
         &self.at().measures
     }
-//# end
 
-    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures,
-    /// then their first and their second derivatives.
+    /// Whether inputs have led here, rather than the time.
+    pub(super) fn is_led(&self) -> bool {
+        self.lead.is_leading()
+    }
+
+    /// All results, in the order of the columns of `mechc run`: the time, coordinates and measures, then their first and their second
+    /// derivatives.
     #[must_use]
-    pub fn row(&self) -> [f64; COLUMNS] {
+    pub fn row(&self) -> M::Row {
         let at = self.at();
-//# if measures
         let [values, rates, accelerations] = at.measures.lists();
-        let zeroth = at.q.iter().chain(values);
-        let first = at.qd.iter().chain(rates);
-        let second = at.qdd.iter().chain(accelerations);
-        let all = zeroth.chain(first).chain(second);
-//# end
-//# if !measures
-        let all = at.q.iter().chain(&at.qd).chain(&at.qdd);
-//# end
-        let mut row = [at.t; COLUMNS];
-        for (cell, value) in row.iter_mut().skip(1).zip(all) {
-            *cell = *value;
-        }
+        let zeroth = at.q.as_ref().iter().chain(values);
+        let first = at.qd.as_ref().iter().chain(rates);
+        let second = at.qdd.as_ref().iter().chain(accelerations);
+        let all = [at.t].into_iter().chain(zeroth.chain(first).chain(second).copied());
+        let mut row = M::Row::ZERO;
+        row.as_mut().iter_mut().zip(all).for_each(|(cell, value)| *cell = value);
         row
     }
 }

@@ -1,17 +1,44 @@
-/// Arrays that operations read: by number, parameters, what follows from these, the branches of
-/// formulas, the time, and the coordinates with their derivatives.
-type Inputs<'i> = [&'i [f64]; 8];
+//! Operations as numbers: what runs them, and what they leave behind.
+
+use super::codes;
+use super::either::either;
+use super::pick::pick;
+use super::piece::piece;
+use super::select::select;
+use super::sine_and_cosine::sin_cos;
+
+/// Arrays that operations read: by number, parameters, what follows from these, the branches of formulas, the time or signals, the
+/// coordinates with their derivatives, and derivatives by inputs and parameters.
+pub type Arrays<'a> = [&'a [f64]; 9];
+
+/// What operations name by numbers.
+pub trait Book {
+    /// A number.
+    fn number(number: usize) -> f64;
+
+    /// A function of one argument.
+    fn unary(number: usize, a: f64) -> f64;
+
+    /// A function of two arguments.
+    fn binary(number: usize, a: f64, b: f64) -> f64;
+
+    /// A column of a table.
+    fn column(number: usize) -> &'static [f64];
+}
 
 /// What operations leave behind.
-trait Results {
+pub trait Results {
     /// A result, by its column.
     fn store(&mut self, column: usize, value: f64);
+
     /// A result that has been stored.
     fn stored(&self, column: usize) -> f64;
+
     /// A value that must not be above its bound.
-    fn bounded(&mut self, size: f64, bound: f64);
+    fn bounded(&mut self, _size: f64, _bound: f64) {}
+
     /// One over a pivot, the turn that it counts for, and what makes it a pure number.
-    fn pivot(&mut self, turn: usize, inverse: f64, weight: f64);
+    fn pivoted(&mut self, _turn: usize, _inverse: f64, _weight: f64) {}
 }
 
 /// Results in a list.
@@ -25,87 +52,124 @@ impl<const K: usize> Results for [f64; K] {
     fn stored(&self, column: usize) -> f64 {
         self.get(column).copied().unwrap_or(f64::NAN)
     }
+}
 
-    fn bounded(&mut self, _: f64, _: f64) {}
-
-    fn pivot(&mut self, _: usize, _: f64, _: f64) {}
+/// What operations work on.
+struct Work<'a, R> {
+    guess: &'a [f64],
+    inputs: &'a Arrays<'a>,
+    v: &'a mut [f64],
+    out: &'a mut R,
 }
 
 /// Runs operations on registers: what to do, where the result goes, and what it is done with.
-fn run(code: &[u32], guess: &[f64], inputs: &Inputs<'_>, v: &mut [f64], out: &mut impl Results) {
+pub fn run<B: Book>(code: &[u32], guess: &[f64], inputs: &Arrays<'_>, v: &mut [f64], out: &mut impl Results) {
+    let mut work = Work { guess, inputs, v, out };
     let mut rest = code;
     // every operation takes a word at least
     for _ in 0..code.len() {
-        let Some((&what, operands)) = rest.split_first() else {
+        let Some((&what, words)) = rest.split_first() else {
             return;
         };
-        let word = |k: usize| operands.get(k).map_or(0, |word| *word as usize);
-        let of = |v: &[f64], k: usize| v.get(word(k)).copied().unwrap_or(f64::NAN);
-        let number = |k: usize| NUMBERS.get(word(k)).copied().unwrap_or(f64::NAN);
-        let truth = f64::from;
-        let (value, length) = match what {
-            0 => (number(1), 2),
-            1 => {
-                let array = inputs.get(word(1)).copied().unwrap_or(&[]);
-                (array.get(word(2)).copied().unwrap_or(f64::NAN), 3)
+        let length = match work.value::<B>(what, words) {
+            Some((value, length)) => {
+                work.put(words, 0, value);
+                length
             }
-            2 => (out.stored(word(1)), 2),
-            3 => (guess.get(word(1)).copied().unwrap_or(f64::NAN), 2),
-            5 => (of(v, 1) + of(v, 2), 3),
-            6 => (of(v, 1) - of(v, 2), 3),
-            7 => (of(v, 1) * of(v, 2), 3),
-            8 => (of(v, 1) / of(v, 2), 3),
-            9 => (of(v, 1) * of(v, 2) + of(v, 3), 4),
-            10 => (of(v, 1) * of(v, 2) - of(v, 3), 4),
-            11 => (of(v, 3) - of(v, 1) * of(v, 2), 4),
-            12 => (-of(v, 1), 2),
-            13 => (1.0 / of(v, 1), 2),
-            14 => {
-                let (sin, cos) = sin_cos(of(v, 2));
-                if let Some(place) = v.get_mut(word(1)) {
-                    *place = cos;
-                }
-                (sin, 3)
-            }
-            18 => (unary_function(word(2), of(v, 1)), 3),
-            19 => (binary_function(word(3), of(v, 1), of(v, 2)), 4),
-            20 => (truth(of(v, 1) < of(v, 2)), 3),
-            21 => (truth(of(v, 1) <= of(v, 2)), 3),
-            22 => (truth(of(v, 1) == of(v, 2)), 3),
-            23 => (truth(of(v, 1) != 0.0 && of(v, 2) != 0.0), 3),
-            24 => (truth(of(v, 1) != 0.0 || of(v, 2) != 0.0), 3),
-            25 => (truth(of(v, 1) == 0.0), 2),
-            26 => (select(of(v, 1), of(v, 2), of(v, 3)), 4),
-            27 => (either(of(v, 1), of(v, 2), of(v, 3)), 4),
-            28 => (of(v, 1), 2),
-            29 => (piece(of(v, 1), column_of_table(word(2))), 3),
-            30 => (pick(column_of_table(word(2)), of(v, 1)), 3),
-            _ => {
-                let length = match what {
-                    4 => {
-                        out.store(word(0), of(v, 1));
-                        2
-                    }
-                    15 => {
-                        out.bounded(of(v, 0).abs() * number(1), 1.0);
-                        2
-                    }
-                    16 => {
-                        out.bounded(of(v, 0).abs(), number(1));
-                        2
-                    }
-                    _ => {
-                        out.pivot(word(1), of(v, 0), number(2));
-                        3
-                    }
-                };
-                rest = operands.get(length..).unwrap_or(&[]);
-                continue;
-            }
+            None => work.act::<B>(what, words),
         };
-        if let Some(place) = v.get_mut(word(0)) {
+        rest = words.get(length..).unwrap_or(&[]);
+    }
+}
+
+/// An operand.
+#[inline]
+fn word(words: &[u32], k: usize) -> usize {
+    words.get(k).map_or(0, |word| *word as usize)
+}
+
+impl<R: Results> Work<'_, R> {
+    /// The value of an operand's register.
+    #[inline]
+    fn of(&self, words: &[u32], k: usize) -> f64 {
+        self.v.get(word(words, k)).copied().unwrap_or(f64::NAN)
+    }
+
+    /// Leaves a value in the register of an operand.
+    #[inline]
+    fn put(&mut self, words: &[u32], k: usize, value: f64) {
+        if let Some(place) = self.v.get_mut(word(words, k)) {
             *place = value;
         }
-        rest = operands.get(length..).unwrap_or(&[]);
+    }
+
+    /// The result of an operation that has one, and how many words it takes.
+    #[inline]
+    fn value<B: Book>(&mut self, what: u32, words: &[u32]) -> Option<(f64, usize)> {
+        let of = |k: usize| self.of(words, k);
+        let operand = |k: usize| word(words, k);
+        let truth = f64::from;
+        Some(match what {
+            codes::NUMBER => (B::number(operand(1)), 2),
+            codes::INPUT => {
+                let array = self.inputs.get(operand(1)).copied().unwrap_or(&[]);
+                (array.get(operand(2)).copied().unwrap_or(f64::NAN), 3)
+            }
+            codes::STORED => (self.out.stored(operand(1)), 2),
+            codes::GUESS => (self.guess.get(operand(1)).copied().unwrap_or(f64::NAN), 2),
+            codes::ADD => (of(1) + of(2), 3),
+            codes::SUB => (of(1) - of(2), 3),
+            codes::MUL => (of(1) * of(2), 3),
+            codes::DIV => (of(1) / of(2), 3),
+            codes::MUL_ADD => (of(1) * of(2) + of(3), 4),
+            codes::MUL_LESS => (of(1) * of(2) - of(3), 4),
+            codes::LESS_MUL => (of(3) - of(1) * of(2), 4),
+            codes::NEG => (-of(1), 2),
+            codes::RECIP => (1.0 / of(1), 2),
+            codes::SIN_COS => {
+                let (sin, cos) = sin_cos(of(2));
+                self.put(words, 1, cos);
+                (sin, 3)
+            }
+            codes::UNARY => (B::unary(operand(2), of(1)), 3),
+            codes::BINARY => (B::binary(operand(3), of(1), of(2)), 4),
+            codes::LESS => (truth(of(1) < of(2)), 3),
+            codes::LESS_EQUAL => (truth(of(1) <= of(2)), 3),
+            codes::EQUAL => (truth(of(1) == of(2)), 3),
+            codes::AND => (truth(of(1) != 0.0 && of(2) != 0.0), 3),
+            codes::OR => (truth(of(1) != 0.0 || of(2) != 0.0), 3),
+            codes::NOT => (truth(of(1) == 0.0), 2),
+            codes::SELECT => (select(of(1), of(2), of(3)), 4),
+            codes::EITHER => (either(of(1), of(2), of(3)), 4),
+            codes::COPY => (of(1), 2),
+            codes::PIECE => (piece(of(1), B::column(operand(2))), 3),
+            codes::PICK => (pick(B::column(operand(2)), of(1)), 3),
+            _ => return None,
+        })
+    }
+
+    /// Does what leaves no value in a register; gives how many words it takes.
+    #[inline]
+    fn act<B: Book>(&mut self, what: u32, words: &[u32]) -> usize {
+        match what {
+            codes::STORE => {
+                self.out.store(word(words, 0), self.of(words, 1));
+                2
+            }
+            codes::MULTIPLIER => {
+                self.out.bounded(self.of(words, 0).abs() * B::number(word(words, 1)), 1.0);
+                2
+            }
+            codes::RESIDUAL => {
+                self.out.bounded(self.of(words, 0).abs(), B::number(word(words, 1)));
+                2
+            }
+            codes::PIVOT => {
+                self.out.pivoted(word(words, 1), self.of(words, 0), B::number(word(words, 2)));
+                3
+            }
+            // nothing else is there
+            _ => words.len(),
+        }
     }
 }

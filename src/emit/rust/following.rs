@@ -3,76 +3,73 @@
 //! Its equations hold inputs as signals. What `step` does along time, it does along the straight line from signals to others, whose
 //! places go from 0 to 1; it stands in a module of its own, so that nothing else changes.
 
-use super::{SOLVER, Writer, equations, run};
-use crate::emit::Following;
+use super::indices::numbered;
+use super::{Writer, equations};
 use crate::emit::equations::{Equations, Given, Wanted};
+use crate::emit::goods::Uses;
+
 use crate::emit::names::{Case, Names};
 use crate::emit::params::Params;
+use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
-use crate::emit::text::{chosen, indented, one_line};
+use crate::emit::text::one_line;
+use crate::emit::{Following, Motion};
 use crate::ir::Input;
 use crate::program::Register;
 use rustc_hash::FxHashMap;
+use std::cell::RefCell;
 
-const FOLLOW: &str = include_str!("../runtime/follow.rs");
+/// What is said of leading a state.
+const FOLLOW: &str = "Leads a state from its inputs to others, along the straight line between them, in as many steps
+as the branch asks for; their rates and accelerations there decide velocities and accelerations.
 
-/// Columns that the module stands in.
-const INDENT: &str = "    ";
+It takes [`MOST_STEPS`] steps at most, and mostly one; [`follow_within`] takes as many as it is
+allowed. A kink of a formula on the way is passed. What a measure makes of more than the
+accelerations of inputs has no value. [`step`] goes on by the text's formulas: it first leads
+back to what these say of the inputs at the state's time.
 
-/// The inputs, and the module that follows them.
-pub(super) fn module(following: &Following<'_>) -> String {
+# Errors
+Why it cannot get there; the state stays as it was, but for [`Error::TooFar`].";
+
+const FOLLOW_WITHIN: &str = "As [`follow`], in so many steps at most, for those who have a deadline: each solves the
+equations about once, and one that has to be made shorter counts as well.
+
+# Errors
+Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
+way, and the same call goes on from there.";
+
+/// The inputs, and the module that follows them; what that uses.
+pub(super) fn module(following: &Following<'_>, page: &mut Page) -> Uses {
     let unit = &*following.unit;
     let Some(motion) = &unit.motion else {
-        return String::new();
+        return Uses::default();
     };
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
     let equations = equations(unit, &names, &tables, true);
     let writer = Writer { unit, names: &names, equations: &equations };
-    let solution = Solution::new(unit, motion, &equations);
-    let module = Module { writer: &writer, solution: &solution };
-    let by_text = by_text(following, &names, &tables);
-    inputs(&unit.system.inputs, &names)
-        + "// who needs but some of it is not told so\n#[allow(unused_imports)]\npub use following::{follow, follow_within, influence};\n\n"
-        + "/// What follows inputs: along a way from 0 to 1, on which `t` is a place.\n#[rustfmt::skip]\nmod following {\n    use super::*;\n\n"
-        + indented(&(writer.tables() + &by_text + &module.text()), INDENT).trim_end()
-        + "\n}\n\n"
+    let mut body = Page::default();
+    writer.tables(&mut body);
+    let mut uses = by_text(following, &names, &tables, &mut body);
+    writer.led(motion, &mut body);
+    uses.add(&equations.uses.take());
+    let inputs = Inputs { all: &unit.system.inputs, names: &names };
+    inputs.print(page);
+    inputs.doors(!unit.system.checks.is_empty(), page);
+    page.docs("What follows inputs: along a way from 0 to 1, on which `t` is a place.");
+    page.line("#[rustfmt::skip]");
+    page.item("mod following", |page| {
+        page.line("use super::*;\n");
+        uses.print("super::runtime", page);
+        page.text(&body.done());
+    });
+    uses.file("follow");
+    uses
 }
 
-/// What everybody sees of inputs.
-fn inputs(all: &[Input], names: &Names) -> String {
-    let own: Vec<&Input> = all.iter().filter(|input| !input.is_time()).collect();
-    let has_time = own.len() < all.len();
-    let constants = Case::Constant.names_of_inputs(all);
-    let (mut indices, mut fields, mut signals) = (String::new(), String::new(), String::new());
-    for (k, input) in own.iter().enumerate() {
-        let unit = if input.unit == "1" { "a pure number" } else { &input.unit };
-        let docs = format!("/// `{}` ({unit})\n", one_line(&input.name));
-        indices += &format!("    {docs}    pub const {}: usize = {k};\n", constants[k]);
-        fields += &format!("    {docs}    pub {}: Signal,\n", names.inputs[k]);
-        signals += &format!("self.{}, ", names.inputs[k]);
-    }
-    let count = own.len();
-    let of_time = |text: &str| if has_time { text.to_owned() } else { String::new() };
-    let field = of_time("    /// The time (s), which formulas hold too; its rate is 1.\n    pub t: f64,\n");
-    let time = of_time("Signal { value: self.t, rate: 1.0, acceleration: 0.0 }");
-    let mut made = String::new();
-    for (k, name) in names.inputs.iter().take(count).enumerate() {
-        made += &format!("            {name}: signal({k}),\n");
-    }
-    let made = made + &of_time(&format!("            t: signal({count}).value,\n"));
-    INPUTS
-        .replace("$indices", &indices)
-        .replace("$fields", &(fields + &field))
-        .replace("$made", &made)
-        .replace("$all", (signals + &time).trim_end_matches(", "))
-        .replace("$count", &count.to_string())
-        .replace("$signals", &all.len().to_string())
-}
-
-/// What the text says of inputs: their values, rates and accelerations by its formulas.
-fn by_text(following: &Following<'_>, names: &Names, tables: &Tables) -> String {
+/// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
+fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut Page) -> Uses {
     let program = following.by_text;
     let outputs: Vec<Register> = program.inputs.all_signals().collect();
     let equations = Equations {
@@ -83,8 +80,9 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables) -> String 
         sides: FxHashMap::default(),
         is_led: false,
         book: None,
+        uses: RefCell::default(),
     };
-    let text = equations.function(&Wanted {
+    page.text(&equations.function(&Wanted {
         name: "by_text",
         docs: "Value, rate and acceleration of each signal by the text's formulas.",
         is_public: false,
@@ -95,216 +93,195 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables) -> String 
         length: "3 * SIGNALS",
         negated: false,
         given: Given::None,
-    });
-    text.replacen("fn by_text(", "pub(super) fn by_text(", 1)
+    }));
+    equations.uses.into_inner()
 }
 
-struct Module<'m> {
-    writer: &'m Writer<'m>,
-    solution: &'m Solution<'m>,
-}
-
-impl Module<'_> {
-    fn text(&self) -> String {
-        let Module { writer, solution } = self;
-        let (unit, equations) = (writer.unit, writer.equations);
-        let (of_time, has_motion) = writer.switches();
-        let solve = if equations.book.is_some() { writer.large(solution, &[]) } else { solution.function(false) };
-        let mut wanted = writer.wanted(solution, &solve);
-        wanted.push(("time", unit.system.inputs.iter().any(Input::is_time)));
-        let mut text = chosen(FOLLOW, &wanted) + "\n" + &solution.constants(&solve, false) + &self.pattern();
-        text += &writer.left_out_limits();
-        text += &self.model();
-        text += &of_led(&chosen(SOLVER, &wanted));
-        text += "\n";
-        text += &solution.tears();
-        text += &match &equations.book {
-            Some(book) => {
-                let template = writer.large(solution, &wanted);
-                run(equations).replace("Inputs<'", "Arrays<'")
-                    + "\n"
-                    + &solution.as_numbers(&template.replace("Inputs<'", "Arrays<'"), &mut book.borrow_mut())
-            }
-            None => solve,
-        };
-        text += &of_led(&writer.sensitivity(solution, &wanted).replacen(
-            "pub fn sensitivity",
-            "pub(super) fn sensitivity",
-            1,
-        ));
-        text += &of_led(&(writer.conditions() + &writer.watches() + &writer.sides(of_time, has_motion, &wanted)));
-        text = writer.filled(&text, solution);
-        text += &self.functions();
-        if let Some(book) = &equations.book {
-            text += &book.borrow().print(equations);
-            text = text.replace("Inputs<'", "Arrays<'");
-        }
-        text
-    }
-
-    /// Where the entries of the Jacobian stand.
-    fn pattern(&self) -> String {
-        let system = self.writer.unit.system;
-        let mut text = format!("const ENTRIES: usize = {};\n\n", system.phi_q.entries().len());
-        text += "/// Row and column of each value that `phi_q` gives.\nstatic PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [\n";
-        for row in 0..system.rows.len() {
-            for (column, _) in system.phi_q.row(row) {
-                text += &format!("    ({row}, {column}),\n");
-            }
-        }
-        text += "];\n\n";
-        if self.writer.equations.has_varied() {
+impl Writer<'_> {
+    /// The mechanism along signals.
+    fn led(&self, motion: &Motion, page: &mut Page) {
+        let solution = Solution::new(self.unit, motion, self.equations);
+        let system = self.unit.system;
+        page.constant("A way of the signals.", "type Way", "super::runtime::way::Way<Params, SIGNALS>");
+        page.line(&format!("const ENTRIES: usize = {};\n", system.phi_q.entries().len()));
+        self.pattern("", "Row and column of each value that `phi_q` gives.", page);
+        if self.equations.has_varied() {
             let count = 3 * system.variations().len() * system.coordinates.len();
-            text += &format!("const VARIED: usize = {count};\n\n");
-            text += &self.writer.is_by_two();
+            page.line(&format!("const VARIED: usize = {count};\n"));
         }
         if !system.checks.is_empty() {
-            text += &format!("const LEFT_OUT: usize = {};\n\n", system.checks.len());
+            page.line(&format!("const LEFT_OUT: usize = {};\n", system.checks.len()));
         }
-        text
+        self.model("way", "Way", "way", &solution, page);
+        self.solved(&solution, page);
+        self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.signals, page);
+        self.along_signals(&solution, page);
+        self.sensitivity(&solution, page);
+        if let Some(book) = &self.equations.book {
+            book.borrow().print(self.equations, page);
+        }
     }
 
-    /// The way of the signals, with what follows from parameters alone.
-    fn model(&self) -> String {
-        let registers = self.solution.known_registers();
-        if registers.is_empty() {
-            return MODEL.to_owned();
-        }
-        let wanted = Wanted {
-            name: "known",
-            docs: "What follows from the parameters alone.",
-            is_public: false,
-            orders: 0,
-            has_time: false,
-            varied: false,
-            outputs: &registers,
-            length: "KNOWN",
-            negated: false,
-            given: Given::None,
-        };
-        let known = self.writer.equations.function(&wanted);
-        format!("const KNOWN: usize = {};\n\n", registers.len())
-            + &MODEL
-                .replace("    way: Way,\n", "    way: Way,\n    known: [f64; KNOWN],\n")
-                .replace("Self { way: way.clone() }", "Self { way: way.clone(), known: known(way) }")
-            + &known
-    }
-
-    /// The functions of the equations, on branches of formulas that are given where there are any.
-    fn functions(&self) -> String {
-        let (writer, outputs) = (self.writer, &self.writer.unit.program.outputs);
-        let (sides, has_pivoting) = (writer.has_sides(), self.solution.motion.blocks.is_some());
-        let kinds = [
-            ("phi", 1, &outputs.phi, "N"),
-            ("phi_q", 1, &outputs.phi_q, "ENTRIES"),
-            ("nu", 1, &outputs.nu, "N"),
-            ("gamma", 2, &outputs.gamma, "N"),
-            ("left_out", 1, &outputs.checks, "LEFT_OUT"),
-        ];
-        let mut text = String::new();
-        for (of, orders, outputs, length) in kinds.into_iter().filter(|(_, _, outputs, _)| !outputs.is_empty()) {
-            text += &writer.equations.function(&Wanted {
-                name: &if sides { format!("{of}_with") } else { of.to_owned() },
-                docs: &format!("As [`super::{of}`], with the signals of a way."),
-                is_public: false,
-                orders,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: false,
-                given: Given::All,
+    /// The motion along signals.
+    fn along_signals(&self, solution: &Solution<'_>, page: &mut Page) {
+        self.uses("way", "Led");
+        self.uses("way", "Signals");
+        page.item("impl Led<SIGNALS> for Model", |page| {
+            page.line("type Params = Params;\n");
+            let head = Head { kind: "fn", name: "new", arguments: &[("way", "&Way")], result: "Self" };
+            page.function(&head, |page| self.making(solution, "way", "way.clone()", page));
+            let head = Head { kind: "fn", name: "way", arguments: &[("&self", "")], result: "&Way" };
+            page.function(&head, |page| page.line("&self.way"));
+            let head = Head { kind: "fn", name: "way_mut", arguments: &[("&mut self", "")], result: "&mut Way" };
+            page.function(&head, |page| page.line("&mut self.way"));
+            let arguments = [("params", "&Params"), ("t", "f64")];
+            let head = Head { kind: "fn", name: "by_text", arguments: &arguments, result: "Signals<SIGNALS>" };
+            page.function(&head, |page| {
+                page.line("let all = by_text(t, params);");
+                page.line("let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);");
+                page.line("core::array::from_fn(|order| core::array::from_fn(|k| get(3 * k + order)))");
             });
+            if !self.unit.system.checks.is_empty() {
+                let arguments = [("&self", ""), ("by", "&mut [Q; SIGNALS]"), ("at", "&Solution")];
+                let head = Head { kind: "fn", name: "hold_apart", arguments: &arguments, result: "" };
+                let with = if self.has_sides() { "&self.way, &at.sides" } else { "&self.way" };
+                page.function(&head, |page| self.hold_apart("signal", with, page));
+            }
+        });
+    }
+}
+
+/// What everybody sees of inputs.
+struct Inputs<'i> {
+    all: &'i [Input],
+    names: &'i Names,
+}
+
+impl Inputs<'_> {
+    /// Those that are not the time, which stands behind them.
+    fn own(&self) -> impl Iterator<Item = (&Input, &String)> {
+        self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
+    }
+
+    fn has_time(&self) -> bool {
+        self.all.iter().any(Input::is_time)
+    }
+
+    fn print(&self, page: &mut Page) {
+        page.docs("What is given of an input, in SI: its value, and how that changes.");
+        page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
+        page.item("pub struct Signal", |page| {
+            let fields = [
+                ("value", "The value."),
+                ("rate", "Its first time derivative."),
+                ("acceleration", "Its second time derivative."),
+            ];
+            for (name, docs) in fields {
+                page.docs(docs);
+                page.line(&format!("pub {name}: f64,"));
+            }
+        });
+        page.constant("Number of inputs.", "pub const INPUTS: usize", &self.own().count().to_string());
+        let docs = "Number of signals: time is one where formulas hold it beside inputs.";
+        page.constant(docs, "const SIGNALS: usize", &self.all.len().to_string());
+        let constants = Case::Constant.names_of_inputs(self.all);
+        let said = |(input, _): (&Input, &String)| format!("`{}` ({})", one_line(&input.name), unit(input));
+        numbered(
+            page,
+            "Where each input stands in what [`influence`] gives.",
+            "input",
+            self.own().map(said).zip(&constants),
+        );
+        page.docs("What comes from outside.");
+        page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
+        page.item("pub struct Inputs", |page| {
+            for (input, name) in self.own() {
+                page.docs(&format!("`{}` ({})", one_line(&input.name), unit(input)));
+                page.line(&format!("pub {name}: Signal,"));
+            }
+            if self.has_time() {
+                page.docs("The time (s), which formulas hold too; its rate is 1.");
+                page.line("pub t: f64,");
+            }
+        });
+        page.item("impl Inputs", |page| self.methods(page));
+    }
+
+    fn methods(&self, page: &mut Page) {
+        page.docs("What the text's formulas say at a time (s).");
+        page.line("#[must_use]");
+        let arguments = [("t", "f64"), ("params", "&Params")];
+        let head = Head { kind: "pub fn", name: "at", arguments: &arguments, result: "Self" };
+        page.function(&head, |page| {
+            page.line("use runtime::way::Led;\n");
+            page.line("Self::of(&following::Model::by_text(params, t))");
+        });
+        page.line("#[rustfmt::skip]");
+        let arguments = [("[values, rates, accelerations]", "&[[f64; SIGNALS]; 3]")];
+        let head = Head { kind: "fn", name: "of", arguments: &arguments, result: "Self" };
+        page.function(&head, |page| {
+            page.block("Self", |page| {
+                for (k, (_, name)) in self.own().enumerate() {
+                    let signal = format!("value: values[{k}], rate: rates[{k}], acceleration: accelerations[{k}]");
+                    page.line(&format!("{name}: Signal {{ {signal} }},"));
+                }
+                if self.has_time() {
+                    page.line(&format!("t: values[{}],", self.all.len() - 1));
+                }
+            });
+        });
+        page.docs("Values, rates and accelerations.");
+        page.line("#[rustfmt::skip]");
+        let head = Head { kind: "fn", name: "signals", arguments: &[("&self", "")], result: "[[f64; SIGNALS]; 3]" };
+        page.function(&head, |page| {
+            let mut all: Vec<String> = self.own().map(|(_, name)| format!("self.{name}")).collect();
+            if self.has_time() {
+                all.push("Signal { value: self.t, rate: 1.0, acceleration: 0.0 }".to_owned());
+            }
+            page.line(&format!("let all = [{}];", all.join(", ")));
+            page.line("[all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration)]");
+        });
+    }
+
+    /// The functions that everybody may call.
+    fn doors(&self, is_left_out: bool, page: &mut Page) {
+        page.item("impl runtime::follow::Follows<following::Model, SIGNALS> for Model", |page| {
+            page.line(&format!("const HAS_TIME: bool = {};", self.has_time()));
+        });
+        let arguments = [("inputs", "&Inputs"), ("state", "&mut State"), ("most", "usize")];
+        let head = |name, arguments, result| Head { kind: "pub fn", name, arguments, result };
+        page.docs(FOLLOW);
+        let follow = head("follow", &arguments[..2], "Result<(), Error>");
+        page.function(&follow, |page| page.line("follow_within(inputs, state, MOST_STEPS)"));
+        page.docs(FOLLOW_WITHIN);
+        let follow_within = head("follow_within", &arguments, "Result<(), Error>");
+        page.function(&follow_within, |page| {
+            page.line("runtime::follow::follow_within(&inputs.signals(), state, most)");
+        });
+        page.docs(
+            "The derivatives of the coordinates by each input, by the numbers in [`input`]: for a constant\n\
+             shift of it, along the branch that the state is on.",
+        );
+        if is_left_out {
+            page.docs(
+                "Where an input alone cannot change, because an equation that was left out would cease to hold, its\n\
+                 derivatives are `NAN`.",
+            );
         }
-        text += &writer.held_apart("signal", &outputs.check_slopes.signals, "SIGNALS");
-        if has_pivoting {
-            text += &writer.rights("signal", &outputs.by_signal, "SIGNALS");
-            text += &of_led(&writer.measures().replace("pub fn measures", "fn measures"));
-            text += &writer.varied(Given::All);
-        }
-        text
+        page.docs("\n# Errors\nThe equations cannot be solved with the inputs as signals.");
+        let influence = head("influence", &[("state", "&State")], "Result<[Q; INPUTS], Error>");
+        page.function(&influence, |page| {
+            if self.has_time() {
+                page.line("let [by @ .., _] = runtime::follow::influence(state)?;");
+                page.line("Ok(by)");
+            } else {
+                page.line("runtime::follow::influence(state)");
+            }
+        });
     }
 }
 
-/// A template of what is given parameters, for what is given a way.
-fn of_led(text: &str) -> String {
-    text.replace("&m.params", "&m.way").replace("p: &Params", "p: &Way")
+/// The unit of an input.
+fn unit(input: &Input) -> &str {
+    if input.unit == "1" { "a pure number" } else { &input.unit }
 }
-
-const MODEL: &str = "/// A way, with what follows from its parameters alone.
-#[derive(Clone, Debug)]
-struct Model {
-    way: Way,
-}
-
-impl Model {
-    fn new(way: &Way) -> Self {
-        Self { way: way.clone() }
-    }
-}
-
-";
-
-const INPUTS: &str = "/// What is given of an input, in SI: its value, and how that changes.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Signal {
-    /// The value.
-    pub value: f64,
-    /// Its first time derivative.
-    pub rate: f64,
-    /// Its second time derivative.
-    pub acceleration: f64,
-}
-
-/// Number of inputs.
-pub const INPUTS: usize = $count;
-
-/// Number of signals: time is one where formulas hold it beside inputs.
-const SIGNALS: usize = $signals;
-
-/// Where each input stands in what [`influence`] gives.
-pub mod input {
-$indices}
-
-/// What comes from outside.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Inputs {
-$fields}
-
-impl Inputs {
-    /// What the text's formulas say at a time (s).
-    #[must_use]
-    pub fn at(t: f64, params: &Params) -> Self {
-        let all = following::by_text(t, params);
-        let get = |k: usize| all.get(k).copied().unwrap_or(f64::NAN);
-        let order = |order: usize| core::array::from_fn(|k| get(3 * k + order));
-        Self::of(&order(0), &order(1), &order(2))
-    }
-
-    #[rustfmt::skip]
-    fn of(values: &[f64; SIGNALS], rates: &[f64; SIGNALS], accelerations: &[f64; SIGNALS]) -> Self {
-        let of = |list: &[f64; SIGNALS], k: usize| list.get(k).copied().unwrap_or(f64::NAN);
-        let signal = |k: usize| Signal {
-            value: of(values, k),
-            rate: of(rates, k),
-            acceleration: of(accelerations, k),
-        };
-        Self {
-$made        }
-    }
-
-    /// Values, rates and accelerations.
-    #[rustfmt::skip]
-    fn lists(&self) -> ([f64; SIGNALS], [f64; SIGNALS], [f64; SIGNALS]) {
-        let all = [$all];
-        (all.map(|of| of.value), all.map(|of| of.rate), all.map(|of| of.acceleration))
-    }
-
-    fn are_finite(&self) -> bool {
-        let (values, rates, accelerations) = self.lists();
-        let mut all = values.iter().chain(&rates).chain(&accelerations);
-        all.all(|value| value.is_finite())
-    }
-}
-
-";

@@ -1,0 +1,266 @@
+//! What goes along with emitted code: files of `runtime` and of `math`, to the letter, and the limits that they name.
+//!
+//! Who writes code that calls something says so here ([`Uses`]); what else that needs follows.
+
+use super::limits;
+use super::operations::{Callee, callee, callee_of_two};
+use super::print::Page;
+use crate::program::Op;
+use crate::solver::Instruction;
+use std::collections::BTreeSet;
+
+/// A file that can go along.
+pub(super) struct File {
+    /// The module that it becomes.
+    pub name: &'static str,
+    pub text: &'static str,
+    /// The files that it names.
+    pub needs: &'static [&'static str],
+    /// The limits that it names.
+    pub limits: &'static [&'static str],
+}
+
+macro_rules! files {
+    ($($name:literal at $path:literal: [$($needs:literal),*], [$($limits:ident),*];)*) => {
+        /// All files, each behind those that it needs.
+        pub(super) const FILES: &[File] = &[
+            $(File { name: $name, text: include_str!($path), needs: &[$($needs),*], limits: &[$(stringify!($limits)),*] },)*
+        ];
+    };
+}
+
+files! {
+    "numbers" at "runtime/numbers.rs": [], [];
+    "error" at "runtime/error.rs": [], [];
+    "equations" at "runtime/equations.rs": ["numbers"], [];
+    "measured" at "runtime/measured.rs": [], [];
+    "solution" at "runtime/solution.rs": ["numbers", "error", "equations", "measured"], [];
+    "pivots" at "runtime/pivots.rs": ["numbers", "solution"], [];
+    "grid" at "runtime/grid.rs": [], [];
+    "newton" at "runtime/newton.rs": ["numbers", "solution"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "branches" at "runtime/branches.rs": ["equations", "solution"], [MOST_HALVINGS, SLACK];
+    "watched" at "runtime/watched.rs": ["numbers"], [];
+    "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
+    "hold_apart" at "runtime/hold_apart.rs": ["numbers", "equations"], [MISSES];
+    "reach" at "runtime/reach.rs": ["numbers", "error", "measured", "solution", "branches"],
+        [ACCURACY, MOST_BRANCHES, STEEP, STEEPEST];
+    "state" at "runtime/state.rs": ["numbers", "error", "measured", "solution"], [AHEAD, FARTHEST_AHEAD, LONGEST_AHEAD];
+    "assemble" at "runtime/assemble.rs": ["numbers", "error", "solution", "branches", "reach", "state"],
+        [LARGEST_CORRECTION, MOST_PARTS, SMALLEST_PART];
+    "explain" at "runtime/explain.rs": ["error", "solution", "branches", "state"], [NEAR_FOLD, SINGULAR];
+    "step" at "runtime/step.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain"],
+        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP];
+    "rims" at "runtime/rims.rs": ["numbers", "error", "solution", "reach", "state"],
+        [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
+    "blocks" at "../math/blocks.rs": [], [];
+    "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [HALF_A_CELL, ITERATIONS];
+    "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["numbers", "error", "solution", "pivoting"], [];
+    "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
+    "way_list" at "runtime/way_list.rs": ["state", "way"], [];
+    "follow" at "runtime/follow.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain", "way"],
+        [FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LARGEST_TURN, POSITION_JUMP, SHORTEST_STEP, SINGULAR];
+    "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
+    "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
+    "lane_solutions" at "runtime/lane_solutions.rs": ["measured", "solution", "state"], [];
+    "lane_strain" at "runtime/lane_strain.rs": ["numbers", "lane_solutions"], [];
+    "lane_pivots" at "runtime/lane_pivots.rs": ["numbers", "lane_solutions"], [];
+    "lane_newton" at "runtime/lane_newton.rs": ["numbers", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "lanes" at "runtime/lanes.rs": ["numbers", "error", "branches", "state", "assemble", "step", "lane_solutions"],
+        [FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
+    "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];
+    "sine_and_cosine" at "../math/sin_cos.rs": [], [];
+    "without_branches" at "../math/without_branches.rs": ["sine_and_cosine"], [];
+    "select" at "runtime/functions/select.rs": [], [];
+    "either" at "runtime/functions/either.rs": [], [];
+    "piece" at "runtime/functions/piece.rs": [], [];
+    "pick" at "runtime/functions/pick.rs": [], [];
+    "sign" at "runtime/functions/sign.rs": [], [];
+    "lesser" at "runtime/functions/lesser.rs": [], [];
+    "greater" at "runtime/functions/greater.rs": [], [];
+    "codes" at "../program/codes.rs": [], [];
+    "tables" at "runtime/tables.rs": ["codes", "sine_and_cosine", "select", "either", "piece", "pick"], [];
+    "listed" at "runtime/listed.rs": ["measured", "solution", "pivots", "grid", "newton", "tables"], [ITERATIONS];
+    "listed_slopes" at "runtime/listed_slopes.rs": ["solution", "newton", "tables", "listed"], [];
+}
+
+/// What the code of a module uses.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Uses {
+    files: BTreeSet<&'static str>,
+    limits: BTreeSet<&'static str>,
+    /// What it names, with the file.
+    names: BTreeSet<(&'static str, &'static str)>,
+    libm: bool,
+}
+
+impl Uses {
+    /// A thing of a file, or a limit of `limits`, is named.
+    pub fn name(&mut self, file: &'static str, name: &'static str) {
+        self.names.insert((file, name));
+        if file == "limits" {
+            self.limits.insert(name);
+        } else {
+            self.files.insert(file);
+        }
+    }
+
+    /// A file goes along that extends what others have.
+    pub fn file(&mut self, file: &'static str) {
+        self.files.insert(file);
+    }
+
+    /// A limit is named by its whole path.
+    pub fn limit(&mut self, name: &'static str) {
+        self.limits.insert(name);
+    }
+
+    /// The crate `libm` is called.
+    pub fn libm(&mut self) {
+        self.libm = true;
+    }
+
+    /// What instructions written as lines call, in lanes or alone.
+    pub fn instructions(&mut self, instructions: &[Instruction], has_lanes: bool) {
+        for instruction in instructions {
+            match instruction {
+                Instruction::Compute(Op::SinCos { .. }) if has_lanes => {
+                    self.name("without_branches", "sin_cos_below_a_million");
+                    self.file("lane_strain");
+                }
+                Instruction::Compute(op) => self.operation(*op),
+                Instruction::Pivot { .. } => self.file(if has_lanes { "lane_pivots" } else { "pivots" }),
+                Instruction::Multiplier { .. } if !has_lanes => self.name("limits", "LARGEST_MULTIPLIER"),
+                Instruction::Multiplier { .. } | Instruction::Residual { .. } if has_lanes => self.file("lane_strain"),
+                _ => {}
+            }
+        }
+    }
+
+    fn operation(&mut self, op: Op) {
+        match op {
+            Op::Unary { function, .. } => self.callee(callee(function)),
+            Op::Binary { function, .. } => self.callee(callee_of_two(function)),
+            Op::SinCos { .. } => self.name("sine_and_cosine", "sin_cos"),
+            Op::Select { .. } => self.name("select", "select"),
+            Op::Either { .. } => self.name("either", "either"),
+            Op::Piece { .. } => self.name("piece", "piece"),
+            Op::Pick { .. } => self.name("pick", "pick"),
+            _ => {}
+        }
+    }
+
+    /// A function of numbers is called.
+    pub fn callee(&mut self, callee: Callee) {
+        match callee {
+            Callee::Sine | Callee::Cosine => self.name("sine_and_cosine", "sin_cos"),
+            Callee::Own(name) => self.name(name, name),
+            Callee::Libm(_) => self.libm(),
+            Callee::Core(_) => {}
+        }
+    }
+
+    /// Whether the crate `libm` is called.
+    pub fn needs_libm(&self) -> bool {
+        self.libm
+    }
+
+    /// The lines that name what is used, of a module from which `runtime` is reached so.
+    pub fn print(&self, runtime: &str, page: &mut Page) {
+        for (file, name) in &self.names {
+            page.line(&format!("use {runtime}::{file}::{name};"));
+        }
+        if !self.names.is_empty() {
+            page.blank();
+        }
+    }
+
+    /// More that the same module uses.
+    pub fn add(&mut self, other: &Uses) {
+        self.include(other);
+        self.names.extend(&other.names);
+    }
+
+    /// What another module of the same file uses goes along too.
+    pub fn include(&mut self, other: &Uses) {
+        self.files.extend(&other.files);
+        self.limits.extend(&other.limits);
+        self.libm |= other.libm;
+    }
+
+    /// What goes along, as a module; nothing where that is nothing.
+    pub fn goods(&self, page: &mut Page) {
+        let (mut wanted, mut limits) = (self.files.clone(), self.limits.clone());
+        // those that are needed stand before those that need them
+        for file in FILES.iter().rev() {
+            if wanted.contains(file.name) {
+                wanted.extend(file.needs);
+                limits.extend(file.limits);
+            }
+        }
+        if wanted.is_empty() && limits.is_empty() {
+            return;
+        }
+        page.docs("What solves the equations and follows the motion, the same for all mechanisms.");
+        page.line("#[rustfmt::skip]");
+        page.line("mod runtime {");
+        for file in FILES.iter().filter(|file| wanted.contains(file.name)) {
+            page.line(&format!("pub mod {} {{", file.name));
+            if file.name == "without_branches" {
+                page.line("use super::sine_and_cosine::{cos_near_zero, reduce_small, sin_near_zero};\n");
+            }
+            page.text(file.text);
+            page.line("}\n");
+        }
+        if !limits.is_empty() {
+            page.line("/// Where to stop, and what counts as large.");
+            page.line("pub mod limits {");
+            for name in limits {
+                page.text(&limits::printed(name));
+            }
+            page.line("}");
+        }
+        page.line("}");
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::FILES;
+    use std::collections::BTreeSet;
+
+    /// The names that follow `super::` in a file, in paths and in braces.
+    fn named(text: &str, after: &str) -> BTreeSet<String> {
+        let is_part = |c: char| c.is_ascii_alphanumeric() || c == '_';
+        let of = |rest: &str| match rest.strip_prefix('{') {
+            Some(list) => list.split('}').next().unwrap_or_default().to_owned(),
+            None => rest.split(|c| !is_part(c)).next().unwrap_or_default().to_owned(),
+        };
+        let lists = text.split(after).skip(1).map(of);
+        lists
+            .flat_map(|list| list.split(',').map(|name| name.trim().to_owned()).collect::<Vec<_>>())
+            .filter(|name| !name.is_empty())
+            .collect()
+    }
+
+    #[test]
+    fn files_name_what_goes_along_with_them() {
+        for (number, file) in FILES.iter().enumerate() {
+            if file.text.starts_with("// ") {
+                continue; // of another room
+            }
+            let mut needs = named(file.text, "super::");
+            needs.remove("limits");
+            let said: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
+            let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
+            assert!(file.needs.iter().all(|name| is_before(&name)), "{} stands too early", file.name);
+            // what extends a type is not named
+            assert!(
+                needs.is_subset(&said) && said.difference(&needs).all(|name| name == "pivots"),
+                "{}: {needs:?}",
+                file.name
+            );
+            let limits: BTreeSet<String> = file.limits.iter().map(|name| (*name).to_owned()).collect();
+            assert_eq!(named(file.text, "limits::"), limits, "{}", file.name);
+        }
+    }
+}

@@ -1,0 +1,157 @@
+//! Rust as it is printed: items, blocks, lists of values, each at its place in the line, as a formatter leaves them.
+
+use super::text::{LONGEST_LINE, documented, lines};
+
+/// Columns of an indent.
+const INDENT: usize = 4;
+
+/// Rust in the making.
+#[derive(Default)]
+pub(super) struct Page {
+    text: String,
+    /// Columns that lines are indented by.
+    indent: usize,
+    /// Columns that all of it will be indented by.
+    margin: usize,
+}
+
+/// The head of a function.
+pub(super) struct Head<'h> {
+    /// What stands before its name: `pub fn`.
+    pub kind: &'h str,
+    pub name: &'h str,
+    /// Names and types; a type may be empty, as that of `&self`.
+    pub arguments: &'h [(&'h str, &'h str)],
+    /// Its type, if it gives something.
+    pub result: &'h str,
+}
+
+impl Page {
+    /// What will stand in a module.
+    pub fn of_module() -> Page {
+        Page { margin: INDENT, ..Page::default() }
+    }
+
+    /// What has been printed.
+    pub fn done(self) -> String {
+        self.text
+    }
+
+    /// A line; one that is empty is blank.
+    pub fn line(&mut self, line: &str) {
+        if !line.is_empty() {
+            self.text.extend(std::iter::repeat_n(' ', self.indent));
+        }
+        self.text += line;
+        self.text.push('\n');
+    }
+
+    pub fn blank(&mut self) {
+        self.text.push('\n');
+    }
+
+    /// Lines that are finished.
+    pub fn text(&mut self, text: &str) {
+        text.lines().for_each(|line| self.line(line));
+    }
+
+    /// Documentation.
+    pub fn docs(&mut self, docs: &str) {
+        self.text(&documented(docs, ""));
+    }
+
+    /// What stands between the braces behind a head.
+    pub fn block(&mut self, head: &str, body: impl FnOnce(&mut Page)) {
+        self.line(&format!("{head} {{"));
+        self.indented(body);
+        self.line("}");
+    }
+
+    /// The same for an item, which a blank line follows.
+    pub fn item(&mut self, head: &str, body: impl FnOnce(&mut Page)) {
+        self.block(head, body);
+        self.blank();
+    }
+
+    fn indented(&mut self, body: impl FnOnce(&mut Page)) {
+        self.indent += INDENT;
+        body(self);
+        self.indent -= INDENT;
+        // nothing blank stands before a brace
+        if self.text.ends_with("\n\n") {
+            self.text.pop();
+        }
+    }
+
+    /// Ends a block as a statement ends, and leaves a blank line.
+    pub fn end_statement(&mut self) {
+        if self.text.ends_with('\n') {
+            self.text.pop();
+        }
+        self.text += ";\n\n";
+    }
+
+    /// A function, which a blank line follows.
+    pub fn function(&mut self, head: &Head<'_>, body: impl FnOnce(&mut Page)) {
+        let Head { kind, name, arguments, result } = head;
+        let argument =
+            |(name, of): &(&str, &str)| if of.is_empty() { (*name).to_owned() } else { format!("{name}: {of}") };
+        let arguments: Vec<String> = arguments.iter().map(argument).collect();
+        let result = if result.is_empty() { String::new() } else { format!(" -> {result}") };
+        let line = format!("{kind} {name}({}){result}", arguments.join(", "));
+        if self.margin + self.indent + line.len() + 2 <= LONGEST_LINE {
+            self.block(&line, body);
+        } else {
+            self.line(&format!("{kind} {name}("));
+            self.indented(|page| arguments.iter().for_each(|argument| page.line(&format!("{argument},"))));
+            self.block(&format!("){result}"), body);
+        }
+        self.blank();
+    }
+
+    /// A constant.
+    pub fn constant(&mut self, docs: &str, head: &str, value: &str) {
+        self.docs(docs);
+        self.line(&format!("{head} = {value};"));
+        self.blank();
+    }
+
+    /// A list of values between what stands before and behind it.
+    pub fn list(&mut self, before: &str, values: &[String], behind: &str) {
+        self.line(before);
+        self.text(&lines(values, ""));
+        self.line(behind);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Head, Page};
+
+    #[test]
+    fn what_is_long_is_broken_and_nothing_blank_ends_a_block() {
+        let arguments = [("first", "&mut [f64; 12345678901234]"), ("second", "&mut [f64; 123456789]")];
+        let mut page = Page::default();
+        page.item("impl Long", |page| {
+            let short = Head { kind: "fn", name: "short", arguments: &arguments[..1], result: "" };
+            page.function(&short, |page| page.line("first"));
+            let head = Head { kind: "pub fn", name: "long_enough", arguments: &arguments, result: "Something" };
+            page.function(&head, |page| page.line("second"));
+        });
+        let wanted = "impl Long {
+    fn short(first: &mut [f64; 12345678901234]) {
+        first
+    }
+
+    pub fn long_enough(
+        first: &mut [f64; 12345678901234],
+        second: &mut [f64; 123456789],
+    ) -> Something {
+        second
+    }
+}
+
+";
+        assert_eq!(page.done(), wanted);
+    }
+}

@@ -1,0 +1,63 @@
+//! The branches of formulas along the motion.
+
+use super::equations::Branches;
+use super::limits::{MOST_HALVINGS, SLACK};
+use super::solution::{Along, Solution, Solved};
+
+/// A time on the later side of whatever is meant to happen at `t` (s).
+fn shortly_after(t: f64) -> f64 {
+    t + SLACK * f64::EPSILON * t.abs() + f64::MIN_POSITIVE
+}
+
+/// The branches of formulas of time at a time: the later ones where they change just then, but at the end of the file's analysis
+/// the earlier ones.
+pub fn sides_at<M: Branches>(t: f64, m: &M) -> M::Sides {
+    match M::END {
+        Some(end) if t <= end && shortly_after(t) >= end => m.sides_of_time(end - 2.0 * (shortly_after(end) - end)),
+        _ => m.sides_of_time(shortly_after(t)),
+    }
+}
+
+/// The first time of a step at which formulas of time take other branches than at its beginning; its end if they do not.
+pub fn first_edge<M: Branches>(from: f64, to: f64, m: &M) -> f64 {
+    let here = sides_at(from, m);
+    if sides_at(to, m) == here {
+        return to;
+    }
+    let (mut near, mut far) = (from, to);
+    for _ in 0..MOST_HALVINGS {
+        let middle = 0.5 * (near + far);
+        if middle == near || middle == far {
+            break;
+        }
+        if sides_at(middle, m) == here {
+            near = middle;
+        } else {
+            far = middle;
+        }
+    }
+    far
+}
+
+/// The branches at a position that is next to one that is looked for.
+pub fn sides_near<M: Branches>(q: &M::Q, t: f64, m: &M) -> M::Sides {
+    m.sides_of_motion(q, t, &sides_at(t, m))
+}
+
+/// The branches with those of time exchanged.
+pub fn with_time<M: Branches>(sides: &M::Sides, of_time: &M::Sides) -> M::Sides {
+    let mut all = *sides;
+    let pairs = of_time.as_ref().iter().zip(M::is_of_time());
+    for (side, (of_time, is_of_time)) in all.as_mut().iter_mut().zip(pairs) {
+        if *is_of_time {
+            *side = *of_time;
+        }
+    }
+    all
+}
+
+/// The branches of formulas of the motion that lie ahead of a position.
+pub fn sides_ahead<M: Solved>(at: &Solution<M>, m: &M) -> M::Sides {
+    let (q, t) = M::Along::ahead(m, at);
+    m.sides_of_motion(&q, t, &at.sides)
+}

@@ -1,0 +1,63 @@
+//! Why something cannot be done.
+
+/// Why a mechanism could not be brought to a time.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Error {
+    /// The time, a parameter or a formula is not a number.
+    NotANumber,
+    /// A driver has come to a position beyond which the mechanism cannot follow it: a dead point.
+    LockUp,
+    /// Two branches of the motion meet: which one goes on is not determined.
+    Bifurcation,
+    /// Newton's iteration does not arrive, however short the step.
+    Divergence,
+    /// The steps that were allowed do not lead so far; nothing is wrong with the motion up to here.
+    TooFar,
+    /// At a time where a formula of time goes over to another branch, a position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out as redundant does not hold beside the others.
+    Inconsistent,
+}
+
+impl core::fmt::Display for Error {
+    fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
+        f.write_str(match self {
+            Error::NotANumber => "the time, a parameter or a formula is not a number",
+            Error::LockUp => "the mechanism locks up: its driver cannot go on",
+            Error::Bifurcation => "two branches of the motion meet",
+            Error::Divergence => "the motion cannot be followed",
+            Error::TooFar => "the time is too far away for so few steps",
+            Error::NotSmooth => "a position or velocity jumps",
+            Error::Inconsistent => "an equation that was left out as redundant does not hold",
+        })
+    }
+}
+
+impl core::error::Error for Error {}
+
+/// Why a step is refused.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fault {
+    /// Something is not a number.
+    NotANumber,
+    /// The step is too long for the motion.
+    TooFar,
+    /// The position is on another branch, or too near to one.
+    Singular,
+    /// A position or velocity jumps.
+    NotSmooth,
+    /// An equation that was left out does not hold.
+    LeftOut,
+}
+
+impl Fault {
+    /// Why a mechanism cannot be assembled.
+    pub fn at_start(self) -> Error {
+        match self {
+            Self::NotANumber => Error::NotANumber,
+            Self::LeftOut => Error::Inconsistent,
+            _ => Error::Divergence,
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Why a motion cannot go on.
+
+use super::branches::sides_at;
+use super::error::{Error, Fault};
+use super::limits::{NEAR_FOLD, SINGULAR};
+use super::solution::{Solution, Solved};
+use super::state::{State, Timed};
+
+/// Why even the shortest step from a state towards a time is refused.
+pub fn explain<M: Timed>(state: &State<M>, fault: Fault, t: f64) -> Error {
+    let at = state.at();
+    if let Some(error) = regular(at, fault, t, &state.model) {
+        return error;
+    }
+    if at.steepest < SINGULAR * state.steepness {
+        return if fault == Fault::LeftOut { Error::Inconsistent } else { Error::Divergence };
+    }
+    let left = until_turn(at);
+    meeting(if t < at.t { -left } else { left }, M::SPAN)
+}
+
+/// Why it is, if that has nothing to do with how near the position is to a singular one.
+pub fn regular<M: Solved>(at: &Solution<M>, fault: Fault, t: f64, m: &M) -> Option<Error> {
+    let values = m.phi(&at.q, t, &at.sides);
+    if fault == Fault::NotANumber || values.as_ref().iter().any(|value| !value.is_finite()) {
+        return Some(Error::NotANumber);
+    }
+    // a position that jumps far is not even found on the other side
+    let is_at_edge = || sides_at(at.t, m) != sides_at(t, m);
+    let jumps = fault == Fault::NotSmooth || (fault == Fault::TooFar && is_at_edge());
+    jumps.then_some(Error::NotSmooth)
+}
+
+/// How long it takes to a dead point: a motion that comes to one after a time u is as the root of u, whose slope over twice its
+/// curvature is u. That of the fastest coordinate counts.
+pub fn until_turn<M: Solved>(at: &Solution<M>) -> f64 {
+    let rates = at.qd.as_ref().iter().zip(at.qdd.as_ref()).zip(M::scales().as_ref());
+    let sooner = |(speed, left): (f64, f64), ((v, a), scale): ((&f64, &f64), &f64)| {
+        if v.abs() / scale > speed { (v.abs() / scale, 0.5 * v / a) } else { (speed, left) }
+    };
+    rates.fold((0.0, 0.0), sooner).1
+}
+
+/// What the motion meets at a singular position: a dead point if that is so little of a span ahead.
+pub fn meeting(left: f64, span: f64) -> Error {
+    if left > 0.0 && left < NEAR_FOLD * span { Error::LockUp } else { Error::Bifurcation }
+}

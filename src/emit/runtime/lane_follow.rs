@@ -1,0 +1,27 @@
+//! Lanes that are led by their inputs.
+
+use super::error::Error;
+use super::follow::{Follows, follow_within};
+use super::lane_solutions::Laned;
+use super::lanes::{States, put};
+use super::limits::MOST_STEPS;
+use super::way::{Led, Signals};
+
+/// Leads every lane to signals of its own, each with the bits that it would have alone, one after the other. Says of each lane whether it
+/// has got there, and if not, why; it stays as it was.
+pub fn follow_each<E: Led<K>, M: Follows<E, K> + Laned<L>, const K: usize, const L: usize>(
+    signals: &[Signals<K>; L],
+    states: &mut States<M, L>,
+) -> [Result<(), Error>; L] {
+    let mut results = [Ok(()); L];
+    for (lane, (signals, result)) in signals.iter().zip(&mut results).enumerate() {
+        let Some(mut state) = states.get(lane) else {
+            continue;
+        };
+        *result = follow_within(signals, &mut state, MOST_STEPS);
+        states.both().0.set_lane(lane, state.at());
+        put(&mut states.lead, lane, &state.lead);
+        put(&mut states.is_smooth, lane, &false);
+    }
+    results
+}

@@ -1,0 +1,58 @@
+//! Numbers by place, and how large they are.
+
+use core::fmt::Debug;
+
+/// So many numbers.
+pub trait Numbers: Copy + Debug + 'static + AsRef<[f64]> + AsMut<[f64]> {
+    /// All of them 0.
+    const ZERO: Self;
+}
+
+impl<const K: usize> Numbers for [f64; K] {
+    const ZERO: Self = [0.0; K];
+}
+
+/// So many answers.
+pub trait Flags: Copy + Debug + PartialEq + 'static + AsRef<[bool]> + AsMut<[bool]> {
+    /// All of them no.
+    const NONE: Self;
+}
+
+impl<const K: usize> Flags for [bool; K] {
+    const NONE: Self = [false; K];
+}
+
+/// The largest value beside its scale; a last one that is not a number wins.
+pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
+    let pairs = values.as_ref().iter().zip(scales.as_ref());
+    let sizes = pairs.map(|(value, scale)| value.abs() / scale);
+    sizes.fold(0.0, larger)
+}
+
+/// The larger one; a second one that is not a number wins.
+pub fn larger(a: f64, b: f64) -> f64 {
+    if b <= a { a } else { b }
+}
+
+/// What leads from some numbers to others.
+pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
+    let mut way = *to;
+    way.as_mut().iter_mut().zip(from.as_ref()).for_each(|(way, from)| *way -= from);
+    way
+}
+
+/// Coordinates after a time `h` (s), by their velocities and accelerations now.
+pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
+    let mut later = *q;
+    let rates = qd.as_ref().iter().zip(qdd.as_ref());
+    for (q, (qd, qdd)) in later.as_mut().iter_mut().zip(rates) {
+        *q += h * (qd + 0.5 * h * qdd);
+    }
+    later
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
+}

@@ -1,0 +1,172 @@
+//! Solving by elimination with partial pivoting, where the order that `solve` has loses digits.
+
+use super::blocks::{self, Blocks};
+use super::error::Fault;
+use super::grid::on_grid;
+use super::limits::{HALF_A_CELL, ITERATIONS};
+use super::numbers::{Flags, Numbers, largest, without_signs_of_zero};
+use super::solution::{Along, Solution, Solved};
+
+/// Equations that can be solved by elimination with partial pivoting.
+pub trait Pivoting: Solved {
+    /// Numbers that the elimination of the largest block works on.
+    type Work: Numbers;
+    /// An answer for each block of equations.
+    type Blocks: Flags;
+    /// The derivatives of coordinates, velocities and accelerations by inputs and parameters that measures hold.
+    type Varied: Numbers;
+    /// A right side for each derivative by what the motion goes along.
+    type Rights: AsRef<[Self::Q]>;
+
+    /// What may be left of an equation, beside the norm of its row.
+    const TOLERANCE: f64;
+    /// Whether measures hold third derivatives of the coordinates.
+    const HAS_JERK: bool = false;
+    /// By derivative by inputs and parameters: whether it is one by two.
+    const IS_BY_TWO: &'static [bool] = &[];
+
+    /// How the equations fall apart into blocks.
+    fn blocks() -> &'static Blocks<'static>;
+
+    /// The blocks whose determinants change.
+    fn turning() -> &'static [usize];
+
+    /// The width of a cell of each coordinate's grid.
+    fn cells() -> &'static Self::Q;
+
+    /// The right side of the jerk equation.
+    fn jerk(&self, _orders: [&Self::Q; 3], _t: f64, _sides: &Self::Sides) -> Self::Q {
+        Self::Q::ZERO
+    }
+
+    /// The right sides for the derivatives by inputs and parameters, as far as those before them are found.
+    fn varied_right(
+        &self,
+        _orders: [&Self::Q; 3],
+        _varied: &Self::Varied,
+        _t: f64,
+        _sides: &Self::Sides,
+    ) -> Self::Varied {
+        Self::Varied::ZERO
+    }
+
+    /// The right sides for the derivatives by what the motion goes along.
+    fn rights(&self, q: &Self::Q, t: f64, sides: &Self::Sides) -> Self::Rights;
+
+    /// What is measured, from the coordinates with their first three derivatives.
+    fn measured(&self, orders: [&Self::Q; 4], varied: &Self::Varied, t: f64) -> Self::Measures;
+}
+
+/// The solution from a position nearby. All coordinates lie on a grid while Newton goes on.
+pub fn solve_with_pivoting<M: Pivoting>(m: &M, q: &M::Q, t: f64, sides: &M::Sides) -> Result<Solution<M>, Fault> {
+    let mut at = Solution::near(q, t);
+    let mut elimination = Elimination::<M>::new();
+    if !settle(m, &mut at, sides, &mut elimination) {
+        return Err(at.fault());
+    }
+    let slopes = m.phi_q(&at.q, t, sides);
+    let (qd, pivot) = elimination.solve(&slopes, &m.nu(&at.q, t, sides));
+    let (qdd, _) = elimination.solve(&slopes, &m.gamma(&at.q, &qd, t, sides));
+    let orders = [&at.q, &qd, &qdd];
+    let qddd = if M::HAS_JERK { elimination.solve(&slopes, &m.jerk(orders, t, sides)).0 } else { M::Q::ZERO };
+    let rights = m.rights(&at.q, t, sides);
+    for (slopes_by, right) in at.along.slopes_mut().iter_mut().zip(rights.as_ref()) {
+        *slopes_by = without_signs_of_zero(elimination.solve(&slopes, right).0);
+    }
+    let varied = vary(m, &mut elimination, &slopes, orders, t, sides);
+    at.measures = m.measured([&at.q, &qd, &qdd, &qddd], &varied, t);
+    (at.qd, at.qdd) = (without_signs_of_zero(qd), without_signs_of_zero(qdd));
+    at.holds = is_next_to_nothing::<M>(&m.phi(&at.q, t, sides), &slopes, &at.q);
+    at.q = without_signs_of_zero(at.q);
+    at.steepest = 1.0 / pivot;
+    let negative = elimination.is_negative.as_ref();
+    for (turned, block) in at.is_negative.as_mut().iter_mut().zip(M::turning()) {
+        *turned = negative.get(*block).copied().unwrap_or(false);
+    }
+    if at.holds { Ok(at) } else { Err(Fault::TooFar) }
+}
+
+/// Newton's iteration; whether it has arrived.
+fn settle<M: Pivoting>(m: &M, at: &mut Solution<M>, sides: &M::Sides, elimination: &mut Elimination<M>) -> bool {
+    for iteration in 0..ITERATIONS {
+        for (q, cell) in at.q.as_mut().iter_mut().zip(M::cells().as_ref()) {
+            *q = on_grid(*q, *cell);
+        }
+        let slopes = m.phi_q(&at.q, at.t, sides);
+        let mut right = m.phi(&at.q, at.t, sides);
+        right.as_mut().iter_mut().for_each(|value| *value = -*value);
+        let (x, _) = elimination.solve(&slopes, &right);
+        if iteration == 0 {
+            at.first = largest(&x, M::scales());
+        }
+        at.q.as_mut().iter_mut().zip(x.as_ref()).for_each(|(q, x)| *q += x);
+        if largest(&x, M::cells()) <= HALF_A_CELL {
+            return true;
+        }
+    }
+    false
+}
+
+/// The derivatives of the coordinates, their velocities and accelerations by inputs and parameters: those by one before those by two,
+/// each order from those before.
+fn vary<M: Pivoting>(
+    m: &M,
+    elimination: &mut Elimination<M>,
+    slopes: &M::Entries,
+    orders: [&M::Q; 3],
+    t: f64,
+    sides: &M::Sides,
+) -> M::Varied {
+    let mut varied = M::Varied::ZERO;
+    let n = M::scales().as_ref().len();
+    for by_two in [false, true] {
+        for order in 0..3 {
+            let rights = m.varied_right(orders, &varied, t, sides);
+            for (number, _) in M::IS_BY_TWO.iter().enumerate().filter(|(_, of)| **of == by_two) {
+                let first = (3 * number + order) * n;
+                let mut right = M::Q::ZERO;
+                let given = rights.as_ref().iter().skip(first);
+                right.as_mut().iter_mut().zip(given).for_each(|(to, from)| *to = *from);
+                let (x, _) = elimination.solve(slopes, &right);
+                let places = varied.as_mut().iter_mut().skip(first);
+                places.zip(x.as_ref()).for_each(|(place, x)| *place = *x);
+            }
+        }
+    }
+    varied
+}
+
+/// The work of solving linear equations in blocks.
+pub struct Elimination<M: Pivoting> {
+    work: M::Work,
+    is_negative: M::Blocks,
+}
+
+impl<M: Pivoting> Elimination<M> {
+    /// Room for the work.
+    pub fn new() -> Self {
+        Self { work: M::Work::ZERO, is_negative: M::Blocks::NONE }
+    }
+
+    /// The solution for a right side, and the smallest pivot.
+    pub fn solve(&mut self, slopes: &M::Entries, right: &M::Q) -> (M::Q, f64) {
+        let mut x = M::Q::ZERO;
+        let (work, is_negative) = (self.work.as_mut(), self.is_negative.as_mut());
+        let pivot = blocks::solve(M::blocks(), slopes.as_ref(), right.as_ref(), x.as_mut(), work, is_negative);
+        (x, pivot)
+    }
+}
+
+/// Whether what is left of the equations is within their tolerance, and what rounding makes of the coordinates.
+fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q) -> bool {
+    let mut bounds = M::Q::ZERO;
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let bound = bounds.as_mut().get_mut(row);
+        let sizes = (M::scales().as_ref().get(column), q.as_ref().get(column), bound);
+        if let (Some(scale), Some(q), Some(bound)) = sizes {
+            *bound += M::TOLERANCE * (slope * scale).abs() + 8.0 * f64::EPSILON * (slope * q).abs();
+        }
+    }
+    let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
+    pairs.all(|(value, bound)| value.abs() <= *bound)
+}

@@ -1,0 +1,121 @@
+//! Solving at a time, on the branches that are there.
+
+use super::branches::{sides_ahead, sides_at, with_time};
+use super::error::Fault;
+use super::limits::{ACCURACY, MOST_BRANCHES, STEEP, STEEPEST};
+use super::measured::Measured;
+use super::numbers::{larger, largest};
+use super::solution::{Along, Solution, Solved};
+
+/// Solves at a time, from a guess; `from` is where the motion comes from.
+pub fn reach<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let of_time = sides_at(t, m);
+    if !M::OF_MOTION {
+        return find(guess, from, t, m, &of_time, at);
+    }
+    let mut sides = from.sides;
+    for _ in 0..MOST_BRANCHES {
+        sides = with_time::<M>(&sides, &of_time);
+        find(guess, from, t, m, &sides, at)?;
+        let now = sides_ahead(at, m);
+        if now == sides {
+            return Ok(());
+        }
+        sides = now;
+    }
+    Err(Fault::TooFar)
+}
+
+/// Solves with branches of formulas that are known.
+pub fn find<M: Solved>(
+    guess: &M::Tears,
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    m.solve(guess, t, sides, at);
+    if !at.is_settled || !at.holds {
+        find_with_pivoting(from, t, m, sides, at)?;
+    }
+    if !m.conditions_hold(&at.q, t, sides) {
+        return Err(Fault::NotANumber);
+    }
+    if !m.left_out_holds(&at.q, t, sides) {
+        return Err(Fault::LeftOut);
+    }
+    at.watched = m.watched(&at.q, t, sides);
+    at.sides = *sides;
+    at.along.note(m, t);
+    at.measures.leave_out();
+    if at.is_finite() { Ok(()) } else { Err(Fault::NotANumber) }
+}
+
+/// Solves once more from a position that is known, and if that does not help either, takes that.
+#[cold]
+#[inline(never)]
+fn find_with_pivoting<M: Solved>(
+    from: &Solution<M>,
+    t: f64,
+    m: &M,
+    sides: &M::Sides,
+    at: &mut Solution<M>,
+) -> Result<(), Fault> {
+    let q = M::Along::predicted(m, from, t - from.t);
+    let pivoted = m.pivoted(&q, t, sides, at)?;
+    m.solve(&M::tears(&pivoted.q), t, sides, at);
+    let first = pivoted.first;
+    if !at.is_settled || !at.holds {
+        *at = pivoted;
+    }
+    at.first = first;
+    Ok(())
+}
+
+/// What rounding makes of the velocities and accelerations, for every unit of steepness: they are amplified by as much as the
+/// position is near to a singular one.
+pub fn rounding<M: Solved>(at: &Solution<M>, m: &M) -> f64 {
+    let (t, sides, scales) = (at.t, &at.sides, M::scales());
+    let slopes = m.phi_q(&at.q, t, sides);
+    let mut norms = at.q;
+    norms.as_mut().fill(f64::MIN_POSITIVE);
+    for (&(row, column), slope) in M::pattern().iter().zip(slopes.as_ref()) {
+        let norm = norms.as_mut().get_mut(row);
+        if let (Some(norm), Some(scale)) = (norm, scales.as_ref().get(column)) {
+            *norm = larger(*norm, slope.abs() * scale);
+        }
+    }
+    let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
+    let nu = m.nu(&at.q, t, sides);
+    let velocity = ratio(largest(&at.qd, scales), largest(&nu, &norms));
+    let gamma = m.gamma(&at.q, &at.qd, t, sides);
+    let acceleration = ratio(largest(&at.qdd, scales), largest(&gamma, &norms));
+    let amplified = larger(larger(velocity, acceleration), 1.0);
+    f64::EPSILON * amplified
+}
+
+/// Whether a position that is reached lies on the branch of the motion that it comes from, whose equations are so steep.
+pub fn stays_on_branch<M: Solved>(
+    from: &Solution<M>,
+    at: &mut Solution<M>,
+    m: &M,
+    is_wanted: bool,
+    steepness: f64,
+) -> bool {
+    let steepest = at.steepest / steepness;
+    if at.watched != from.watched || at.is_negative != from.is_negative || steepest > STEEPEST {
+        return false;
+    }
+    if steepest > STEEP {
+        at.measures.leave_varied_out();
+    }
+    let is_in_doubt = is_wanted && steepest > STEEP && steepest * rounding(at, m) > ACCURACY;
+    !is_in_doubt
+}

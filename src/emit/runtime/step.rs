@@ -1,0 +1,154 @@
+//! Steps from time to time.
+
+use super::branches::first_edge;
+use super::error::{Error, Fault};
+use super::explain::explain;
+use super::limits::{
+    FARTHEST_BEND, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, LEAD, POSITION_JUMP, REST, VELOCITY_JUMP,
+};
+use super::numbers::{Numbers, difference, largest};
+use super::reach::{find, reach, stays_on_branch};
+use super::solution::{Solution, Solved};
+use super::state::{Lead, State, Timed};
+
+/// Moves a state to time `t` (s) in so many steps at most, each as short as the motion asks for: position, velocity and acceleration
+/// are those of the branch that it is on, whichever way `t` lies.
+pub fn step_within<M: Timed>(t: f64, state: &mut State<M>, most: usize) -> Result<(), Error> {
+    if !(t - state.at().t).is_finite() {
+        return Err(Error::NotANumber);
+    }
+    if state.is_led() {
+        M::Lead::take_up_time(state, most)?;
+    }
+    for _ in 0..most {
+        let now = state.at().t;
+        let left = t - now;
+        if left == 0.0 {
+            return Ok(());
+        }
+        // no crumb at the end
+        let wanted = if state.step >= 0.999 * left.abs() { t } else { now + state.step.copysign(left) };
+        // what is fast may be over before the step's end
+        let edge = first_edge(now, wanted, &state.model);
+        let next = match state.model.first_rim(now, edge, &state.passed) {
+            None => edge,
+            Some((rim, at)) => {
+                let before = at - (LEAD * M::SPAN).copysign(left);
+                if (before - now) * left <= 0.0 {
+                    M::look_at_rim(state, rim, at)?;
+                    continue;
+                }
+                before
+            }
+        };
+        let (is_last, size) = (next == t, (next - now).abs());
+        match advance(state, next, is_last) {
+            Ok(is_calm) => {
+                let longest = if is_calm { state.step.max(2.0 * size) } else { state.step.min(size) };
+                state.step = longest.min(M::LONGEST_STEP);
+                if is_last {
+                    return Ok(());
+                }
+            }
+            Err(fault) => {
+                state.step = 0.5 * size;
+                state.is_smooth = false;
+                if state.step < M::SMALLEST_STEP || now + state.step == now {
+                    state.step = M::SMALLEST_STEP;
+                    return Err(explain(state, fault, next));
+                }
+            }
+        }
+    }
+    if state.at().t == t { Ok(()) } else { Err(Error::TooFar) }
+}
+
+/// One step to a time; says whether a longer one would do as well.
+fn advance<M: Timed>(state: &mut State<M>, t: f64, is_wanted: bool) -> Result<bool, Fault> {
+    let [first, second] = &mut state.solutions;
+    let (from, at) = if state.is_second { (second, first) } else { (first, second) };
+    let from = &*from;
+    let h = t - from.t;
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let mut way = if state.is_smooth { bend(from, at, h) } else { M::Tears::ZERO };
+    let mut guess = x;
+    let rates = v.as_ref().iter().zip(a.as_ref());
+    for ((way, guess), (v, a)) in way.as_mut().iter_mut().zip(guess.as_mut()).zip(rates) {
+        // Taylor
+        *way += h * (v + 0.5 * h * a);
+        *guess += *way;
+    }
+    // what is not a number is not small either
+    let is_short = largest(&way, M::tear_scales()) <= LARGEST_MOTION;
+    if !is_short {
+        return Err(Fault::TooFar);
+    }
+    reach(&guess, from, t, &state.model, at)?;
+    let gap = gap(from, at, h);
+    let is_near = at.first <= LARGEST_CORRECTION && gap <= LARGEST_GAP;
+    if !is_near {
+        return Err(Fault::TooFar);
+    }
+    if !stays_on_branch(from, at, &state.model, is_wanted, state.steepness) {
+        return Err(Fault::Singular);
+    }
+    if M::OF_TIME && at.sides != from.sides && jumps(from, at, &state.model) {
+        return Err(Fault::NotSmooth);
+    }
+    state.is_smooth = at.sides == from.sides;
+    state.is_second = !state.is_second;
+    Ok(at.first < LARGEST_CORRECTION / 12.0 && gap < LARGEST_GAP / 100.0)
+}
+
+/// How far positions are from what both ends' velocities and accelerations make of the way between (Hermite), scaled.
+fn gap<M: Solved>(from: &Solution<M>, at: &Solution<M>, h: f64) -> f64 {
+    let (x, v, a) = (M::tears(&from.q), M::tears(&from.qd), M::tears(&from.qdd));
+    let (y, w, b) = (M::tears(&at.q), M::tears(&at.qd), M::tears(&at.qdd));
+    let mut gaps = M::Tears::ZERO;
+    let ways = y.as_ref().iter().zip(x.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((gap, (y, x)), ((v, w), (a, b))) in gaps.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        *gap = y - x - 0.5 * h * (v + w) - h * h * (1.0 / 12.0) * (a - b);
+    }
+    largest(&gaps, M::tear_scales())
+}
+
+/// What the motion since the solution before adds to Taylor's way over a time `h` (s): value, velocity and acceleration at two times
+/// make a polynomial of degree 5 (Hermite).
+fn bend<M: Solved>(now: &Solution<M>, before: &Solution<M>, h: f64) -> M::Tears {
+    let back = now.t - before.t;
+    let u = h / back;
+    if u.is_nan() || u.abs() > FARTHEST_BEND {
+        return M::Tears::ZERO;
+    }
+    let (x, v, a) = (M::tears(&now.q), M::tears(&now.qd), M::tears(&now.qdd));
+    let (y, w, b) = (M::tears(&before.q), M::tears(&before.qd), M::tears(&before.qdd));
+    let mut bend = M::Tears::ZERO;
+    let ways = x.as_ref().iter().zip(y.as_ref());
+    let rates = v.as_ref().iter().zip(w.as_ref());
+    let bends = a.as_ref().iter().zip(b.as_ref());
+    for ((bend, (x, y)), ((v, w), (a, b))) in bend.as_mut().iter_mut().zip(ways).zip(rates.zip(bends)) {
+        let value = y - x + back * (v - 0.5 * back * a);
+        let slope = back * (v - back * a - w);
+        let curvature = 0.5 * back * back * (b - a);
+        let cubic = 4.0 * slope - 10.0 * value - curvature;
+        let quartic = 7.0 * slope - 15.0 * value - 2.0 * curvature;
+        let quintic = 3.0 * slope - 6.0 * value - curvature;
+        *bend = u * u * u * (cubic + u * (quartic + u * quintic));
+    }
+    bend
+}
+
+/// Whether position or velocity differ on the two sides of a time at which formulas change their branches: `at` is the later side, and
+/// `from` has the branches of the earlier one.
+fn jumps<M: Timed>(from: &Solution<M>, at: &Solution<M>, m: &M) -> bool {
+    let mut before = at.clone();
+    if find(&M::tears(&at.q), at, at.t, m, &from.sides, &mut before).is_err() {
+        return true;
+    }
+    let (way, change) = (difference(&at.q, &before.q), difference(&at.qd, &before.qd));
+    let scales = M::scales();
+    let fastest = largest(&at.qd, scales) + largest(&before.qd, scales) + REST / M::SPAN;
+    largest(&way, scales) > POSITION_JUMP || largest(&change, scales) > VELOCITY_JUMP * fastest
+}

@@ -1,0 +1,212 @@
+//! What goes along with emitted code follows a mechanism that is written by hand: a point on a circle, whose height grows with time.
+
+use super::assemble::assemble;
+use super::equations::{Branches, Checks, Equations};
+use super::error::Error;
+use super::grid::on_grid;
+use super::limits::ITERATIONS;
+use super::newton::Newton;
+use super::numbers::{larger, largest};
+use super::rims::{Rimmed, first_rim};
+use super::solution::{Solution, Solved};
+use super::state::{Parameters, State, Time, Timed};
+use super::step::step_within;
+
+/// The cells of the grid, a power of two.
+const CELL: f64 = 1.0 / 134_217_728.0;
+
+/// How fast the height grows (1/s).
+#[derive(Clone, Copy, Debug)]
+struct Speed(f64);
+
+impl Default for Speed {
+    fn default() -> Self {
+        Self(1.0)
+    }
+}
+
+impl Parameters for Speed {
+    fn towards(&self, other: &Self, part: f64) -> Self {
+        Self(self.0 + part * (other.0 - self.0))
+    }
+
+    fn is_finite(&self) -> bool {
+        self.0.is_finite()
+    }
+}
+
+/// The point: `x² + y² = 1`, and `y = speed t`.
+#[derive(Clone, Debug)]
+struct Circle {
+    speed: Speed,
+}
+
+impl Equations for Circle {
+    type Q = [f64; 2];
+    type Entries = [f64; 3];
+    type Sides = [f64; 0];
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &[(0, 0), (0, 1), (1, 1)]
+    }
+
+    fn scales() -> &'static Self::Q {
+        &[1.0, 1.0]
+    }
+
+    fn phi(&self, [x, y]: &Self::Q, t: f64, _: &Self::Sides) -> Self::Q {
+        [x * x + y * y - 1.0, y - self.speed.0 * t]
+    }
+
+    fn phi_q(&self, [x, y]: &Self::Q, _: f64, _: &Self::Sides) -> Self::Entries {
+        [2.0 * x, 2.0 * y, 1.0]
+    }
+
+    fn nu(&self, _: &Self::Q, _: f64, _: &Self::Sides) -> Self::Q {
+        [0.0, self.speed.0]
+    }
+
+    fn gamma(&self, _: &Self::Q, [v, w]: &Self::Q, _: f64, _: &Self::Sides) -> Self::Q {
+        [-2.0 * (v * v + w * w), 0.0]
+    }
+}
+
+impl Branches for Circle {}
+
+impl Checks for Circle {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Circle {
+    type Tears = [f64; 1];
+    type Turns = [bool; 1];
+    type Measures = ();
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &[1.0]
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &[false]
+    }
+
+    fn tears(q: &Self::Q) -> Self::Tears {
+        [q[0]]
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _: &Self::Sides, at: &mut Solution<Self>) {
+        at.begin(t);
+        let (cell, mut x, w) = (CELL, guess[0], self.speed.0);
+        let y = w * t;
+        let mut newton = Newton::new();
+        for _ in 0..ITERATIONS {
+            x = on_grid(x, cell);
+            x = newton.corrected(x, (1.0 - x * x - y * y) / (2.0 * x), cell, 1.0);
+            if newton.is_done() {
+                break;
+            }
+        }
+        at.note(&newton);
+        at.pivot(0, 0.5 / x, 1.0);
+        let v = -y * w / x;
+        (at.q, at.qd, at.qdd) = ([x, y], [v, w], [-(v * v + w * w) / x, 0.0]);
+    }
+}
+
+impl Timed for Circle {
+    type Params = Speed;
+    type Lead = ();
+    type Passed = [f64; 1];
+    type Row = [f64; 7];
+
+    const START_TIME: f64 = 0.0;
+    const SPAN: f64 = 2.0;
+    const LONGEST_STEP: f64 = 0.1;
+    const SMALLEST_STEP: f64 = 1e-12;
+
+    fn new(params: &Speed) -> Self {
+        Self { speed: *params }
+    }
+
+    fn params(&self) -> &Speed {
+        &self.speed
+    }
+
+    fn start() -> &'static Self::Q {
+        &[1.0, 0.0]
+    }
+}
+
+impl Rimmed for Circle {
+    type Gauges = [f64; 2];
+
+    fn gauges(&self, t: f64) -> Self::Gauges {
+        [t - 0.25, 1.0]
+    }
+}
+
+fn started(speed: f64) -> Result<State<Circle>, Error> {
+    assemble(&Speed(speed))
+}
+
+fn is_near(a: f64, b: f64) -> bool {
+    (a - b).abs() < 1e-12
+}
+
+#[test]
+fn a_motion_is_followed_forwards_and_back() {
+    let mut state = started(1.0).unwrap();
+    for t in [0.5_f64, 0.8, 0.3, 0.0] {
+        assert_eq!(step_within(t, &mut state, 100), Ok(()), "{t}");
+        let [x, y] = *state.q();
+        assert!(is_near(x, (1.0 - t * t).sqrt()) && is_near(y, t), "({x}, {y}) at {t}");
+        assert!(is_near(state.qd()[0], -t / x), "at {t}");
+        assert_eq!(state.row()[..3], [t, x, y]);
+    }
+}
+
+#[test]
+fn bits_do_not_depend_on_the_way() {
+    let (mut one, mut other) = (started(1.0).unwrap(), started(1.0).unwrap());
+    step_within(0.7, &mut one, 100).unwrap();
+    for t in [0.2, 0.9, 0.65, 0.7] {
+        step_within(t, &mut other, 100).unwrap();
+    }
+    assert_eq!(one.row().map(f64::to_bits), other.row().map(f64::to_bits));
+}
+
+#[test]
+fn at_its_highest_place_it_locks_up() {
+    let mut state = started(1.0).unwrap();
+    assert_eq!(step_within(1.5, &mut state, 1000), Err(Error::LockUp));
+    assert!(state.t() < 1.0 && state.t() > 0.999, "{}", state.t());
+}
+
+#[test]
+fn what_is_no_number_is_refused_and_too_few_steps_are_told() {
+    assert_eq!(started(f64::NAN).err(), Some(Error::NotANumber));
+    let mut state = started(0.5).unwrap();
+    assert_eq!(step_within(f64::NAN, &mut state, 9), Err(Error::NotANumber));
+    assert_eq!(step_within(1.0, &mut state, 2), Err(Error::TooFar));
+    assert!(state.t() > 0.0 && state.t() < 1.0);
+    assert_eq!(step_within(1.0, &mut state, 100), Ok(()));
+}
+
+#[test]
+fn a_rim_is_met_once() {
+    let model = Circle::new(&Speed(1.0));
+    let never = [f64::NEG_INFINITY];
+    let (rim, t) = first_rim(&model, 0.0, 0.5, &never).unwrap();
+    assert!(rim == 0 && is_near(t, 0.25), "{t}");
+    assert_eq!(first_rim(&model, 0.0, 0.5, &[t]), None, "it was looked at");
+    assert_eq!(first_rim(&model, 0.3, 0.5, &never), None);
+}
+
+#[test]
+fn sizes_are_judged_beside_their_scales() {
+    assert!(larger(1.0, f64::NAN).is_nan());
+    assert!(largest(&[1.0, f64::NAN], &[1.0; 2]).is_nan());
+    assert!(is_near(largest(&[1.0, -6.0], &[1.0, 2.0]), 3.0));
+}
