@@ -2,12 +2,17 @@
 //!
 //! Every number on its way to a table passes through these and through `+ - * /`, which IEEE 754 fixes to the bit;
 //! the standard library's `sin` and its like do not give the same bits on every platform, so they are forbidden
-//! elsewhere (`clippy.toml`). Angles are in radians.
+//! elsewhere (`clippy.toml`). Angles are in radians. Beside them stand what several rooms do with numbers alone: curves between the
+//! ends of a step, searches in an interval, linear equations in blocks.
 
 /// Linear equations in blocks, with partial pivoting.
 pub mod blocks;
 mod curve;
+#[cfg(test)]
+mod curve_tests;
 mod search;
+#[cfg(test)]
+mod search_tests;
 mod sin_cos;
 mod sin_cos_of_each;
 mod without_branches {

@@ -1,7 +1,7 @@
 //! Arguments of a joint in another order, or for another kind of joint.
 
+use super::entity::Entity;
 use super::features::Feature;
-use super::names::Entity;
 use super::{Checker, errors};
 use crate::diag::{Applies, Edit, Fix};
 use crate::model::Frame;

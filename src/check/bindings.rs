@@ -1,7 +1,7 @@
 //! What is said of the params and inputs of a part where it is used.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::names::Entity;
 use super::rates;
 use super::sites::{Drawn, Site};
 use super::{Checker, errors, kinds};

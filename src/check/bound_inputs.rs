@@ -1,9 +1,10 @@
 //! What is said of the inputs of parts where these are used: formulas of time and motion, which may name inputs of other parts. Each is
 //! read after those that it names, whatever the order of the text, and of whatever part they are.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::mentions::mentioned;
-use super::names::{Entity, Ordered};
+use super::names::Ordered;
 use super::{Checker, errors, rates};
 use crate::source::Span;
 use crate::syntax::ast::{Binding, Expr, Name};

@@ -4,8 +4,8 @@
 //! too far down is put off: the formulas around it are given up, the call is expanded on its own, from the ground, and
 //! then the formulas are read once more, in which it is known by now. No platform's stack decides what is read.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::names::Entity;
 use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::source::Span;

@@ -1,7 +1,7 @@
 //! The names of `--by`, and what of parts no derivative is taken by: what is bound where they are used.
 
+use super::entity::Entity;
 use super::mentions::mentioned;
-use super::names::Entity;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::diag::nearest;

@@ -9,8 +9,8 @@ pub use parts::*;
 pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_of_result};
 pub use variables::*;
 
+use super::entity::Entity;
 use super::mends::{is_bare_number, renamed, with_factors, with_unit};
-use super::names::Entity;
 use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;

@@ -1,8 +1,9 @@
 //! Bodies, the ground, and their features; circles and curves have `profiles`.
 
+use super::entity::Entity;
 use super::formula::{Context, Value};
 use super::kinds::{self, Wanted, coordinate};
-use super::names::{Entity, Space};
+use super::names::Space;
 use super::sites::{Drawn, Site};
 use super::{Checker, errors};
 use crate::expr::ExprId;

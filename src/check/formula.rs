@@ -4,10 +4,10 @@
 //! taken in the SI unit of what is expected (`language.md`, "Units").
 
 use super::Checker;
+use super::entity::Entity;
 use super::errors;
 use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
-use super::names::Entity;
 use super::rates::Part;
 use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};

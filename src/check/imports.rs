@@ -1,7 +1,7 @@
 //! Names of parts in the mechanism around them: what its formulas name by paths is brought over when it is known.
 
+use super::entity::Entity;
 use super::formula::Value;
-use super::names::Entity;
 use super::results::ResultState;
 use super::{Checker, MeasureState};
 use crate::model::{Declared, Frame};

@@ -1,10 +1,10 @@
 //! What to write instead of something of the wrong kind, as far as the mechanism around it tells.
 
 use super::Checker;
+use super::entity::Entity;
 use super::errors::list;
 use super::features::Feature;
 use super::mends::fixed_first;
-use super::names::Entity;
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix};
 use crate::model::{Dimension, Frame, JointKind};
 use crate::source::Span;

@@ -1,11 +1,11 @@
 //! What is known of a mechanism's declarations by themselves, for editors: how many coordinates and equations each brings, and the values
 //! of params. Whatever is wrong elsewhere, this is there; what a mistake may change is left out rather than guessed.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim};
 use super::instance::Instance;
 use super::instances::{definitions_of, instance_of};
 use super::mentions::name_of;
-use super::names::Entity;
 use super::{Checker, Surroundings};
 use crate::expr::{ExprId, Printer, Symbol};
 use crate::model::{CompoundUnit, Named};

@@ -4,9 +4,9 @@
 //! ones that dwarf those with a unit, and would fit to them if they had it too, have lost it.
 
 use super::Checker;
+use super::entity::Entity;
 use super::errors::{self, Plain};
 use super::mentions::formulas;
-use super::names::Entity;
 use crate::expr::ExprId;
 use crate::math;
 use crate::syntax::ast::{Expr, ExprKind};

@@ -1,8 +1,8 @@
 //! What a name was probably meant to be, as far as the mechanism around it tells.
 
+use super::entity::Entity;
 use super::features::Feature;
 use super::formula::{Context, Dim};
-use super::names::Entity;
 use super::{Checker, errors};
 use crate::diag::{Applies, Code, Diagnostic, Diagnostics, Edit, Fix};
 use crate::model::{Dimension, JointKind};

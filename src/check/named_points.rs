@@ -1,8 +1,9 @@
 //! Names of points: those of the body around a formula, and those of the mechanism.
 
+use super::entity::Entity;
 use super::features::Feature;
 use super::kinds::{self, Wanted, coordinate};
-use super::names::{Entity, Space, Unread};
+use super::names::{Space, Unread};
 use super::sites::{Drawn, Scope, Site};
 use super::{Checker, errors};
 use crate::diag::Diagnostic;

@@ -1,67 +1,12 @@
 //! The names of a mechanism: who is declared, what is taken, and which definitions go in a circle.
 
+use super::entity::Entity;
 use super::mentions::{uses_in, uses_of_argument};
 use super::{Checker, MOST_SUGGESTIONS, errors};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, FeatureKind, ItemKind, Mechanism, Name};
 use crate::vocabulary::{KindOfName, another_name, gives_way, is_called, is_taken};
 use rustc_hash::{FxHashMap, FxHashSet};
-
-/// What a name of the mechanism's space stands for, with its position among its kind in the text.
-#[derive(Clone, Copy, PartialEq, Eq, Hash, Debug)]
-pub(super) enum Entity {
-    Param(usize),
-    Function(usize),
-    Table(usize),
-    Input(usize),
-    Body(usize),
-    Joint(usize),
-    Equation,
-    Measure(usize),
-    Trace,
-    Part(usize),
-    /// The ground of a part, inside it.
-    Ground,
-    Result(usize),
-    /// Its declaration does not follow the grammar, which has been said.
-    Broken,
-}
-
-impl Entity {
-    /// As a noun.
-    pub fn noun(self) -> &'static str {
-        match self {
-            Entity::Param(_) => "a parameter",
-            Entity::Function(_) => "a function",
-            Entity::Table(_) => "a table",
-            Entity::Input(_) => "an input",
-            Entity::Body(_) => "a body",
-            Entity::Joint(_) => "a joint",
-            Entity::Equation => "a constraint or driver",
-            Entity::Measure(_) => "a measure",
-            Entity::Trace => "a trace",
-            Entity::Part(_) => "a part",
-            Entity::Ground => "the ground of a part",
-            Entity::Result(_) => "a result",
-            Entity::Broken => "a declaration that cannot be read",
-        }
-    }
-
-    fn kind_of_name(self) -> KindOfName {
-        match self {
-            Entity::Param(_)
-            | Entity::Input(_)
-            | Entity::Measure(_)
-            | Entity::Trace
-            | Entity::Result(_)
-            | Entity::Broken => KindOfName::Value,
-            Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
-            Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
-            Entity::Joint(_) => KindOfName::Joint,
-            Entity::Equation => KindOfName::Equation,
-        }
-    }
-}
 
 /// How many things of each kind have a name.
 #[derive(Clone, Copy, Default, Debug)]

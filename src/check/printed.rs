@@ -1,9 +1,9 @@
 //! Units with powers, and the units in which measures and traces are printed.
 
 use super::Checker;
+use super::entity::Entity;
 use super::errors;
 use super::formula::{Context, Dim, Value};
-use super::names::Entity;
 use super::variables;
 use crate::diag::Diagnostic;
 use crate::model::{Dimension, Units};

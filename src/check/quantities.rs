@@ -1,7 +1,7 @@
 //! Calls of kinematic quantities, and the references to features that they take.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::names::Entity;
 use super::{Checker, errors};
 use crate::model::{AxisId, Condition, ConditionKind, Direction, Frame, JointId, JointKind, Named, PointId, Quantity};
 use crate::source::Span;

@@ -1,8 +1,8 @@
 //! Results: formulas over reductions, each of which takes a formula as a measure has it to one number for the whole analysis.
 
 use super::elements::measure_context;
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
-use super::names::Entity;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
 use crate::model::{Dimension, Named, Outcome, Reduction, ReductionKind, Units};

@@ -3,9 +3,9 @@
 //! What is a number of its own varies itself. To what has a formula of its own a shift of 0 is added, but only where a derivative by it is
 //! asked for; so that all else is as if it were not.
 
+use super::entity::Entity;
 use super::formula::{Context, Dim, Value};
 use super::mentions::formulas;
-use super::names::Entity;
 use super::told::is_told_by;
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};

@@ -3,7 +3,7 @@
 use super::build;
 use super::errors;
 use super::fields::{Fields, Number};
-use super::json::{Kind, Value};
+use super::value::{Kind, Value};
 use crate::diag::Diagnostics;
 use crate::syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind};
 

@@ -3,8 +3,8 @@
 
 use super::errors;
 use super::fields::{Fields, Number, Vector, name_of, objects, place_of};
-use super::json::{Kind as Json, Quoted, Value};
 use super::matlab::{self, Formula};
+use super::value::{Kind as Json, Quoted, Value};
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::source::Span;
 

@@ -1,6 +1,6 @@
 //! What is said of a model file that cannot be translated, and of what its translation changed or left behind.
 
-use super::json::{Rule, Value};
+use super::value::{Rule, Value};
 use crate::diag::{Code, Diagnostic, nearest, readable};
 use crate::source::{FileId, Span};
 use crate::syntax::DEEPEST;

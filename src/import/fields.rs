@@ -2,7 +2,7 @@
 //! place, and the reading goes on.
 
 use super::errors;
-use super::json::{Kind, Quoted, Value};
+use super::value::{Kind, Quoted, Value};
 use crate::diag::{Diagnostic, Diagnostics, readable};
 use crate::source::Span;
 

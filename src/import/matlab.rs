@@ -7,10 +7,11 @@
 
 mod functions;
 mod parser;
+mod term;
 mod tokens;
 
 use super::errors;
-use super::json::Quoted;
+use super::value::Quoted;
 use crate::diag::Diagnostic;
 use crate::source::Sources;
 use crate::syntax::ast::{Expr, ExprKind};

@@ -17,6 +17,7 @@ mod json;
 mod matlab;
 mod names;
 mod translate;
+mod value;
 
 use crate::diag::Diagnostics;
 use crate::source::{FileId, Sources};

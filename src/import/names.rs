@@ -1,7 +1,7 @@
 //! Names that the language takes, unique, and as near to the model's own as can be.
 
 use super::errors;
-use super::json::Quoted;
+use super::value::Quoted;
 use crate::diag::Diagnostics;
 use crate::source::Span;
 use crate::syntax;

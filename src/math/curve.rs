@@ -1,3 +1,5 @@
+// Curves between the ends of a step, by their coefficients in the part of the step. May be included in emitted code to the letter.
+
 /// The quintic with value, slope and curvature of both ends of a step of length `h`, by its coefficients in the part of the step. An
 /// end is value, first and second derivative.
 #[must_use]
@@ -45,36 +47,4 @@ pub fn about(curve: &[f64; 6], place: f64) -> [f64; 6] {
 #[must_use]
 pub fn farthest(higher: &[f64], reach: f64) -> f64 {
     higher.iter().rev().fold(0.0, |sum, c| (sum + c.abs()) * reach)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{about, along, farthest, parabola, predicted, quintic};
-
-    #[test]
-    fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
-        // t⁵ from 1 to 3
-        let end = |t: f64| [t * t * t * t * t, 5.0 * t * t * t * t, 20.0 * t * t * t];
-        let curve = quintic(end(1.0), end(3.0), 2.0);
-        for x in [0.0, 0.25, 0.5, 1.0] {
-            let wanted = end(1.0 + 2.0 * x)[0];
-            assert!((along(&curve, x) - wanted).abs() < 1e-11 * wanted, "{x}");
-        }
-    }
-
-    #[test]
-    fn a_curve_about_another_place_is_the_same() {
-        let curve = [0.3, -1.2, 0.7, 0.4, -0.9, 1.1];
-        let moved = about(&curve, 0.4);
-        for x in [-0.3, 0.0, 0.2] {
-            assert!((along(&moved, x) - along(&curve, 0.4 + x)).abs() < 1e-14);
-            assert!((along(&moved, x) - moved[0]).abs() <= farthest(&moved[1..], 0.3) + 1e-15);
-        }
-    }
-
-    #[test]
-    fn a_parabola_leads_where_is_predicted() {
-        let start = [1.0, 2.0, 3.0];
-        assert!((along(&parabola(start, 0.5), 1.0) - predicted(start, 0.5)).abs() < 1e-15);
-    }
 }

@@ -1,3 +1,5 @@
+// Where something happens in an interval: bisection, golden section, halving. May be included in emitted code to the letter.
+
 /// The golden ratio's fraction: it sections intervals for their minimum, and its multiples never come close to a period.
 pub const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -119,47 +121,5 @@ impl<const N: usize> Halving<N> {
         self.open[self.count + 1] = [a, middle];
         self.count += 2;
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{GoldenSection, Halving, bisect, boundary};
-    use std::convert::Infallible;
-
-    #[test]
-    fn neighbours_are_found() {
-        let [low, high] = bisect([0.0, 2.0], usize::MAX, |x| x * x < 2.0);
-        assert_eq!(low.next_up(), high);
-        assert!(low * low < 2.0 && high * high >= 2.0);
-        assert!((boundary(0.0, 2.0, |x| x * x >= 2.0) - high).abs() <= high - low);
-        assert_eq!(bisect([0.0, 1.0], 2, |_| true), [0.75, 1.0]);
-    }
-
-    #[test]
-    fn a_section_keeps_the_least_value() {
-        let mut value = |x: f64| Ok::<f64, Infallible>((x - 0.3) * (x - 0.3));
-        let Ok(mut section) = GoldenSection::new([0.0, 0.09], [1.0, 0.49], &mut value);
-        for _ in 0..40 {
-            let Ok(()) = section.narrow(&mut value);
-            assert!(section.low[0] <= 0.3 && section.high[0] >= 0.3);
-        }
-        assert!((section.middle() - 0.3).abs() < 1e-7 && section.least() < 1e-14);
-    }
-
-    #[test]
-    fn parts_come_in_their_order_and_no_finer_than_is_meant() {
-        let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 100);
-        let mut seen = Vec::new();
-        while let Some(part) = parts.next_part() {
-            if !parts.halve(part) {
-                seen.push(part);
-            }
-        }
-        let eighths: Vec<[f64; 2]> = (0..8).map(|k| [f64::from(k) / 8.0, f64::from(k + 1) / 8.0]).collect();
-        assert_eq!(seen, eighths);
-        let mut parts = Halving::<8>::new([0.0, 1.0], 0.2, 1);
-        assert_eq!(parts.next_part(), Some([0.0, 1.0]));
-        assert!(!parts.halve([0.0, 1.0]) && parts.next_part().is_none(), "no more are looked at than are meant");
     }
 }

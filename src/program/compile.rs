@@ -1,12 +1,27 @@
 //! Laying a constraint system out as operations.
 
-use super::tables::{Place, Reached};
 use super::{CheckSlopes, Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
 use crate::ir::{self, ConstraintSystem};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
+
+/// Where a table of the graph has been laid out.
+#[derive(Clone, Copy)]
+pub(super) struct Place {
+    /// Its number in the program.
+    pub number: u32,
+    /// The length of its range.
+    pub period: Register,
+}
+
+/// Where a table has been entered: the piece, and the way from the piece's knot.
+#[derive(Clone, Copy)]
+pub(super) struct Reached {
+    pub piece: Register,
+    pub way: Register,
+}
 
 impl Program {
     /// The program of a constraint system.

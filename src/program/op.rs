@@ -130,6 +130,7 @@ pub enum Op {
 }
 
 /// What operations are carried out on.
+#[allow(missing_docs)] // each is what the operation of its name does
 pub trait Machine {
     /// What stands in a register.
     type Value;

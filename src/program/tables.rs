@@ -1,24 +1,8 @@
 //! Laying tables out: columns in runs of registers, entered by the piece that an argument lies in.
 
-use super::compile::Layout;
+use super::compile::{Layout, Place, Reached};
 use super::{Column, Op, Register, Stage, TableLayout};
 use crate::expr::{ExprId, TableId, Unary};
-
-/// Where a table of the graph has been laid out.
-#[derive(Clone, Copy)]
-pub(super) struct Place {
-    /// Its number in the program.
-    number: u32,
-    /// The length of its range.
-    period: Register,
-}
-
-/// Where a table has been entered: the piece, and the way from the piece's knot.
-#[derive(Clone, Copy)]
-pub(super) struct Reached {
-    piece: Register,
-    way: Register,
-}
 
 impl Layout<'_> {
     /// A table's value at an argument, or a derivative: `c₀ + d (c₁ + d (c₂ + d c₃))`.

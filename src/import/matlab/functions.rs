@@ -1,7 +1,7 @@
 //! The functions and constants of MATLAB that have a counterpart, as a table of formulas of the language.
 
 use super::Built;
-use super::parser::Term;
+use super::term::Term;
 use crate::diag::{Diagnostic, nearest};
 use crate::import::build;
 use crate::import::errors;

@@ -4,11 +4,12 @@
 //! sign behind `^` belongs to the exponent.
 
 use super::functions;
+use super::term::Term;
 use super::tokens::{Token, TokenKind};
 use super::{Built, LARGEST, measure};
 use crate::import::build;
 use crate::import::errors;
-use crate::import::json::Quoted;
+use crate::import::value::Quoted;
 use crate::source::Span;
 use crate::syntax::DEEPEST;
 use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
@@ -52,51 +53,6 @@ const INFIX: &[(&str, u8, Infix)] = &[
 /// How tightly a sign binds: what is looser does not enter its operand.
 const SIGN: u8 = 8;
 const POWER: u8 = 9;
-
-/// A formula that is a number or, in MATLAB's way, true or false; a truth value is a condition in the language.
-pub(super) struct Term {
-    expression: Expr,
-    is_truth: bool,
-}
-
-impl Term {
-    pub fn number(expression: Expr) -> Term {
-        Term { expression, is_truth: false }
-    }
-
-    pub fn truth(expression: Expr) -> Term {
-        Term { expression, is_truth: true }
-    }
-
-    /// True is 1, false is 0.
-    pub fn into_number(self) -> Expr {
-        if !self.is_truth {
-            return self.expression;
-        }
-        let span = self.expression.span;
-        let otherwise = Box::new(build::number(0.0, span));
-        Expr { kind: ExprKind::If { arms: vec![(self.expression, build::number(1.0, span))], otherwise }, span }
-    }
-
-    /// What is not 0 is true.
-    fn into_condition(self) -> Expr {
-        if self.is_truth { self.expression } else { against_zero(self.expression, Comparison::NotEqual) }
-    }
-
-    fn not(self) -> Term {
-        let span = self.expression.span;
-        Term::truth(if self.is_truth {
-            Expr { kind: ExprKind::Not(Box::new(self.expression)), span }
-        } else {
-            against_zero(self.expression, Comparison::Equal)
-        })
-    }
-}
-
-fn against_zero(e: Expr, comparison: Comparison) -> Expr {
-    let span = e.span;
-    Expr { kind: ExprKind::Compare(Box::new(e), comparison, Box::new(build::number(0.0, span))), span }
-}
 
 /// The formula that a text's tokens write.
 pub(super) fn parse(tokens: &[Token<'_>], text: &Quoted) -> Built<Expr> {
@@ -147,7 +103,7 @@ impl<'a> Parser<'a> {
             left = join(left, infix, right);
             // a chain of powers or comparisons grows at its left, where nothing else counts its depth
             let grows = matches!(infix, Infix::Power | Infix::Compare(_) | Infix::LeftDivision);
-            if grows && measure(&left.expression).height > DEEPEST {
+            if grows && measure(left.expression()).height > DEEPEST {
                 return Err(Box::new(errors::formula_too_deep(token.span)));
             }
         }
@@ -269,7 +225,7 @@ fn signed(sign: &str, operand: Term, at: Span) -> Term {
 }
 
 fn join(left: Term, infix: Infix, right: Term) -> Term {
-    let span = left.expression.span.to(right.expression.span);
+    let span = left.expression().span.to(right.expression().span);
     let kind = match infix {
         Infix::Or => return Term::truth(conditions(left, right, span, true)),
         Infix::And => return Term::truth(conditions(left, right, span, false)),

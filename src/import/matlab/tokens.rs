@@ -2,7 +2,7 @@
 
 use super::{Built, functions};
 use crate::import::errors;
-use crate::import::json::Quoted;
+use crate::import::value::Quoted;
 use crate::source::Span;
 
 /// What a token is.

@@ -52,6 +52,7 @@ impl Started {
 
 impl Motion {
     /// Of a mechanism in a state, with what solves for its rows.
+    #[must_use]
     pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Motion {
         let last = state.t + times.span();
         // what happens in no time at all is measured by the second
@@ -346,11 +347,13 @@ impl Motion {
     }
 
     /// Whether the step to where the motion is has ended clear of singular positions.
+    #[must_use]
     pub fn was_clear_here(&self) -> bool {
         self.crossing.was_clear_at(self.step.t())
     }
 
     /// Where the motion is.
+    #[must_use]
     pub fn here(&self) -> &State {
         self.step.state()
     }

@@ -69,6 +69,7 @@ impl Motion {
     }
 
     /// The results that the equations' switches have now.
+    #[must_use]
     pub fn switches(&self) -> Rc<[f64]> {
         self.kinematics.switches().iter().map(|switch| self.kinematics.switch(switch)).collect()
     }
