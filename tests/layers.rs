@@ -53,11 +53,7 @@ const COMMAND_LINE: &[&str] = &[
 
 /// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
 const CIRCLES: &[(&str, &str)] = &[
-    ("check/errors", "check/names"),
     ("emit/tape", "emit/equations"),
-    ("import/errors", "import/json"),
-    ("import/matlab/functions", "import/matlab/parser"),
-    ("program/compile", "program/tables"),
     ("syntax/build", "syntax/formula"),
     ("syntax/errors", "syntax/depth"),
 ];
