@@ -252,7 +252,7 @@ mod tests {
             needs.remove("limits");
             let said: BTreeSet<String> = file.needs.iter().map(|name| (*name).to_owned()).collect();
             let is_before = |name: &&str| FILES[..number].iter().any(|before| before.name == *name);
-            assert!(file.needs.iter().all(|name| is_before(&name)), "{} stands too early", file.name);
+            assert!(file.needs.iter().all(is_before), "{} stands too early", file.name);
             // what extends a type is not named
             assert!(
                 needs.is_subset(&said) && said.difference(&needs).all(|name| name == "pivots"),

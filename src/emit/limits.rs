@@ -25,6 +25,7 @@ macro_rules! limits {
 
         /// For the files that go along, where this crate compiles them itself.
         #[cfg(test)]
+        #[allow(dead_code)] // one is named by code that is printed, and by no file
         pub(super) mod values {
             use super::*;
             $(limits!(@constant $kind $name = $value);)*
@@ -106,7 +107,7 @@ fn grouped(count: usize) -> String {
     let digits = count.to_string();
     let mut text = String::new();
     for (k, digit) in digits.chars().enumerate() {
-        if k > 0 && (digits.len() - k) % 3 == 0 && digits.len() > 4 {
+        if k > 0 && (digits.len() - k).is_multiple_of(3) && digits.len() > 4 {
             text.push('_');
         }
         text.push(digit);

@@ -212,7 +212,9 @@ impl<'s> Solution<'s> {
         page.block(&format!("static LISTING{ending}: Listing = Listing"), |page| {
             for (name, values) in [("segments", list), ("settling", settling)] {
                 page.line(&format!("{name}: &["));
-                values.iter().for_each(|value| page.line(&format!("    {value},")));
+                for value in values {
+                    page.line(&format!("    {value},"));
+                }
                 page.line("],");
             }
             page.line(&format!("code: &SOLVE{ending},"));

@@ -259,7 +259,9 @@ fn choice(page: &mut Page, name: &str, arguments: &[&str], result: &str, arms: &
             return page.line(none);
         }
         page.block("match number", |page| {
-            arms.iter().for_each(|(number, value)| page.line(&format!("{number} => {value},")));
+            for (number, value) in arms {
+                page.line(&format!("{number} => {value},"));
+            }
             page.line(&format!("_ => {none},"));
         });
     });

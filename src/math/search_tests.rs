@@ -17,7 +17,7 @@ fn a_section_keeps_the_least_value() {
     let mut value = |x: f64| Ok::<f64, Infallible>((x - 0.3) * (x - 0.3));
     let Ok(mut section) = GoldenSection::new([0.0, 0.09], [1.0, 0.49], &mut value);
     for _ in 0..40 {
-        let Ok(()) = section.narrow(&mut value);
+        let Ok(()) = section.narrow(value);
         assert!(section.low[0] <= 0.3 && section.high[0] >= 0.3);
     }
     assert!((section.middle() - 0.3).abs() < 1e-7 && section.least() < 1e-14);

@@ -123,10 +123,11 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Which lanes hold nothing but numbers.
     pub fn are_finite(&self) -> [bool; L] {
         let mut sum = [0.0; L];
-        let lists = [&self.q, &self.qd, &self.qdd];
-        for each in lists.into_iter().flat_map(|list| list.as_ref()) {
-            for k in 0..L {
-                sum[k] += 0.0 * each[k];
+        for list in [&self.q, &self.qd, &self.qdd] {
+            for each in list.as_ref() {
+                for k in 0..L {
+                    sum[k] += 0.0 * each[k];
+                }
             }
         }
         sum.map(|sum| sum == 0.0)

@@ -129,7 +129,7 @@ impl Writer<'_> {
         page.item("impl Led<SIGNALS> for Model", |page| {
             page.line("type Params = Params;\n");
             let head = Head { kind: "fn", name: "new", arguments: &[("way", "&Way")], result: "Self" };
-            page.function(&head, |page| self.making(solution, "way", "way.clone()", page));
+            page.function(&head, |page| Self::making(solution, "way", "way.clone()", page));
             let head = Head { kind: "fn", name: "way", arguments: &[("&self", "")], result: "&Way" };
             page.function(&head, |page| page.line("&self.way"));
             let head = Head { kind: "fn", name: "way_mut", arguments: &[("&mut self", "")], result: "&mut Way" };

@@ -137,7 +137,9 @@ impl Writer<'_> {
         };
         said.push(needs.to_owned());
         said.push("needs no heap and no standard library; nothing in it panics".to_owned());
-        said.iter().for_each(|said| page.line(&format!("//! - {said}")));
+        for said in said {
+            page.line(&format!("//! - {said}"));
+        }
         page.line("//!");
         page.line("//! This code carries no licence of mechc's: use, change and pass it on as you like.");
         page.blank();

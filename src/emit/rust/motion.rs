@@ -12,7 +12,7 @@ impl Writer<'_> {
     pub fn motion(&self, solution: &Solution<'_>, page: &mut Page) {
         let columns = RowLayout::new(self.unit.system).printed;
         page.constant("Number of results at a time.", "pub const COLUMNS: usize", &columns.to_string());
-        self.times(solution, page);
+        Self::times(solution, page);
         self.scales(solution, page);
         self.measured(page);
         self.model("params", "Params", "parameters", solution, page);
@@ -205,7 +205,7 @@ impl Writer<'_> {
     }
 
     /// What makes a mechanism of what it is given.
-    pub fn making(&self, solution: &Solution<'_>, field: &str, value: &str, page: &mut Page) {
+    pub fn making(solution: &Solution<'_>, field: &str, value: &str, page: &mut Page) {
         if solution.known.is_empty() {
             page.line(&format!("Self {{ {field}: {value} }}"));
         } else {
@@ -236,7 +236,7 @@ impl Writer<'_> {
             }
             page.blank();
             let head = Head { kind: "fn", name: "new", arguments: &[("params", "&Params")], result: "Self" };
-            page.function(&head, |page| self.making(solution, "params", "*params", page));
+            page.function(&head, |page| Self::making(solution, "params", "*params", page));
             let head = Head { kind: "fn", name: "params", arguments: &[("&self", "")], result: "&Params" };
             page.function(&head, |page| page.line("&self.params"));
             let head = Head { kind: "fn", name: "start", arguments: &[], result: "&'static Q" };

@@ -21,27 +21,15 @@ impl Writer<'_> {
             let only: Vec<Register> =
                 switches.iter().map(|switch| if switch.on_time { switch.to } else { zero }).collect();
             let docs = "The branches that time alone decides, the others as 0.";
-            page.text(&self.equations.function(&self.wanted_of_sides("sides_of_time", docs, 0, &only, Given::None)));
+            page.text(&self.equations.function(&wanted_of_sides("sides_of_time", docs, 0, &only, Given::None)));
         }
         if of_motion {
             let is_of_time: Vec<String> = switches.iter().map(|switch| switch.on_time.to_string()).collect();
             page.text(&constant("Which of them time alone decides.", "IS_OF_TIME", "bool", "SIDES", &is_of_time));
             let all: Vec<Register> = switches.iter().map(|switch| switch.to).collect();
             let docs = "The branches at a position, those of time being known.";
-            page.text(&self.equations.function(&self.wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime)));
+            page.text(&self.equations.function(&wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime)));
         }
-    }
-
-    fn wanted_of_sides<'f>(
-        &self,
-        name: &'f str,
-        docs: &'f str,
-        orders: usize,
-        outputs: &'f [Register],
-        given: Given,
-    ) -> Wanted<'f> {
-        let (is_public, has_time, varied, negated) = (false, true, false, false);
-        Wanted { name, docs, is_public, orders, has_time, varied, outputs, length: "SIDES", negated, given }
     }
 
     /// A register that holds 0, or what no function computes.
@@ -136,7 +124,9 @@ impl Writer<'_> {
             let sides = if self.has_sides() { "sides" } else { "_sides" };
             let arguments = [("&self", ""), ("q", "&Q"), ("t", "f64"), (sides, "&Sides")];
             page.function(&Head { kind: "fn", name, arguments: &arguments, result }, |page| {
-                body.iter().for_each(|line| page.line(line));
+                for line in body {
+                    page.line(line);
+                }
             });
         };
         page.item("impl Checks for Model", |page| {
@@ -194,4 +184,16 @@ impl Writer<'_> {
             self.method(page, "gauges", "rims_of_time", &[], "Self::Gauges", Given::None);
         });
     }
+}
+
+/// A function that gives the branches of formulas.
+fn wanted_of_sides<'f>(
+    name: &'f str,
+    docs: &'f str,
+    orders: usize,
+    outputs: &'f [Register],
+    given: Given,
+) -> Wanted<'f> {
+    let (is_public, has_time, varied, negated) = (false, true, false, false);
+    Wanted { name, docs, is_public, orders, has_time, varied, outputs, length: "SIDES", negated, given }
 }

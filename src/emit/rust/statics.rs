@@ -46,7 +46,7 @@ impl Writer<'_> {
     }
 
     /// The times of the file's analysis.
-    pub fn times(&self, solution: &Solution<'_>, page: &mut Page) {
+    pub fn times(solution: &Solution<'_>, page: &mut Page) {
         let (from, to) = (solution.motion.from, solution.motion.to);
         let span = to.map_or(1.0, |to| if to > from { to - from } else { 1.0 });
         let docs = "The first time of the file's analysis (s), at which the mechanism is assembled.";
