@@ -54,7 +54,7 @@ files! {
         [FEWEST_LOOKS, GROWTH, LEAD, MOMENT, MOST_HALVINGS, MOST_LOOKS, PASSED, ROUNDING, SLOW, SPEED_JUMP];
     "blocks" at "../math/blocks.rs": [], [];
     "pivoting" at "runtime/pivoting.rs": ["numbers", "error", "solution", "grid", "blocks"], [HALF_A_CELL, ITERATIONS];
-    "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["numbers", "error", "solution", "pivoting"], [];
+    "pivoted_slopes" at "runtime/pivoted_slopes.rs": ["error", "solution", "pivoting"], [];
     "way" at "runtime/way.rs": ["numbers", "equations", "solution", "state"], [FARTHEST_AHEAD];
     "way_list" at "runtime/way_list.rs": ["state", "way"], [];
     "follow" at "runtime/follow.rs": ["numbers", "error", "solution", "branches", "reach", "state", "explain", "way"],

@@ -50,9 +50,3 @@ pub fn predicted<N: Numbers>(q: &N, qd: &N, qdd: &N, h: f64) -> N {
     }
     later
 }
-
-/// No number is -0.
-pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
-    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
-    values
-}

@@ -1,8 +1,7 @@
 //! Derivatives of the coordinates by elimination with partial pivoting.
 
 use super::error::Fault;
-use super::numbers::without_signs_of_zero;
-use super::pivoting::{Elimination, Pivoting, solve_with_pivoting};
+use super::pivoting::{Elimination, Pivoting, solve_with_pivoting, without_signs_of_zero};
 use super::solution::Solution;
 
 /// Solves next to a solution, and then for the derivatives with some right sides.

@@ -4,7 +4,7 @@ use super::blocks::{self, Blocks};
 use super::error::Fault;
 use super::grid::on_grid;
 use super::limits::{HALF_A_CELL, ITERATIONS};
-use super::numbers::{Flags, Numbers, largest, without_signs_of_zero};
+use super::numbers::{Flags, Numbers, largest};
 use super::solution::{Along, Solution, Solved};
 
 /// Equations that can be solved by elimination with partial pivoting.
@@ -169,4 +169,10 @@ fn is_next_to_nothing<M: Pivoting>(values: &M::Q, slopes: &M::Entries, q: &M::Q)
     }
     let mut pairs = values.as_ref().iter().zip(bounds.as_ref());
     pairs.all(|(value, bound)| value.abs() <= *bound)
+}
+
+/// No number is -0.
+pub fn without_signs_of_zero<N: Numbers>(mut values: N) -> N {
+    values.as_mut().iter_mut().for_each(|value| *value += 0.0);
+    values
 }
