@@ -23,6 +23,7 @@
 //! [`ConstraintSystem::validate`] looks at these and more.
 
 mod equations_of;
+mod forces;
 mod ids;
 mod print;
 mod results;
@@ -35,6 +36,7 @@ mod validate;
 mod variations;
 
 pub use crate::vocabulary::JointKind;
+pub use forces::Forces;
 pub use ids::{BodyId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
@@ -79,6 +81,8 @@ pub struct ConstraintSystem {
     pub phi_q: SparseRows,
     /// The right sides of the equations that follow from `Φ = 0`.
     right_sides: Vec<RightSide>,
+    /// What holds the motion, where somebody asks for it.
+    pub forces: Option<Forces>,
     /// Derivatives by inputs and parameters, where there are any.
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
@@ -448,6 +452,7 @@ impl ConstraintSystem {
             rows: Vec::new(),
             phi_q: SparseRows::new(),
             right_sides: Vec::new(),
+            forces: None,
             variations: None,
             measures: Vec::new(),
             results: Results::default(),
@@ -522,6 +527,7 @@ impl ConstraintSystem {
     pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
+        self.renumber_multipliers(&kept);
         self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
         self.phi_q = self.phi_q.of_rows(&kept);
         self.right_sides.iter_mut().for_each(|side| side.keep(&kept));

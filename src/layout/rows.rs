@@ -17,6 +17,8 @@ enum Stretch {
     BySignal,
     /// The variations: for each `q`, `q̇` and `q̈`, one behind the other.
     Varied,
+    /// The multipliers, where forces are asked for; behind them how these vary, variation by variation.
+    Multipliers,
 }
 
 /// The stretches of the table, in their order.
@@ -32,7 +34,8 @@ const PRINTED: [Stretch; 8] = [
 ];
 
 /// What only measures need, behind the table.
-const UNPRINTED: [Stretch; 3] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied];
+const UNPRINTED: [Stretch; 4] =
+    [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied, Stretch::Multipliers];
 
 /// What a column of the table holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -80,6 +83,7 @@ impl Stretch {
             Stretch::Appended => system.appended().len(),
             Stretch::BySignal => n * (system.by_inputs().len() + system.by_params().len()),
             Stretch::Varied => 3 * n * system.variations().len(),
+            Stretch::Multipliers => system.needed_forces().len() * (1 + system.variations().len()),
         }
     }
 
@@ -94,7 +98,7 @@ impl Stretch {
             }
             Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
             // these are not of the table
-            Stretch::BySignal | Stretch::Varied => Vec::new(),
+            Stretch::BySignal | Stretch::Varied | Stretch::Multipliers => Vec::new(),
         }
     }
 }
@@ -110,6 +114,8 @@ pub struct RowLayout {
     pub appended: u32,
     /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
     pub varied: u32,
+    /// First column of the multipliers; behind them how these vary, variation by variation.
+    pub multipliers: u32,
     /// Whether there are columns for `q⃛`.
     pub has_jerk: bool,
     /// First column of the derivatives of `q` by each signal and parameter.
@@ -129,6 +135,7 @@ impl RowLayout {
             measures: [0; 3],
             appended: 0,
             varied: 0,
+            multipliers: 0,
             has_jerk: system.jerk().is_some(),
             by_signal: 0,
             printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
@@ -143,6 +150,7 @@ impl RowLayout {
                 Stretch::Appended => layout.appended = first,
                 Stretch::BySignal => layout.by_signal = first,
                 Stretch::Varied => layout.varied = first,
+                Stretch::Multipliers => layout.multipliers = first,
             }
             layout.stride += stretch.length(system);
         }

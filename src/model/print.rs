@@ -103,6 +103,7 @@ impl Text<'_> {
             },
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Coordinate { .. } | Symbol::Varied { .. } => "q".to_owned(),
+            Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => "lambda".to_owned(),
         })
         .with_names(&self.names);
         if whole { printer.definition(id) } else { printer.text(id) }

@@ -37,9 +37,9 @@ pub(super) fn build(
     let mut all = Component::default();
     for (group, blocks) in groups.blocks.iter().enumerate() {
         builder.terms.begin();
-        for &block in blocks {
-            builder.block(&determined.blocks()[block]);
-        }
+        let blocks = blocks.iter().map(|&block| &determined.blocks()[block]);
+        let solved: Vec<(&Block, Factors)> = blocks.map(|block| (block, builder.block(block))).collect();
+        builder.forces(&solved);
         builder.outputs(&measures[group], &appended[group]);
         all.append(builder.finish(), purpose);
         if all.instructions.len() > MOST_OPERATIONS {
@@ -90,6 +90,8 @@ fn joined(system: &ConstraintSystem, layout: &RowLayout, measures: &[usize], app
         Symbol::Varied { index, order, variation } => {
             Some(layout.varied + (3 * variation + u32::from(order)) * n + index)
         }
+        Symbol::Multiplier(row) => Some(layout.multipliers + row),
+        Symbol::VariedMultiplier { row, variation } => Some(layout.multipliers + (1 + variation) * n + row),
         _ => None,
     };
     system.graph.symbols_of_all(&formulas).into_iter().filter_map(column).collect()
@@ -173,7 +175,8 @@ impl<'s, V: Values> Builder<'s, V> {
         self.segments.push(Segment::Once(from..self.terms.tape.instructions.len()));
     }
 
-    fn block(&mut self, block: &Block) {
+    /// Position and rates of a block; gives its factors.
+    fn block(&mut self, block: &Block) -> Factors {
         let factors = if block.explicit { self.explicit(block) } else { self.implicit(block) };
         for &column in &block.columns {
             self.store(0, column);
@@ -183,6 +186,7 @@ impl<'s, V: Values> Builder<'s, V> {
         }
         self.rates(block, &factors);
         self.terms.end_block();
+        factors
     }
 
     /// Notes the pivots of a block that are no numbers, with what the others and their order make of the determinant's sign.

@@ -10,6 +10,7 @@ pub(super) struct Groups {
     pub blocks: Vec<Vec<usize>>,
     group_of_column: Vec<usize>,
     pub block_of_column: Vec<usize>,
+    group_of_row: Vec<usize>,
 }
 
 impl Groups {
@@ -22,11 +23,24 @@ impl Groups {
             }
         }
         let mut parent: Vec<usize> = (0..blocks.len()).collect();
+        let mut join = |a: usize, b: usize| {
+            let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+            parent[a.max(b)] = a.min(b);
+        };
+        let mut block_of_row = vec![0; system.rows.len()];
         for (k, block) in blocks.iter().enumerate() {
             for &row in &block.rows {
+                block_of_row[row as usize] = k;
                 for &(column, _) in system.phi_q.row(row as usize) {
-                    let (a, b) = (root(&mut parent, k), root(&mut parent, block_of_column[column as usize]));
-                    parent[a.max(b)] = a.min(b);
+                    join(k, block_of_column[column as usize]);
+                }
+            }
+        }
+        // a load may speak of others than it works on
+        for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
+            for symbol in system.graph.symbols(needed) {
+                if let Symbol::Coordinate { index, .. } = symbol {
+                    join(block, block_of_column[index as usize]);
                 }
             }
         }
@@ -40,8 +54,10 @@ impl Groups {
             }
             groups[number[root]].push(k);
         }
-        let group_of_column = block_of_column.iter().map(|&block| number[root(&mut parent, block)]).collect();
-        Groups { blocks: groups, group_of_column, block_of_column }
+        let mut group_of = |block: &usize| number[root(&mut parent, *block)];
+        let group_of_column = block_of_column.iter().map(&mut group_of).collect();
+        let group_of_row = block_of_row.iter().map(&mut group_of).collect();
+        Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
     }
 
     /// The measures of each group, and behind these the ones that join groups.
@@ -70,6 +86,7 @@ impl Groups {
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
                 Some(self.group_of_column[index as usize])
             }
+            Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(self.group_of_row[row as usize]),
             _ => None,
         });
         let first = groups.next();
