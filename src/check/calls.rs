@@ -25,7 +25,7 @@ const MOST_READ: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Call {
     entity: Entity,
-    argument: Option<(ExprId, Option<(u64, u64)>)>,
+    argument: Option<(ExprId, Option<[u64; 3]>)>,
     judged: bool,
     /// Less is said in a branch that is never taken.
     untaken: bool,
@@ -123,7 +123,7 @@ impl<'a> Checker<'a> {
         }
         let (formula, name) = (function.value, function.argument);
         let bits = match argument.dim {
-            Dim::Of(d) if context.judged => Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits())),
+            Dim::Of(d) if context.judged => Some([d.length, d.time, d.mass].map(|power| (power + 0.0).to_bits())),
             Dim::Any | Dim::Of(_) => None,
         };
         let call = Call {

@@ -121,10 +121,10 @@ impl Checker<'_> {
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
-                    if let Some(form) = self.equation(*driver, name, [left, right]) {
+                    if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        self.model.equations.push(Equation { declared, driver, form, written });
+                        self.model.equations.push(Equation { declared, driver, form, dimension, written });
                     }
                 }
                 ItemKind::Part(_) => {
@@ -148,7 +148,7 @@ impl Checker<'_> {
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
-    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<EquationForm> {
+    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dimension)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
             // a name that is wrong explains more than the want of a quantity
@@ -214,9 +214,10 @@ impl Checker<'_> {
                     owner: format!("{}{}", self.path, name.text),
                 });
             }
-            return Some(EquationForm::Distance(p, q, b.id));
+            return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
         }
-        Some(EquationForm::Equality(a.id, b.id))
+        let dimension = dimension_of_sides([a, b]);
+        Some((EquationForm::Equality(a.id, b.id), dimension))
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
@@ -304,6 +305,13 @@ impl Checker<'_> {
         }
         self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
     }
+}
+
+/// The dimension of both sides of an equation. A plain number is taken in the unit of what it stands beside, so that only what has a
+/// dimension tells.
+pub(super) fn dimension_of_sides(sides: [Value; 2]) -> Dimension {
+    let dimensions = sides.into_iter().map(|side| side.dim.settled());
+    dimensions.into_iter().find(|dimension| !dimension.is(Dimension::PURE)).unwrap_or(Dimension::PURE)
 }
 
 /// How the formula of a measure is read.

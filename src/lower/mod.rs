@@ -240,6 +240,8 @@ impl Lowering<'_> {
                 Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
                 Named::Held(part, bound) => self.held(part, bound),
                 Named::Reduction(k) => self.reduced(k),
+                // refused by `check` as long as nobody computes it
+                Named::Force(..) => self.graph.constant(0.0),
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),
             };
