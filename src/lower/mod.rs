@@ -20,7 +20,7 @@ mod velocities;
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
 };
 use crate::model::{
     self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
@@ -71,7 +71,7 @@ fn params(model: &Mechanism) -> Vec<Param> {
         name: param.declared.name.clone(),
         part: path(&param.declared.name),
         value: param.value,
-        unit: param.dimension.unit(),
+        dimension: param.dimension,
         span: param.declared.span,
     };
     model.params.iter().map(param).collect()
@@ -142,6 +142,22 @@ fn carry(
 fn units(of: &model::Units) -> Units {
     let model::Units { si, printed, scale } = of.clone();
     Units { si, printed, scale }
+}
+
+/// An entry of `Φ`, and what it is measured in.
+type Entry = (ExprId, RowUnit);
+
+/// Some that are measured in the same.
+fn entries<const N: usize>(unit: RowUnit, phi: [ExprId; N]) -> Vec<Entry> {
+    phi.map(|phi| (phi, unit)).to_vec()
+}
+
+/// What the row of an equation is measured in: as its sides, but of a distance the squares.
+fn unit_of(equation: &model::Equation) -> RowUnit {
+    match equation.form {
+        EquationForm::Equality(..) => RowUnit { dimension: equation.dimension, is_angle: equation.is_angle },
+        EquationForm::Distance(..) => RowUnit::AREA,
+    }
 }
 
 impl<'m> Lowering<'m> {
@@ -334,7 +350,7 @@ impl Lowering<'_> {
         &mut self,
         declared: &crate::model::Declared,
         kind: DeclarationKind,
-        phi: &[ExprId],
+        phi: &[Entry],
         points: &[PointId],
         axes: &[AxisId],
     ) {
@@ -357,7 +373,7 @@ impl Lowering<'_> {
             written: None,
             is_spoken_of: false,
         });
-        self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
+        self.rows.extend(phi.iter().map(|&(phi, unit)| Row { declaration, phi, unit }));
     }
 
     fn joint_rows(&mut self) {
@@ -383,8 +399,8 @@ impl Lowering<'_> {
                     EquationForm::Equality(..) => Vec::new(),
                     EquationForm::Distance(p, q, _) => vec![p, q],
                 };
-                let phi = self.equation_row(equation.form);
-                self.declare(&equation.declared, kind, &[phi], &points, &[]);
+                let entry = (self.equation_row(equation.form), unit_of(equation));
+                self.declare(&equation.declared, kind, &[entry], &points, &[]);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
                     declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();
