@@ -124,7 +124,8 @@ impl Checker<'_> {
                     if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        self.model.equations.push(Equation { declared, driver, form, dimension, written });
+                        let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
+                        self.model.equations.push(Equation { declared, driver, form, dimension, is_angle, written });
                     }
                 }
                 ItemKind::Part(_) => {
@@ -148,6 +149,7 @@ impl Checker<'_> {
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
+    /// What an equation says, and the dimension of its sides.
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dimension)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
@@ -187,7 +189,7 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
+        let alike = self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
                 self.remember_any_length(side, value.id, context.judged);
@@ -216,8 +218,13 @@ impl Checker<'_> {
             }
             return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
         }
-        let dimension = dimension_of_sides([a, b]);
-        Some((EquationForm::Equality(a.id, b.id), dimension))
+        let known = if context.judged { None } else { self.known_of_either([(left, a), (right, b)], &context) };
+        Some((EquationForm::Equality(a.id, b.id), known.unwrap_or(alike.settled())))
+    }
+
+    /// The dimension of that side of a plain equation which is known to have one, whatever its plain numbers stand for.
+    fn known_of_either(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Option<Dimension> {
+        sides.into_iter().find_map(|(side, value)| self.known_dimension(side, value, context))
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
@@ -305,13 +312,6 @@ impl Checker<'_> {
         }
         self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
     }
-}
-
-/// The dimension of both sides of an equation. A plain number is taken in the unit of what it stands beside, so that only what has a
-/// dimension tells.
-pub(super) fn dimension_of_sides(sides: [Value; 2]) -> Dimension {
-    let dimensions = sides.into_iter().map(|side| side.dim.settled());
-    dimensions.into_iter().find(|dimension| !dimension.is(Dimension::PURE)).unwrap_or(Dimension::PURE)
 }
 
 /// How the formula of a measure is read.

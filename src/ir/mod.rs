@@ -17,11 +17,12 @@
 //! # What must hold
 //!
 //! - Every expression is in the one graph; `Φ_q` holds exactly the entries that do not vanish identically.
-//! - Every row knows the declaration that wrote it, with its place in the text.
+//! - Every row knows the declaration that wrote it, with its place in the text, and what it is measured in.
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 //!
 //! [`ConstraintSystem::validate`] looks at these and more.
 
+mod dimensions;
 mod equations_of;
 mod forces;
 mod ids;
@@ -29,6 +30,7 @@ mod print;
 mod results;
 mod right_sides;
 mod rims;
+mod rows;
 mod scopes;
 mod signals;
 mod sparse;
@@ -41,6 +43,7 @@ pub use ids::{BodyId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rims::Rim;
+pub use rows::{Row, RowUnit};
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
 pub use signals::CheckSlopes;
 pub use sparse::SparseRows;
@@ -48,6 +51,7 @@ pub use variations::{Appended, Variable, Variation, Variations};
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL, TableId};
 use crate::source::Span;
+use crate::vocabulary::Dimension;
 use std::ops::Range;
 
 /// A mechanism as equations.
@@ -120,10 +124,18 @@ pub struct Param {
     pub part: usize,
     /// Its value in SI.
     pub value: f64,
-    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
-    pub unit: String,
+    /// Of its value; that of a plain number is pure, whatever it stands for.
+    pub dimension: Dimension,
     /// The name's place.
     pub span: Span,
+}
+
+impl Param {
+    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        self.dimension.unit()
+    }
 }
 
 /// A signal that comes from outside.
@@ -272,15 +284,6 @@ pub struct Declaration {
     pub is_spoken_of: bool,
 }
 
-/// An equation.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// The declaration that wrote it.
-    pub declaration: DeclarationId,
-    /// The entry of `Φ` [m, m² or rad].
-    pub phi: ExprId,
-}
-
 /// A number to tabulate, with the time derivatives that can be had.
 #[derive(Clone, Debug)]
 pub struct Measure {
@@ -339,8 +342,10 @@ pub struct Condition {
 /// An equation that follows from the others.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// The entry of `Φ` [m, m² or rad].
+    /// The entry of `Φ`.
     pub phi: ExprId,
+    /// What that is measured in.
+    pub unit: RowUnit,
     /// The declaration that wrote it.
     pub declaration: DeclarationId,
     /// Its norm in the scaled `Φ_q` at the start.

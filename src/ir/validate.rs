@@ -1,6 +1,6 @@
 //! What must hold of a constraint system, put to the test. What passes here, the rooms behind take without asking.
 
-use super::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Owner, With};
+use super::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Owner, Row, With};
 use crate::expr::{ExprId, Symbol};
 
 impl ConstraintSystem {
@@ -10,6 +10,7 @@ impl ConstraintSystem {
         self.every_id_is_of_something()?;
         self.poses_are_of_their_bodies()?;
         self.rows_are_counted()?;
+        self.rows_are_measured_in_their_units()?;
         self.phi_q_is_sparse()?;
         self.right_sides_are_whole()?;
         self.formulas_hold_what_they_may()
@@ -76,6 +77,19 @@ impl ConstraintSystem {
             holds(count == declaration.rows, || format!("{count} rows of `{}`", declaration.name))?;
         }
         holds(next.next().is_none(), || "rows out of the order of their declarations".to_owned())
+    }
+
+    /// What a joint's formulas tell of what they are measured in is what its rows say. Of equations of the text, in which plain numbers may
+    /// stand for anything, `check` knows more than their formulas.
+    fn rows_are_measured_in_their_units(&self) -> Result<(), String> {
+        for (k, row) in self.rows.iter().enumerate() {
+            let Row { phi, unit, .. } = *row;
+            holds(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
+            let DeclarationKind::Joint(_) = self.declarations[row.declaration].kind else { continue };
+            let is_other = self.dimension_of(phi).is_some_and(|found| !found.is(unit.dimension));
+            holds(!is_other, || format!("row {k} is not in {unit}"))?;
+        }
+        Ok(())
     }
 
     fn phi_q_is_sparse(&self) -> Result<(), String> {
@@ -145,6 +159,7 @@ fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
 mod tests {
     use super::{ConstraintSystem, DeclarationId, Owner, With};
     use crate::expr::Symbol;
+    use crate::ir::RowUnit;
     use crate::{Cancel, Choice, Memory, Parsed, Redundant};
 
     fn system() -> ConstraintSystem {
@@ -182,6 +197,12 @@ mod tests {
         let said = broken(|s| s.declarations[0.into()].rows += 1);
         assert!(said.starts_with("2 rows of"), "{said}");
         assert!(broken(|s| s.rows.swap(0, 2)).starts_with("0 rows of"));
+    }
+
+    #[test]
+    fn rows_are_in_their_units() {
+        assert_eq!(broken(|s| s.rows[0].unit = RowUnit::AREA), "row 0 is not in m^2");
+        assert_eq!(broken(|s| s.rows[0].unit.dimension.time = f64::NAN), "a unit of row 0 that is none");
     }
 
     #[test]

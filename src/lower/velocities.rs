@@ -128,6 +128,14 @@ impl Lowering<'_> {
         }
     }
 
+    /// Where a follower, cam or flat follower touches (m).
+    pub(super) fn touching(&mut self, joint: JointId) -> Vector {
+        match self.contact(joint) {
+            Some(contact) => contact.at,
+            None => [self.nothing(), self.nothing()],
+        }
+    }
+
     /// The first coordinate that a joint brings along.
     fn contact_argument(&mut self, joint: JointId) -> ExprId {
         let index = self.numbering.own(joint).start;

@@ -701,8 +701,10 @@ pub struct Equation {
     pub driver: bool,
     /// What it demands.
     pub form: EquationForm,
-    /// Of its left side, and of its right side.
+    /// Of both sides; as far as that is known where plain numbers stand for anything.
     pub dimension: Dimension,
+    /// Whether they are angles, as far as their words tell.
+    pub is_angle: bool,
     /// Where both sides are written.
     pub written: Span,
 }
@@ -757,7 +759,7 @@ impl Units {
     /// SI; angles are told from other pure numbers.
     #[must_use]
     pub fn si(dimension: Dimension, is_angle: bool) -> Units {
-        let printed = [0.0, 1.0, 2.0].map(|times| si(dimension.over(Dimension::TIME.to_the(times)), is_angle));
+        let printed = [0.0, 1.0, 2.0].map(|times| dimension.over(Dimension::TIME.to_the(times)).unit_of(is_angle));
         Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
     }
 
@@ -765,16 +767,7 @@ impl Units {
     #[must_use]
     pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
         let printed = [0, 1, 2].map(|times| unit.per_second(times));
-        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.scale() }
-    }
-}
-
-/// `m/s^2`; `rad/s` for a turning speed.
-fn si(dimension: Dimension, is_angle: bool) -> String {
-    let unit = dimension.unit();
-    match unit.strip_prefix('1') {
-        Some(rest) if is_angle => format!("rad{rest}"),
-        _ => unit,
+        Units { si: unit.dimension().unit_of(is_angle), printed, scale: unit.scale() }
     }
 }
 
