@@ -61,7 +61,12 @@ impl ConstraintSystem {
                 (!own.is(Dimension::PURE)).then_some(own)
             }
             // what is added to anything, and what is not looked at here
-            Symbol::Shift(_) | Symbol::Signal { .. } | Symbol::Named(_) | Symbol::Varied { .. } => None,
+            Symbol::Shift(_)
+            | Symbol::Signal { .. }
+            | Symbol::Named(_)
+            | Symbol::Varied { .. }
+            | Symbol::Multiplier(_)
+            | Symbol::VariedMultiplier { .. } => None,
         }
     }
 }

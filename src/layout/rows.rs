@@ -34,8 +34,7 @@ const PRINTED: [Stretch; 8] = [
 ];
 
 /// What only measures need, behind the table.
-const UNPRINTED: [Stretch; 4] =
-    [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied, Stretch::Multipliers];
+const UNPRINTED: [Stretch; 4] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied, Stretch::Multipliers];
 
 /// What a column of the table holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
