@@ -6,12 +6,28 @@
 
 use super::ConstraintSystem;
 use crate::expr::{ExprId, Symbol};
+use crate::source::Span;
 
 /// The equations for the multipliers.
 #[derive(Clone, Debug)]
 pub struct Forces {
     /// `p`, one entry per coordinate [N for a length, N·m for an angle, J for a pure number].
     pub needed: Vec<ExprId>,
+    /// What is tabulated of all joints, constraints and drivers, where that is asked for.
+    pub reactions: Vec<Reaction>,
+}
+
+/// A column of what a joint exerts, or of what a constraint or driver supplies.
+#[derive(Clone, Debug)]
+pub struct Reaction {
+    /// `big_end.fx`, `motor.effort`
+    pub name: String,
+    /// Its value in SI.
+    pub value: ExprId,
+    /// Its SI unit: `N`, `N*m`.
+    pub unit: String,
+    /// The place of the declaration's name.
+    pub span: Span,
 }
 
 impl ConstraintSystem {
@@ -19,6 +35,12 @@ impl ConstraintSystem {
     #[must_use]
     pub fn needed_forces(&self) -> &[ExprId] {
         self.forces.as_ref().map_or(&[], |forces| &forces.needed)
+    }
+
+    /// The columns of reactions and efforts; none where they are not asked for.
+    #[must_use]
+    pub fn reactions(&self) -> &[Reaction] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.reactions)
     }
 
     /// Multipliers get the numbers that their rows have when some are taken out; nobody asks for those of rows that are not kept.
@@ -35,8 +57,12 @@ impl ConstraintSystem {
             Symbol::Multiplier(row) => Some(number[row as usize].unwrap_or(nothing)),
             _ => None,
         };
-        for measure in &mut self.measures {
-            measure.value = self.graph.substituted(&[measure.value], of)[0];
+        let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
+        let reactions = self.forces.iter_mut().flat_map(|forces| &mut forces.reactions);
+        let places: Vec<&mut ExprId> = formulas.chain(reactions.map(|reaction| &mut reaction.value)).collect();
+        let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
+        for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
+            *place = id;
         }
     }
 

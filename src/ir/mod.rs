@@ -38,7 +38,7 @@ mod validate;
 mod variations;
 
 pub use crate::vocabulary::JointKind;
-pub use forces::Forces;
+pub use forces::{Forces, Reaction};
 pub use ids::{BodyId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};

@@ -9,6 +9,8 @@ enum Stretch {
     Time,
     /// All coordinates, differentiated so many times by time.
     Coordinates(usize),
+    /// What joints exert and drivers supply.
+    Reactions,
     /// The measures that can be differentiated so many times by time, likewise.
     Measures(usize),
     /// Derivatives that were asked for as columns of their own.
@@ -22,9 +24,10 @@ enum Stretch {
 }
 
 /// The stretches of the table, in their order.
-const PRINTED: [Stretch; 8] = [
+const PRINTED: [Stretch; 9] = [
     Stretch::Time,
     Stretch::Coordinates(0),
+    Stretch::Reactions,
     Stretch::Measures(0),
     Stretch::Coordinates(1),
     Stretch::Measures(1),
@@ -48,6 +51,8 @@ pub enum Holds {
         /// How many times.
         order: usize,
     },
+    /// What a joint exerts or a driver supplies, by its place among all of these.
+    Reaction(usize),
     /// A measure, likewise.
     Measure {
         /// Its number.
@@ -78,6 +83,7 @@ impl Stretch {
             Stretch::Time => 1,
             Stretch::Coordinates(3) if system.jerk().is_none() => 0,
             Stretch::Coordinates(_) => n,
+            Stretch::Reactions => system.reactions().len(),
             Stretch::Measures(order) => measures_with(system, order).count(),
             Stretch::Appended => system.appended().len(),
             Stretch::BySignal => n * (system.by_inputs().len() + system.by_params().len()),
@@ -92,6 +98,7 @@ impl Stretch {
             Stretch::Coordinates(order) => {
                 (0..system.coordinates.len()).map(|index| Holds::Coordinate { index, order }).collect()
             }
+            Stretch::Reactions => (0..system.reactions().len()).map(Holds::Reaction).collect(),
             Stretch::Measures(order) => {
                 measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
             }
@@ -107,6 +114,8 @@ impl Stretch {
 pub struct RowLayout {
     /// First column of `q`, `q̇`, `q̈`, `q⃛`.
     pub coordinates: [u32; 4],
+    /// First column of what joints exert and drivers supply.
+    pub reactions: u32,
     /// First column of the measures, and of their first and second derivatives.
     pub measures: [u32; 3],
     /// First of the derivatives that stand behind all other columns of the table.
@@ -131,6 +140,7 @@ impl RowLayout {
     pub fn new(system: &ConstraintSystem) -> RowLayout {
         let mut layout = RowLayout {
             coordinates: [0; 4],
+            reactions: 0,
             measures: [0; 3],
             appended: 0,
             varied: 0,
@@ -145,6 +155,7 @@ impl RowLayout {
             match stretch {
                 Stretch::Time => {}
                 Stretch::Coordinates(order) => layout.coordinates[order] = first,
+                Stretch::Reactions => layout.reactions = first,
                 Stretch::Measures(order) => layout.measures[order] = first,
                 Stretch::Appended => layout.appended = first,
                 Stretch::BySignal => layout.by_signal = first,

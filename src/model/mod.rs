@@ -107,6 +107,8 @@ pub struct Mechanism {
     pub asked_in_parts: Vec<(PartId, Span)>,
     /// The numbers of those that all columns are differentiated by, in the order of the columns.
     pub by: Vec<u32>,
+    /// Whether what all joints exert and all drivers supply is tabulated.
+    pub reactions: bool,
     /// Whether formulas hold inputs as signals, rather than what these are.
     pub has_signals: bool,
     /// In order of declaration.

@@ -65,6 +65,7 @@ impl Program {
             outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
             outputs.varied_forces.push(layout.place(Stage::Variation, variation.forces.iter().copied()));
         }
+        outputs.reactions = layout.place(Stage::Measures, system.reactions().iter().map(|of| of.value));
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
         outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
         outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));

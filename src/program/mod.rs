@@ -226,6 +226,8 @@ pub struct Outputs {
     pub by_signal: Vec<Vec<Register>>,
     /// Likewise by parameter, where that is asked for.
     pub by_param: Vec<Vec<Register>>,
+    /// What joints exert and drivers supply, where that is tabulated.
+    pub reactions: Vec<Register>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.
@@ -251,7 +253,7 @@ impl Outputs {
     fn all(&self, mut show: impl FnMut(Register)) {
         let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk, &self.forces];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let more = more.into_iter().chain([&self.appended, &self.check_slopes.coordinates]);
+        let more = more.into_iter().chain([&self.appended, &self.reactions, &self.check_slopes.coordinates]);
         let slopes = self.check_slopes.signals.iter().chain(&self.check_slopes.params);
         let varied = self.variations.iter().flatten().chain(&self.varied_forces);
         let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms).chain(varied).chain(slopes);

@@ -13,6 +13,28 @@ pub(super) struct Groups {
     group_of_row: Vec<usize>,
 }
 
+/// What is wanted beside the motion, by numbers.
+#[derive(Clone, Default)]
+pub(super) struct Wanted {
+    /// Columns of what joints exert and drivers supply.
+    pub reactions: Vec<usize>,
+    pub measures: Vec<usize>,
+    /// Columns of derivatives.
+    pub appended: Vec<usize>,
+}
+
+impl Wanted {
+    /// All of its formulas.
+    pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
+        let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
+        let measures = self.measures.iter().flat_map(|&k| {
+            let measure = &system.measures[k];
+            [Some(measure.value), measure.first, measure.second].into_iter().flatten()
+        });
+        reactions.chain(measures).chain(self.appended.iter().map(|&k| system.appended()[k].value)).collect()
+    }
+}
+
 impl Groups {
     pub fn new(determined: &Determined) -> Groups {
         let (system, blocks) = (determined.system(), determined.blocks());
@@ -60,23 +82,20 @@ impl Groups {
         Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
     }
 
-    /// The measures of each group, and behind these the ones that join groups.
-    pub fn measures(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
-        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+    /// What is wanted of each group beside its motion, and last what joins groups.
+    pub fn wanted(&self, system: &ConstraintSystem) -> Vec<Wanted> {
+        let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
+        for (k, reaction) in system.reactions().iter().enumerate() {
+            wanted[self.of(system, [reaction.value])].reactions.push(k);
+        }
         for (k, measure) in system.measures.iter().enumerate() {
             let formulas = [Some(measure.value), measure.first, measure.second];
-            of_group[self.of(system, formulas.into_iter().flatten())].push(k);
+            wanted[self.of(system, formulas.into_iter().flatten())].measures.push(k);
         }
-        of_group
-    }
-
-    /// The same of the columns of derivatives.
-    pub fn appended(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
-        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
         for (k, column) in system.appended().iter().enumerate() {
-            of_group[self.of(system, [column.value])].push(k);
+            wanted[self.of(system, [column.value])].appended.push(k);
         }
-        of_group
+        wanted
     }
 
     /// The group that some formulas speak of; where there are several, the number behind the last one.

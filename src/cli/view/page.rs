@@ -38,6 +38,7 @@ fn word(kind: ColumnKind) -> &'static str {
         ColumnKind::Time => "time",
         ColumnKind::Body => "body",
         ColumnKind::Joint => "joint",
+        ColumnKind::Reaction => "reaction",
         ColumnKind::Measure => "measure",
         ColumnKind::Rate => "rate",
         ColumnKind::Variation => "variation",

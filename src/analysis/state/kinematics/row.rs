@@ -33,6 +33,7 @@ fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
     };
     match *holds {
         Holds::Time | Holds::Coordinate { .. } => false,
+        Holds::Reaction(_) => true,
         Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_of_solution),
         Holds::Appended(_) => true,
     }
@@ -125,8 +126,12 @@ impl Kinematics {
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Measures, registers);
         let outputs = &program.outputs;
-        let lists =
-            [(&state.q, &outputs.measures), (&state.qd, &outputs.measures_d), (&state.qdd, &outputs.measures_dd)];
+        let none = Vec::new();
+        let lists = [
+            (&state.q, &outputs.reactions, &outputs.measures),
+            (&state.qd, &none, &outputs.measures_d),
+            (&state.qdd, &none, &outputs.measures_dd),
+        ];
         let mut cells = row.iter_mut();
         let mut put = |value: f64| {
             if let Some(cell) = cells.next() {
@@ -135,11 +140,11 @@ impl Kinematics {
             }
         };
         put(state.t);
-        for (coordinates, measures) in lists {
+        for (coordinates, reactions, measures) in lists {
             for &value in coordinates {
                 put(value);
             }
-            for &register in measures {
+            for &register in reactions.iter().chain(measures) {
                 put(registers.get(register));
             }
         }
@@ -179,12 +184,15 @@ impl Kinematics {
     }
 
     /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
-    /// columns of derivatives by them.
+    /// columns of derivatives by them, and then all reactions and efforts together.
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();
         match self.holds.get(column) {
             Some(&Holds::Measure { index, .. }) => index,
             Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
+            Some(Holds::Reaction(_)) => {
+                system.measures.len() + system.variations.as_ref().map_or(0, |all| all.variables.len())
+            }
             _ => 0,
         }
     }
