@@ -1,7 +1,7 @@
 //! Followers and cams (H 3.4): contacts that run along curves, each with the curves' arguments for coordinates.
 
-use super::{Entry, Lowering, entries};
 use super::frames::Vector;
+use super::{Entry, Lowering, entries};
 use crate::expr::{ExprId, Node, Symbol, Unary};
 use crate::ir::{Coordinate, CoordinateKind, OpenContact, Owner, RowUnit, Watch, WatchKind};
 use crate::model::{AxisId, Joint, Named, PointId, Profile};

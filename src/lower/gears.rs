@@ -1,7 +1,7 @@
 //! Gears and racks (H 3.4): circles that roll, without holding their centres apart.
 
-use super::{Entry, Lowering, entries};
 use super::frames::Vector;
+use super::{Entry, Lowering, entries};
 use crate::expr::{Binary, ExprId, Unary};
 use crate::ir::{CoordinateKind, Fit, RowUnit, WatchKind};
 use crate::model::{AxisId, CircleId, Joint, Side};

@@ -174,6 +174,11 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
+    /// The ids of the joints, in order.
+    pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
+        (0..self.joints.len() as u32).map(JointId)
+    }
+
     /// The ids of the parts, in order.
     pub fn part_ids(&self) -> impl Iterator<Item = PartId> + use<> {
         (0..self.parts.len() as u32).map(PartId)
@@ -557,6 +562,39 @@ impl JointKind {
             | JointKind::FlatFollower(_, a) => vec![a],
             _ => Vec::new(),
         }
+    }
+
+    /// The lines that a contact runs along.
+    fn profiles(self) -> Vec<Profile> {
+        match self {
+            JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => vec![profile],
+            JointKind::Cam(first, second) => vec![first, second],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The circles that it joins, those that a contact runs along too.
+    #[must_use]
+    pub fn circles(self) -> Vec<CircleId> {
+        let on_circle = |profile: Profile| match profile {
+            Profile::Circle(circle) => Some(circle),
+            Profile::Curve(_) => None,
+        };
+        match self {
+            JointKind::Gear { circles, .. } => circles.to_vec(),
+            JointKind::RackPinion { pinion, .. } => vec![pinion],
+            _ => self.profiles().into_iter().filter_map(on_circle).collect(),
+        }
+    }
+
+    /// The curves that a contact runs along.
+    #[must_use]
+    pub fn curves(self) -> Vec<CurveId> {
+        let on_curve = |profile: Profile| match profile {
+            Profile::Curve(curve) => Some(curve),
+            Profile::Circle(_) => None,
+        };
+        self.profiles().into_iter().filter_map(on_curve).collect()
     }
 
     /// The frames of its first and of its second feature.

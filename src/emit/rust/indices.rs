@@ -34,7 +34,12 @@ impl Writer<'_> {
             };
             format!("{} `{row}` ({unit}){}", declaration.kind.noun(), self.line(declaration.span))
         });
-        numbered(page, "Which equation each joint, constraint or driver wrote, and its unit.", "row", equations.zip(&names));
+        numbered(
+            page,
+            "Which equation each joint, constraint or driver wrote, and its unit.",
+            "row",
+            equations.zip(&names),
+        );
         self.pattern("pub ", "Row and column of each value that [`phi_q`] gives.", page);
         self.bodies(page);
         self.measure_indices(page);
