@@ -227,7 +227,9 @@ impl Checker<'_> {
     fn plain_dimension(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Dim {
         let telling: Vec<(&Expr, Value)> = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).collect();
         let known = telling.iter().find_map(|&(side, value)| self.known_dimension(side, value, context));
-        known.map_or_else(|| telling.first().map_or(Dim::Any, |(_, value)| value.dim), Dim::Of)
+        // where numbers hide it in both, what is read as more than a number
+        let read = || telling.iter().map(|(_, value)| value.dim).find(|&dim| dim != Dim::PURE).unwrap_or(Dim::PURE);
+        known.map_or_else(read, Dim::Of)
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.

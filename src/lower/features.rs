@@ -2,7 +2,7 @@
 
 use super::Lowering;
 use super::frames::Vector;
-use crate::ir::{Axis, Circle, ConstraintSystem, IdVec};
+use crate::ir::{Axis, Circle, ConstraintSystem};
 use crate::model::{self, JointId, JointKind};
 
 impl Lowering<'_> {

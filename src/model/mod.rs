@@ -720,7 +720,7 @@ pub struct Equation {
     pub form: EquationForm,
     /// Of both sides; as far as that is known where plain numbers stand for anything.
     pub dimension: Dimension,
-    /// Whether they are angles, as far as their words tell.
+    /// Whether an angle is a factor of them, as far as their words tell.
     pub is_angle: bool,
     /// Where both sides are written.
     pub written: Span,
