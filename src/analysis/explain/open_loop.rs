@@ -7,7 +7,6 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
-use crate::diag::Diagnostic;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::structure::{Determined, Part};
@@ -48,11 +47,9 @@ pub enum LinkOf {
     Declaration(DeclarationId),
 }
 
-/// The diagnosis where the nearest position is `q`.
-pub fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
-    let system = determined.system();
-    let (open, _) = told(determined, q, t)?;
-    Some(errors::open_loop(system, &open, t))
+/// What does not close where the nearest position is `q`.
+pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
+    told(determined, q, t).map(|(open, _)| open)
 }
 
 /// The coordinates [m, rad] where all is closed but what is told to be open.
