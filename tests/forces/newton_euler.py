@@ -27,7 +27,7 @@ from by_hand.drawings import MECHANISMS
 FOLDER = Path(__file__).parent
 FORCES = re.compile(r"^( *)(mass|gravity|load|measure)\b.*\n(\1 +.*\n)*", re.MULTILINE)  # with what goes on further in
 STENCIL = {-3: -1 / 60, -2: 3 / 20, -1: -3 / 4, 1: 3 / 4, 2: -3 / 20, 3: 1 / 60}  # of the first derivative, of sixth order
-LIMITS = {"geometry": 1e-13, "condition": 100.0, "residual": 1e-15, "shaken": 1e-11, "power": 1e-11}
+LIMITS = {"geometry": 1e-13, "condition": 100.0, "residual": 1e-15, "shaken": 1e-11, "power": 1e-10}
 
 
 def motion(mechc, name, *options):

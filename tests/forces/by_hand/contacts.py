@@ -76,6 +76,29 @@ def internal_small_first(d):
 
 
 @mechanism
+def cardan(d):
+    d.gravity = vector(0, -9.81)
+    R = 0.5
+    arm = d.body("arm", (3.3, (0.14, -0.03), 0.06))
+    planet = d.body("planet", (2.1, (0.05, 0.09), 0.047))
+    O, P, pen = d.ground.point(0.2, 0.1), planet.point(0, 0), planet.point(R / 2, 0)
+
+    d.joint("o", revolute(O, arm.point(0, 0)))
+    d.joint("p", revolute(P, arm.point(R / 2, 0)))
+    d.joint("roll", internal_gear(Circle(P, R / 2), Circle(O, R)))
+
+    d.driver("run", angle(arm))
+
+    spring, p = distance(O, pen), rotation(planet, arm)
+    d.load("work", -12 - 25 * (pen.place[0] - 0.2) - 6 * pen.velocity[0], x(pen))
+    d.load("spring", -85 * (spring.value - 0.2), spring)
+    d.load("rub", -0.15 * p.rate, p)
+
+    d.measure("teeth", size("roll"))
+    d.measure("power", power("run", arm.omega))
+
+
+@mechanism
 def rack_moving(d):
     d.gravity = vector(0.4, -9.79)
     rack = d.body("rack", (1.9, (0.031, 0.024), 3.6e-3))
@@ -225,3 +248,50 @@ def pf_moving(d):
     d.measure("press", size("run"))
     d.measure("press2", size("run2"))
     d.measure("power", power("motor", main.rate))
+
+
+@mechanism
+def pf_ellipse(d):
+    d.gravity = vector(0, -9.81)
+    a, b = 0.09, 0.05
+    lever = d.body("lever", (0.9, (0.045, 0.013), 1.6e-3))
+    pen = d.body("pen", (0.24, (0.009, 0.011), 0))
+    O, P, top = d.ground.point(0.1, -0.2), pen.point(0.005, -0.005), pen.point(0.005, 0.015)
+    u, c, s = d.cells["run.u"], cos(pi / 6), sin(pi / 6)
+    path = contact(
+        d.ground,
+        (0.1 + a * cos(u) * c - b * sin(u) * s, -0.2 + a * cos(u) * s + b * sin(u) * c),
+        (-a * sin(u) * c - b * cos(u) * s, -a * sin(u) * s + b * cos(u) * c),
+    )
+
+    d.joint("main", revolute(O, lever.point(0, 0)))
+    d.joint("block", revolute_translational(P, lever.axis(0, 0.01, (1, 0)), -0.01))
+    d.joint("run", point_follower(P, path))
+
+    main, band = rotation(d.ground, lever), distance(top, O)
+    d.driver("motor", main)
+    d.driver("hold", rotation(lever, pen))
+
+    d.load("band", -300 * (band.value - 0.04), band)
+    d.load("rub", -0.006 * main.rate, main)
+    d.load("draw", 3 - 8 * top.velocity[1], y(top))
+
+    d.measure("press", size("run"))
+
+
+@mechanism
+def cam_inner(d):
+    d.gravity = vector(0, -9.81)
+    disc = d.body("disc", (31, (0.16, -0.04), 0.8))
+    O, C, T = d.ground.point(-1, 0.5), disc.point(0.1, 0), disc.point(0.1, 0.25)
+
+    d.joint("contact", cam(Circle(C, 0.25).at(d.cells["contact.u"]), Circle(O, 0.8).at(d.cells["contact.w"])))
+
+    d.driver("push", x(C))
+    d.driver("turn", angle(disc))
+
+    spring = distance(O, T)
+    d.load("spring", -70 * (spring.value - 1.5), spring)
+    d.load("rub", -2.2 * disc.omega, angle(disc))
+
+    d.measure("press", size("contact"))

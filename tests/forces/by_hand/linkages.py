@@ -206,3 +206,23 @@ def relative_xy(d):
     d.load("heave", 3 - 20 * Q.place[1], y(Q))
 
     d.measure("power", lambda s: s.efforts["rx"] * rx.rate + s.efforts["ry"] * ry.rate)
+
+
+@mechanism
+def three_rpr(d):
+    d.gravity = vector(0, -9.81)
+    platform = d.body("platform", (14, (0.04, -0.07), 0.9), (5, (0, 0.35), 0))
+    P1, P2, P3 = platform.point(-0.3, -0.2), platform.point(0.3, -0.2), platform.point(0, 0.35)
+    B1, B2, B3 = d.ground.point(0, 0), d.ground.point(2, 0), d.ground.point(1, 1.7)
+
+    leg1 = distance(P1, B1)
+    d.driver("leg1", leg1)
+    d.driver("leg2", (-1, distance(P2, B2)))  # the distance is on the right
+    d.driver("leg3", distance(P3, B3))
+
+    spring, oil = distance(P1, B2), distance(P3, B1)
+    d.load("spring", -110 * (spring.value - 1.4), spring)
+    d.load("oil", -65 * oil.rate, oil)
+    d.load("twist", 9 * sin(2 * d.t), angle(platform))
+
+    d.measure("power1", power("leg1", leg1.rate))

@@ -1,4 +1,4 @@
-"""A crank-rocker alone, and as a part of others: on a disc that turns and slides, mirrored too.
+"""A crank-rocker and a feeder, alone and as parts of others: on bodies that move, mirrored too.
 
 What a part's text says holds in the frame of its own ground, which moves with its mount: its loads act between its points and the mount.
 """
@@ -7,8 +7,8 @@ from math import cos, radians, sin
 
 from .actions import angle, displacement, distance, rotation, scaled, shifted, x, y
 from .drawings import mechanism, size
-from .joints import revolute
-from .kinematics import Axis, Point, vector
+from .joints import rack_pinion, revolute, translational
+from .kinematics import Axis, Circle, Point, vector
 
 
 class PartGround:
@@ -81,7 +81,7 @@ def turntable(d):
     d.driver("front.motor", front.main)
     d.driver("back.motor", back.main, (-1, angle(disc)))  # bound to `turn + angle(disc)`
 
-    band, pivot = distance(front.P, back.P), rotation(disc, back.rocker)
+    band, pivot = distance(front.P, back.P), shifted(rotation(disc, back.rocker), -radians(150))
     d.load("band", -40 * (band.value - 0.09), band)
     d.load("brake", -0.02 * pivot.rate, pivot)
     d.load("blow", 1.7, y(front.P))
@@ -89,3 +89,68 @@ def turntable(d):
     d.measure("front_pin_x", lambda s: s.reactions["front.pin"][0][0])
     d.measure("back_pin_y", lambda s: s.reactions["back.pin"][0][1])
     d.measure("back_drive", lambda s: s.efforts["back.motor"])
+
+
+class Feeder:
+    """The bodies, joints and loads of a feeder; `name` stands before their names."""
+
+    def __init__(self, d, name, ground):
+        at, s, c = ground.inside, sin(radians(15)), cos(radians(15))
+        self.sled = d.body(f"{name}sled", (0.42, at(0.003, -0.006), 1.1e-4))
+        pinion = d.body(f"{name}pinion", (0.13, at(-0.004, 0.002), 2.4e-5))
+        self.lever = d.body(f"{name}lever", (0.27, at(0.019, -0.005), 0.9e-4))
+        along = c * ground.x.direction + s * ground.y.direction
+        way, rack = Axis(ground.point(0, 0), along), Axis(ground.point(-0.03 * s, 0.03 * c), along)
+        sled_way, A = self.sled.axis(0, 0, (1, 0)), pinion.point(0, 0)
+        self.T = self.lever.point(*at(0.045, 0.01))
+
+        d.joint(f"{name}way", translational(way, sled_way))
+        d.joint(f"{name}axle", revolute(self.sled.point(*at(0.01, 0.012)), A))
+        d.joint(f"{name}teeth", rack_pinion(Circle(A, 0.018), rack, -ground.sense))
+        d.joint(f"{name}hinge", revolute(self.lever.point(0, 0), self.sled.point(*at(-0.015, 0.005))))
+
+        self.push = displacement(ground.x, self.sled.point(*at(0.02, -0.008)))
+        self.tilt = ground.angle(self.lever)
+        self.way, axle = displacement(way, sled_way.point), scaled(ground.sense, rotation(self.sled, pinion))
+        d.load(f"{name}pull", -2.6 - 1.2 * cos(4 * d.t), displacement(ground.y, self.T))
+        d.load(f"{name}rub", -0.003 * axle.rate, axle)
+        d.load(f"{name}spring", -90 * (self.way.value - 0.03), self.way)
+
+        d.measure(f"{name}teeth_x", lambda s: ground.x.direction @ s.reactions[f"{name}teeth"][0])
+        d.measure(f"{name}hinge_y", lambda s: ground.y.direction @ s.reactions[f"{name}hinge"][0])
+        d.measure(f"{name}tipping", lambda s: ground.sense * s.reactions[f"{name}way"][1])
+        d.measure(f"{name}pushing", lambda s: s.efforts[f"{name}push"])
+        d.measure(f"{name}holding", lambda s: s.efforts[f"{name}tilt"])
+
+
+@mechanism
+def feeder(d):
+    d.gravity = vector(1, -9.5)
+    alone = Feeder(d, "", PartGround(d.ground, (0, 0), 0))
+    d.driver("push", alone.push)
+    d.driver("tilt", alone.tilt)
+
+
+@mechanism
+def carousel(d):
+    d.gravity = vector(0, -9.81)
+    disc = d.body("disc", (2.9, (-0.007, 0.015), 8.3e-3))
+    O = d.ground.point(0.02, -0.01)
+    d.joint("hub", revolute(O, disc.point(0, 0)))
+    hub = rotation(d.ground, disc)
+    d.driver("motor", hub)
+
+    front = Feeder(d, "front.", PartGround(disc, (0.07, 0.01), radians(40)))
+    d.driver("front.push", front.push)
+    d.driver("front.tilt", front.tilt)
+
+    back = Feeder(d, "back.", PartGround(front.lever, (0.03, -0.005), radians(-70), mirrored=True))
+    d.driver("back.push", back.push, (-0.3, front.way))  # bound to `50 mm + 0.3 * displacement(front.way)`
+    d.driver("back.tilt", back.tilt, (0.5, angle(disc)))  # bound to `20 deg - angle(disc) / 2`
+
+    band = distance(O, back.T)
+    d.load("brake", -0.05 * hub.rate, hub)
+    d.load("band", -35 * (band.value - 0.08), band)
+
+    d.measure("teeth_x_outside", lambda s: s.reactions["back.teeth"][0][0])
+    d.measure("tipping_outside", lambda s: s.reactions["back.way"][1])
