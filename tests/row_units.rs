@@ -37,9 +37,9 @@ fn rows_are_in_what_their_formulas_tell() {
 fn units(declarations: &str) -> Vec<String> {
     let text = format!(
         "mechanism machine {{
-            ground {{ point O = (0, 0)  point A = (1, 0)  axis line = through O along (1, 0)  circle rim = center O radius 0.3 }}
-            body one {{ point O = (0, 0)  axis line = through O along (1, 0)  circle rim = center O radius 0.2 }}
-            body two at (0.5, 0, 0) {{ point O = (0, 0)  axis line = through O along (0, 1)  circle rim = center O radius 0.3 }}
+            ground {{ point O = (0, 0)  point A = (1, 0)  axis line = O along (1, 0)  circle rim = O radius 0.3 }}
+            body one {{ point O = (0, 0)  point P = (0.4, 0)  axis line = O along (1, 0)  circle rim = O radius 0.2 }}
+            body two at (0.4, 0, 1.5) {{ point O = (0, 0)  point P = (0.2, 0)  axis line = O along (0, 1)  circle rim = O radius 0.3 }}
             {declarations}
         }}"
     );
@@ -49,7 +49,7 @@ fn units(declarations: &str) -> Vec<String> {
 
 #[test]
 fn rows_have_the_units_of_the_textbook() {
-    let slide = "joint slide: translational(ground.line, one.line)  joint fixed: weld(one.O, two.O, angle = 0)";
+    let slide = "joint slide: translational(ground.line, one.line)  joint fixed: weld(one.O, two.O, 0)";
     let units = units(&format!("{slide}  driver push: displacement(slide) = 0.1 * t"));
     assert_eq!(units, ["m", "1", "m", "m", "rad", "m"]);
 }
@@ -63,7 +63,7 @@ fn gears_and_distances_have_theirs() {
 
 #[test]
 fn equations_of_plain_numbers_have_the_units_of_their_quantities() {
-    let pins = "joint pin: revolute(ground.O, one.O)  joint other: revolute(one.O, two.O)";
+    let pins = "joint pin: revolute(ground.O, one.O)  joint other: revolute(one.P, two.O)";
     let of = |left: &str, right: &str| {
         let driver = format!("driver motor: rotation(pin) = t  constraint held: {left} = {right}");
         let mut units = units(&format!("{pins}  {driver}"));
@@ -72,7 +72,7 @@ fn equations_of_plain_numbers_have_the_units_of_their_quantities() {
     // constraints come before drivers
     assert_eq!(of("angle(two)", "0.3"), "rad");
     assert_eq!(of("0.3 + angle(one)", "angle(two)"), "rad");
-    assert_eq!(of("2 * distance(ground.A, two.O)", "0.3"), "m");
-    assert_eq!(of("0.01", "x(two.O)^2 + y(two.O)^2 + angle(two) * x(two.O) * x(two.O)"), "m^2");
-    assert_eq!(of("distance(ground.A, two.O)", "0.3"), "m^2");
+    assert_eq!(of("2 * distance(ground.A, two.P)", "1.26"), "m");
+    assert_eq!(of("0.2", "x(two.P)^2 + y(two.P)^2"), "m^2");
+    assert_eq!(of("distance(ground.A, two.P)", "0.63"), "m^2");
 }

@@ -218,13 +218,18 @@ impl Checker<'_> {
             }
             return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
         }
-        let known = if context.judged { None } else { self.known_of_either([(left, a), (right, b)], &context) };
-        Some((EquationForm::Equality(a.id, b.id), known.unwrap_or(alike.settled())))
+        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)], &context) };
+        Some((EquationForm::Equality(a.id, b.id), dim.settled()))
     }
 
-    /// The dimension of that side of a plain equation which is known to have one, whatever its plain numbers stand for.
-    fn known_of_either(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Option<Dimension> {
-        sides.into_iter().find_map(|(side, value)| self.known_dimension(side, value, context))
+    /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
+    /// whatever is wanted.
+    fn plain_dimension(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Dim {
+        let telling: Vec<(&Expr, Value)> = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).collect();
+        let known = telling.iter().find_map(|&(side, value)| self.known_dimension(side, value, context));
+        // where numbers hide it in both, what is read as more than a number
+        let read = || telling.iter().map(|(_, value)| value.dim).find(|&dim| dim != Dim::PURE).unwrap_or(Dim::PURE);
+        known.map_or_else(read, Dim::Of)
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.

@@ -24,6 +24,7 @@
 
 mod dimensions;
 mod equations_of;
+mod features;
 mod forces;
 mod ids;
 mod print;
@@ -38,8 +39,9 @@ mod validate;
 mod variations;
 
 pub use crate::vocabulary::JointKind;
+pub use features::{Axis, Circle, Point};
 pub use forces::{Forces, Reaction};
-pub use ids::{BodyId, DeclarationId, IdVec, PointId};
+pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rims::Rim;
@@ -75,6 +77,10 @@ pub struct ConstraintSystem {
     pub bodies: IdVec<BodyId, Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
     pub points: IdVec<PointId, Point>,
+    /// Their axes, and the ground's.
+    pub axes: IdVec<AxisId, Axis>,
+    /// Their circles, and the ground's.
+    pub circles: IdVec<CircleId, Circle>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
@@ -180,17 +186,6 @@ pub struct Body {
     pub pose: [usize; 3],
 }
 
-/// A point fixed in a body or in the ground.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// Its body; none for the ground.
-    pub body: Option<BodyId>,
-    /// Its name; a literal point has none.
-    pub name: Option<String>,
-    /// In the frame of its body (m); holds parameters only.
-    pub at: [ExprId; 2],
-}
-
 /// What a coordinate measures.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum CoordinateKind {
@@ -276,8 +271,13 @@ pub struct Declaration {
     pub points: Vec<PointId>,
     /// All points that its equations speak of.
     pub features: Vec<PointId>,
-    /// The axes that it joins, as they are written.
-    pub axes: Vec<String>,
+    /// The axes that it joins.
+    pub axes: Vec<AxisId>,
+    /// The circles that it joins.
+    pub circles: Vec<CircleId>,
+    /// Where a joint takes hold (m), in the ground's frame, as a formula of the coordinates: at its second point, the point of its second
+    /// axis, the centre of its second circle, or the contact.
+    pub at: Option<[ExprId; 2]>,
     /// Where the two sides of an equation are written.
     pub written: Option<Span>,
     /// Whether formulas speak of this joint: of its rotation or displacement.
@@ -452,6 +452,8 @@ impl ConstraintSystem {
             check_slopes: CheckSlopes::default(),
             bodies: IdVec::default(),
             points: IdVec::default(),
+            axes: IdVec::default(),
+            circles: IdVec::default(),
             coordinates: Vec::new(),
             declarations: IdVec::default(),
             rows: Vec::new(),

@@ -21,7 +21,7 @@ pub struct Row {
 pub struct RowUnit {
     /// Its dimension; angles are pure numbers.
     pub dimension: Dimension,
-    /// Whether it is an angle, or a rate of one.
+    /// Whether an angle is a factor: what has no length is told in radians then.
     pub is_angle: bool,
 }
 

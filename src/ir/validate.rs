@@ -31,6 +31,16 @@ impl ConstraintSystem {
         for point in points {
             holds(point.index() < self.points.len(), || "a declaration at no point".to_owned())?;
         }
+        let axes = self.declarations.iter().flat_map(|of| &of.axes);
+        holds(axes.into_iter().all(|id| id.index() < self.axes.len()), || "a declaration at no axis".to_owned())?;
+        let circles = self.declarations.iter().flat_map(|of| &of.circles);
+        holds(circles.into_iter().all(|id| id.index() < self.circles.len()), || {
+            "a declaration at no circle".to_owned()
+        })?;
+        let through = self.axes.iter().map(|axis| axis.origin).chain(self.circles.iter().map(|circle| circle.center));
+        holds(through.into_iter().all(|id| id.index() < self.points.len()), || {
+            "an axis or circle at no point".to_owned()
+        })?;
         let bodies = self.points.iter().filter_map(|point| point.body);
         for body in bodies.chain(self.parts.iter().flat_map(|part| part.bodies.iter().copied())) {
             holds(body.index() < self.bodies.len(), || "a point or part of no body".to_owned())?;
@@ -123,9 +133,11 @@ impl ConstraintSystem {
 
     fn formulas_hold_what_they_may(&self) -> Result<(), String> {
         let fixed = self.coordinates.iter().map(|coordinate| coordinate.estimate);
-        for formula in fixed.chain(self.points.iter().flat_map(|point| point.at)) {
+        let fixed = fixed.chain(self.points.iter().flat_map(|point| point.at));
+        let fixed = fixed.chain(self.axes.iter().flat_map(|axis| axis.direction));
+        for formula in fixed.chain(self.circles.iter().map(|circle| circle.radius)) {
             let dependence = self.graph.dependence(formula);
-            holds(dependence.is_constant(), || "an estimate or point that is not of parameters alone".to_owned())?;
+            holds(dependence.is_constant(), || "an estimate or feature that is not of parameters alone".to_owned())?;
         }
         let of_equations: Vec<ExprId> = self.phi().into_iter().chain(self.checks.iter().map(|of| of.phi)).collect();
         for symbol in self.graph.symbols_of_all(&of_equations) {

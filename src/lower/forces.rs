@@ -4,8 +4,10 @@
 use super::Lowering;
 use super::frames::Vector;
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
-use crate::ir::{ConstraintSystem, DeclarationId, Forces};
-use crate::model::{EquationForm, EquationId, Force, Frame, JointId, JointKind, Load, Mass, Mechanism, Named, PartId};
+use crate::ir::{self, ConstraintSystem, DeclarationId, Forces};
+use crate::model::{
+    Declared, EquationForm, EquationId, Force, Frame, JointId, JointKind, Load, Mass, Mechanism, Named, PartId,
+};
 
 /// What a joint exerts on one body, in the ground's frame.
 #[derive(Clone, Copy)]
@@ -50,7 +52,30 @@ impl Lowering<'_> {
         for load in &model.loads {
             self.add_load(load, &mut needed);
         }
-        Some(Forces { needed })
+        let reactions = if model.reactions { self.reactions() } else { Vec::new() };
+        Some(Forces { needed, reactions })
+    }
+
+    /// A column for all that each joint exerts, as far as it is not zero by its kind, and then for what each constraint or driver supplies.
+    fn reactions(&mut self) -> Vec<ir::Reaction> {
+        let model = self.model;
+        let mut columns = Vec::new();
+        for (joint, id) in model.joints.iter().zip(model.joint_ids()) {
+            let all =
+                [("fx", Force::ReactionX(id)), ("fy", Force::ReactionY(id)), ("torque", Force::ReactionTorque(id))];
+            let asked = if joint.kind.plain().exerts_torque() { &all[..] } else { &all[..2] };
+            columns.extend(asked.iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
+        }
+        for (place, equation) in model.equations.iter().enumerate() {
+            let effort = Force::Effort(Mechanism::equation_at(place));
+            columns.push(self.column(&equation.declared, "effort", effort));
+        }
+        columns
+    }
+
+    fn column(&mut self, of: &Declared, ending: &str, force: Force) -> ir::Reaction {
+        let unit = self.model.dimension_of_force(force).unit();
+        ir::Reaction { name: format!("{}.{ending}", of.name), value: self.force(None, force), unit, span: of.span }
     }
 
     /// What a mass asks for, less its weight: `m (c̈ − g)ᵀ ∂c/∂q + I φ̈ ∂φ/∂q`, c its centre. These are Lagrange's
@@ -182,7 +207,10 @@ impl Lowering<'_> {
             | JointKind::RevoluteTranslational(_, axis, _)
             | JointKind::RackPinion { rack: axis, .. } => self.global(self.model[axis].origin),
             JointKind::Gear { circles: [_, circle], .. } => self.global(self.model[circle].center),
-            JointKind::Cam(..) | JointKind::FlatFollower(..) => self.touching(joint),
+            JointKind::Cam(..) | JointKind::FlatFollower(..) => match self.contact_place(joint) {
+                Some(at) => at,
+                None => [0.0; 2].map(|zero| self.graph.constant(zero)),
+            },
         }
     }
 

@@ -3,11 +3,13 @@
 //! 1989).
 
 mod contacts;
+mod features;
 mod forces;
 mod frames;
 mod gears;
 mod inputs;
 mod joints;
+mod led;
 mod numbering;
 mod parts;
 mod quantities;
@@ -24,8 +26,7 @@ use crate::ir::{
     Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
 };
 use crate::model::{
-    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
-    Quantity,
+    self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use crate::tolerances::scales::size::FAR_FRAME;
 use numbering::Numbering;
@@ -39,6 +40,7 @@ const HOLDS_JERK: u8 = 2;
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut lowering = Lowering::of(model);
     let mut system = lowering.written();
+    led::lead_params(model, &mut system);
     let with_jerk = needs_jerk(model, &system);
     system.derive(with_jerk);
     system.derive_variations();
@@ -48,6 +50,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     if !model.outcomes.is_empty() {
         lowering.ask_of_the_whole(&mut system);
     }
+    lowering.add_features(&mut system);
     debug_assert_eq!(system.validate(), Ok(()));
     system
 }
@@ -377,22 +380,10 @@ impl Lowering<'_> {
         result
     }
 
-    fn declare(
-        &mut self,
-        declared: &crate::model::Declared,
-        kind: DeclarationKind,
-        phi: &[Entry],
-        points: &[PointId],
-        axes: &[AxisId],
-    ) {
+    fn declare(&mut self, declared: &crate::model::Declared, kind: DeclarationKind, phi: &[Entry], points: &[PointId]) {
         let declaration = self.declarations.next_id();
         let (name, span) = (declared.name.clone(), declared.span);
         let points: Vec<ir::PointId> = points.iter().copied().map(same_point).collect();
-        let written = |&axis: &AxisId| {
-            let axis = &self.model[axis];
-            format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
-        };
-        let axes = axes.iter().map(written).collect();
         self.declarations.push(Declaration {
             name,
             span,
@@ -400,7 +391,9 @@ impl Lowering<'_> {
             rows: phi.len(),
             features: points.clone(),
             points,
-            axes,
+            axes: Vec::new(),
+            circles: Vec::new(),
+            at: None,
             written: None,
             is_spoken_of: false,
         });
@@ -412,7 +405,12 @@ impl Lowering<'_> {
         for joint in &model.joints {
             let phi = self.joint(joint);
             let kind = DeclarationKind::Joint(joint.kind.plain());
-            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
+            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
+            if let Some(declaration) = self.declarations.last_mut() {
+                // both have the same, in the same order
+                declaration.axes = joint.kind.axes().into_iter().map(|axis| axis.index().into()).collect();
+                declaration.circles = joint.kind.circles().into_iter().map(|circle| circle.index().into()).collect();
+            }
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
@@ -432,7 +430,7 @@ impl Lowering<'_> {
                 };
                 let entry = (self.equation_row(equation.form), unit_of(equation));
                 self.of_equations[number] = self.declarations.next_id();
-                self.declare(&equation.declared, kind, &[entry], &points, &[]);
+                self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
                     declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();

@@ -128,12 +128,9 @@ impl Lowering<'_> {
         }
     }
 
-    /// Where a follower, cam or flat follower touches (m).
-    pub(super) fn touching(&mut self, joint: JointId) -> Vector {
-        match self.contact(joint) {
-            Some(contact) => contact.at,
-            None => [self.nothing(), self.nothing()],
-        }
+    /// The place of a contact in the ground's frame (m).
+    pub(super) fn contact_place(&mut self, joint: JointId) -> Option<Vector> {
+        self.contact(joint).map(|contact| contact.at)
     }
 
     /// The first coordinate that a joint brings along.

@@ -78,7 +78,7 @@ impl Mechanism {
     /// Whether forces are to be computed.
     #[must_use]
     pub fn asks_for_forces(&self) -> bool {
-        self.named.iter().any(|named| matches!(named, Named::Force(..)))
+        self.reactions || self.named.iter().any(|named| matches!(named, Named::Force(..)))
     }
 
     /// Whether anything in it speaks of masses, gravity or loads.

@@ -96,7 +96,7 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
-    /// The inputs that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
+    /// The inputs and parameters that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
     pub led: Vec<Led>,
     /// Each behind the one that it is a part of.
     pub parts: Vec<Part>,
@@ -163,6 +163,7 @@ impl Mechanism {
             variables: Vec::new(),
             asked_in_parts: Vec::new(),
             by: Vec::new(),
+            reactions: false,
             has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
@@ -193,6 +194,11 @@ impl Mechanism {
     #[must_use]
     pub fn equation_at(place: usize) -> EquationId {
         EquationId(place as u32)
+    }
+
+    /// The ids of the joints, in order.
+    pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
+        (0..self.joints.len() as u32).map(JointId)
     }
 
     /// The ids of the parts, in order.
@@ -291,11 +297,13 @@ pub struct Input {
     pub dimension: Dimension,
 }
 
-/// An input on its way from one value to another.
+/// An input or a parameter on its way from one value to another.
 #[derive(Clone, Debug)]
 pub struct Led {
     /// Its name.
     pub declared: Declared,
+    /// Which of the mechanism's parameters it is, if it is one: its symbol stands for the first value then.
+    pub param: Option<u32>,
     /// From and to, in SI.
     pub line: [f64; 2],
     /// Of its value.
@@ -580,6 +588,39 @@ impl JointKind {
         }
     }
 
+    /// The lines that a contact runs along.
+    fn profiles(self) -> Vec<Profile> {
+        match self {
+            JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => vec![profile],
+            JointKind::Cam(first, second) => vec![first, second],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The circles that it joins, those that a contact runs along too.
+    #[must_use]
+    pub fn circles(self) -> Vec<CircleId> {
+        let on_circle = |profile: Profile| match profile {
+            Profile::Circle(circle) => Some(circle),
+            Profile::Curve(_) => None,
+        };
+        match self {
+            JointKind::Gear { circles, .. } => circles.to_vec(),
+            JointKind::RackPinion { pinion, .. } => vec![pinion],
+            _ => self.profiles().into_iter().filter_map(on_circle).collect(),
+        }
+    }
+
+    /// The curves that a contact runs along.
+    #[must_use]
+    pub fn curves(self) -> Vec<CurveId> {
+        let on_curve = |profile: Profile| match profile {
+            Profile::Curve(curve) => Some(curve),
+            Profile::Circle(_) => None,
+        };
+        self.profiles().into_iter().filter_map(on_curve).collect()
+    }
+
     /// The frames of its first and of its second feature.
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {
@@ -705,7 +746,7 @@ pub struct Equation {
     pub form: EquationForm,
     /// Of both sides; as far as that is known where plain numbers stand for anything.
     pub dimension: Dimension,
-    /// Whether they are angles, as far as their words tell.
+    /// Whether an angle is a factor of them, as far as their words tell.
     pub is_angle: bool,
     /// Where both sides are written.
     pub written: Span,

@@ -37,6 +37,24 @@ impl JointKind {
             JointKind::FlatFollower => "flat_follower",
         }
     }
+
+    /// Whether it holds its bodies against turning about the point that what it exerts is reduced to.
+    #[must_use]
+    pub const fn exerts_torque(self) -> bool {
+        match self {
+            JointKind::Revolute
+            | JointKind::RevoluteRevolute
+            | JointKind::PointFollower
+            | JointKind::Cam
+            | JointKind::FlatFollower => false,
+            JointKind::Translational
+            | JointKind::Weld
+            | JointKind::RevoluteTranslational
+            | JointKind::Gear
+            | JointKind::InternalGear
+            | JointKind::RackPinion => true,
+        }
+    }
 }
 
 /// What is told of a kind of joint.

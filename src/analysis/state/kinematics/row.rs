@@ -32,7 +32,7 @@ fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
             || dependence.on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS))
     };
     match *holds {
-        Holds::Time | Holds::Coordinate { .. } => false,
+        Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
         Holds::Reaction(_) => true,
         Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_of_solution),
         Holds::Appended(_) => true,
