@@ -22,7 +22,6 @@
 //!
 //! [`ConstraintSystem::validate`] looks at these and more.
 
-mod dimensions;
 mod equations_of;
 mod features;
 mod ids;
