@@ -8,6 +8,7 @@ mod frames;
 mod gears;
 mod inputs;
 mod joints;
+mod led;
 mod numbering;
 mod parts;
 mod quantities;
@@ -38,6 +39,7 @@ const HOLDS_JERK: u8 = 2;
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut lowering = Lowering::of(model);
     let mut system = lowering.written();
+    led::lead_params(model, &mut system);
     let with_jerk = needs_jerk(model, &system);
     system.derive(with_jerk);
     system.derive_variations();

@@ -92,7 +92,7 @@ pub struct Mechanism {
     pub params: Vec<Param>,
     /// In the order in which they need nothing of a later one.
     pub inputs: Vec<Input>,
-    /// The inputs that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
+    /// The inputs and parameters that are led along a line, where the mechanism is led; time goes from 0 to 1 then.
     pub led: Vec<Led>,
     /// Each behind the one that it is a part of.
     pub parts: Vec<Part>,
@@ -275,11 +275,13 @@ pub struct Input {
     pub dimension: Dimension,
 }
 
-/// An input on its way from one value to another.
+/// An input or a parameter on its way from one value to another.
 #[derive(Clone, Debug)]
 pub struct Led {
     /// Its name.
     pub declared: Declared,
+    /// Which of the mechanism's parameters it is, if it is one: its symbol stands for the first value then.
+    pub param: Option<u32>,
     /// From and to, in SI.
     pub line: [f64; 2],
     /// Of its value.

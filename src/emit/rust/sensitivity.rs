@@ -32,7 +32,7 @@ impl Writer<'_> {
         }
         let has_pivoting = solution.motion.blocks.is_some();
         if has_pivoting {
-            self.rights("param", &self.unit.program.outputs.by_param, "PARAMS", page);
+            self.rights("param", self.unit.program.outputs.by_params(), "PARAMS", page);
         }
         self.left_out_slopes("param", &self.unit.program.outputs.check_slopes.params, page);
         self.uses("sensitivity", "Sensitive");
