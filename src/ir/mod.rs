@@ -528,7 +528,7 @@ impl ConstraintSystem {
     pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
-        self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
+        self.rows = kept.iter().map(|&row| self.rows[row]).collect();
         self.phi_q = self.phi_q.of_rows(&kept);
         self.right_sides.iter_mut().for_each(|side| side.keep(&kept));
         for check in &checks {
