@@ -22,7 +22,6 @@
 //!
 //! [`ConstraintSystem::validate`] looks at these and more.
 
-mod dimensions;
 mod equations_of;
 mod features;
 mod forces;
@@ -535,7 +534,7 @@ impl ConstraintSystem {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
         self.renumber_multipliers(&kept);
-        self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
+        self.rows = kept.iter().map(|&row| self.rows[row]).collect();
         self.phi_q = self.phi_q.of_rows(&kept);
         self.right_sides.iter_mut().for_each(|side| side.keep(&kept));
         for check in &checks {

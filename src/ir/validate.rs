@@ -1,6 +1,8 @@
 //! What must hold of a constraint system, put to the test. What passes here, the rooms behind take without asking.
 
-use super::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Owner, Row, With};
+use super::{
+    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
+};
 use crate::expr::{ExprId, Symbol};
 
 impl ConstraintSystem {
@@ -10,10 +12,10 @@ impl ConstraintSystem {
         self.every_id_is_of_something()?;
         self.poses_are_of_their_bodies()?;
         self.rows_are_counted()?;
-        self.rows_are_measured_in_their_units()?;
         self.phi_q_is_sparse()?;
         self.right_sides_are_whole()?;
-        self.formulas_hold_what_they_may()
+        self.formulas_hold_what_they_may()?;
+        self.rows_are_measured_in_their_units()
     }
 
     fn every_id_is_of_something(&self) -> Result<(), String> {
@@ -89,15 +91,16 @@ impl ConstraintSystem {
         holds(next.next().is_none(), || "rows out of the order of their declarations".to_owned())
     }
 
-    /// What a joint's formulas tell of what they are measured in is what its rows say. Of equations of the text, in which plain numbers may
-    /// stand for anything, `check` knows more than their formulas.
+    /// The rows of a joint are measured in what its kind has, those that are left of them.
     fn rows_are_measured_in_their_units(&self) -> Result<(), String> {
-        for (k, row) in self.rows.iter().enumerate() {
-            let Row { phi, unit, .. } = *row;
+        let mut coming = self.declarations.map(|declaration| match declaration.kind {
+            DeclarationKind::Joint(kind) => Some(units_of(kind).iter()),
+            DeclarationKind::Constraint | DeclarationKind::Driver => None,
+        });
+        for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
             holds(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
-            let DeclarationKind::Joint(_) = self.declarations[row.declaration].kind else { continue };
-            let is_other = self.dimension_of(phi).is_some_and(|found| !found.is(unit.dimension));
-            holds(!is_other, || format!("row {k} is not in {unit}"))?;
+            let is_its = coming[*declaration].as_mut().is_none_or(|units| units.any(|wanted| wanted == unit));
+            holds(is_its, || format!("row {k} is in {unit}"))?;
         }
         Ok(())
     }
@@ -160,6 +163,23 @@ impl ConstraintSystem {
     }
 }
 
+/// What the rows of a joint are measured in, in their order.
+fn units_of(kind: JointKind) -> &'static [RowUnit] {
+    const LENGTH: RowUnit = RowUnit::LENGTH;
+    match kind {
+        JointKind::Translational => &[LENGTH, RowUnit::NUMBER],
+        JointKind::Weld => &[LENGTH, LENGTH, RowUnit::ANGLE],
+        JointKind::RevoluteRevolute => &[RowUnit::AREA],
+        JointKind::RevoluteTranslational | JointKind::RackPinion => &[LENGTH],
+        JointKind::Cam => &[LENGTH, LENGTH, RowUnit::AREA],
+        JointKind::Revolute
+        | JointKind::Gear
+        | JointKind::InternalGear
+        | JointKind::PointFollower
+        | JointKind::FlatFollower => &[LENGTH, LENGTH],
+    }
+}
+
 fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
     if it { Ok(()) } else { Err(fault()) }
 }
@@ -210,7 +230,7 @@ mod tests {
 
     #[test]
     fn rows_are_in_their_units() {
-        assert_eq!(broken(|s| s.rows[0].unit = RowUnit::AREA), "row 0 is not in m^2");
+        assert_eq!(broken(|s| s.rows[0].unit = RowUnit::AREA), "row 0 is in m^2");
         assert_eq!(broken(|s| s.rows[0].unit.dimension.time = f64::NAN), "a unit of row 0 that is none");
     }
 

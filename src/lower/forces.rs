@@ -5,9 +5,7 @@ use super::Lowering;
 use super::frames::Vector;
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::ir::{self, ConstraintSystem, DeclarationId, Forces};
-use crate::model::{
-    Declared, EquationForm, EquationId, Force, Frame, JointId, JointKind, Load, Mass, Mechanism, Named, PartId,
-};
+use crate::model::{Declared, EquationForm, EquationId, Force, Frame, JointId, Load, Mass, Mechanism, Named, PartId};
 
 /// What a joint exerts on one body, in the ground's frame.
 #[derive(Clone, Copy)]
@@ -160,7 +158,10 @@ impl Lowering<'_> {
         if let Some(&known) = self.reactions.get(&joint) {
             return known;
         }
-        let point = self.seen_from(None, |l| l.reduced_to(joint));
+        let point = match self.seen_from(None, |l| l.place(joint)) {
+            Some(point) => point,
+            None => [0.0; 2].map(|zero| self.graph.constant(zero)),
+        };
         let [first, second] = self.model[joint].kind.frames(self.model).map(|frame| self.model.carrier(frame));
         let frame = if second == Frame::Ground { first } else { second };
         let [x, y, about_origin] = self.exerted(joint, frame);
@@ -194,24 +195,6 @@ impl Lowering<'_> {
             }
         }
         sums
-    }
-
-    /// Where what a joint exerts is reduced to (m).
-    fn reduced_to(&mut self, joint: JointId) -> Vector {
-        match self.model[joint].kind {
-            JointKind::Revolute(_, point)
-            | JointKind::Weld(_, point, _)
-            | JointKind::RevoluteRevolute(_, point, _)
-            | JointKind::PointFollower(point, _) => self.global(point),
-            JointKind::Translational(_, axis)
-            | JointKind::RevoluteTranslational(_, axis, _)
-            | JointKind::RackPinion { rack: axis, .. } => self.global(self.model[axis].origin),
-            JointKind::Gear { circles: [_, circle], .. } => self.global(self.model[circle].center),
-            JointKind::Cam(..) | JointKind::FlatFollower(..) => match self.contact_place(joint) {
-                Some(at) => at,
-                None => [0.0; 2].map(|zero| self.graph.constant(zero)),
-            },
-        }
     }
 
     /// The number of a declaration's first row.

@@ -142,49 +142,49 @@ pub mod coordinate {
     pub const GAUGE_PHI: usize = 20;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 41
+    /// joint `main 1` (m), line 41
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 41
+    /// joint `main 2` (m), line 41
     pub const MAIN_2: usize = 1;
-    /// joint `seam 1`, line 42
+    /// joint `seam 1` (m), line 42
     pub const SEAM_1: usize = 2;
-    /// joint `seam 2`, line 42
+    /// joint `seam 2` (m), line 42
     pub const SEAM_2: usize = 3;
-    /// joint `seam 3`, line 42
+    /// joint `seam 3` (rad), line 42
     pub const SEAM_3: usize = 4;
-    /// joint `pivot 1`, line 43
+    /// joint `pivot 1` (m), line 43
     pub const PIVOT_1: usize = 5;
-    /// joint `pivot 2`, line 43
+    /// joint `pivot 2` (m), line 43
     pub const PIVOT_2: usize = 6;
-    /// joint `strut`, line 44
+    /// joint `strut` (m^2), line 44
     pub const STRUT: usize = 7;
-    /// joint `guide 1`, line 45
+    /// joint `guide 1` (m), line 45
     pub const GUIDE_1: usize = 8;
-    /// joint `guide 2`, line 45
+    /// joint `guide 2` (a pure number), line 45
     pub const GUIDE_2: usize = 9;
-    /// joint `block`, line 46
+    /// joint `block` (m), line 46
     pub const BLOCK: usize = 10;
-    /// constraint `stone_turn`, line 48
+    /// constraint `stone_turn` (rad), line 48
     pub const STONE_TURN: usize = 11;
-    /// constraint `stone_lift`, line 49
+    /// constraint `stone_lift` (m), line 49
     pub const STONE_LIFT: usize = 12;
-    /// constraint `follow`, line 50
+    /// constraint `follow` (m), line 50
     pub const FOLLOW: usize = 13;
-    /// constraint `hold`, line 51
+    /// constraint `hold` (m), line 51
     pub const HOLD: usize = 14;
-    /// constraint `turn`, line 52
+    /// constraint `turn` (rad), line 52
     pub const TURN: usize = 15;
-    /// constraint `sign_free`, line 53
+    /// constraint `sign_free` (rad), line 53
     pub const SIGN_FREE: usize = 16;
-    /// driver `motor`, line 55
+    /// driver `motor` (rad), line 55
     pub const MOTOR: usize = 17;
-    /// driver `push`, line 56
+    /// driver `push` (m), line 56
     pub const PUSH: usize = 18;
-    /// driver `lift`, line 57
+    /// driver `lift` (m), line 57
     pub const LIFT: usize = 19;
-    /// driver `swing`, line 58
+    /// driver `swing` (rad), line 58
     pub const SWING: usize = 20;
 }
 
@@ -360,7 +360,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 259 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {

@@ -122,19 +122,19 @@ pub mod coordinate {
     pub const LOOP_PHI_2: usize = 5;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `LOOP 1`, line 19
+    /// joint `LOOP 1` (m), line 19
     pub const LOOP_1: usize = 0;
-    /// joint `LOOP 2`, line 19
+    /// joint `LOOP 2` (m), line 19
     pub const LOOP_2: usize = 1;
-    /// joint `self 1`, line 20
+    /// joint `self 1` (m), line 20
     pub const SELF_1: usize = 2;
-    /// joint `self 2`, line 20
+    /// joint `self 2` (m), line 20
     pub const SELF_2: usize = 3;
-    /// driver `match`, line 22
+    /// driver `match` (rad), line 22
     pub const MATCH: usize = 4;
-    /// driver `impl`, line 23
+    /// driver `impl` (rad), line 23
     pub const IMPL: usize = 5;
 }
 
@@ -186,7 +186,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 25 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
