@@ -7,7 +7,7 @@ use super::orthonormal::Orthonormal;
 use super::proposals::Proposals;
 use super::redundancy::basis_of;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, IdVec};
-use crate::structure::Part;
+use crate::structure::Subsystem;
 use crate::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
 use nalgebra::DVector;
 
@@ -36,7 +36,7 @@ pub struct Freedom {
 
 impl Freedom {
     /// What the rows of a part leave free of its columns at a time (s); none where they cannot be met.
-    pub fn of(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<Freedom> {
+    pub fn of(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
         let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
         if linear.residual.iter().any(|open| open.abs() > ASSEMBLED) {
             return None;
@@ -141,7 +141,7 @@ impl Freedom {
 
 /// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
 /// value at that time (s).
-pub fn motions_as_drawn(system: &ConstraintSystem, part: &Part, t: f64) -> Option<Vec<FreeMotion>> {
+pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<FreeMotion>> {
     let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
     let taken = basis_of(&jacobian, part.columns.len()).span;
     Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
@@ -160,7 +160,7 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
 }
 
 /// The motions beside what is held, each told by itself, of all coordinates.
-fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Orthonormal) -> Vec<Vec<f64>> {
+fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
     let mut motions = Vec::new();
     while let Some(motion) = next_motion(system, part, &mut taken) {
         motions.push(motion);
@@ -169,7 +169,7 @@ fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Orthonormal
 }
 
 /// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
-fn next_motion(system: &ConstraintSystem, part: &Part, taken: &mut Orthonormal) -> Option<DVector<f64>> {
+fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
     let n = part.columns.len();
     if taken.is_whole() {
         return None;
@@ -204,7 +204,7 @@ fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
 }
 
 /// A motion of a part's coordinates as one of all coordinates.
-fn spread(motion: &[f64], part: &Part, n: usize) -> Vec<f64> {
+fn spread(motion: &[f64], part: &Subsystem, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     for (&column, x) in part.columns.iter().zip(motion) {
         all[column as usize] = *x;

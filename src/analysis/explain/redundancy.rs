@@ -7,7 +7,7 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use super::orthonormal::Basis;
-use crate::structure::Part;
+use crate::structure::Subsystem;
 use crate::tolerances::determinacy::redundancy::{DEPENDENT, NEARBY, OPEN, TAKES_PART};
 
 /// An equation that depends on others.
@@ -23,7 +23,7 @@ pub struct Dependent {
 
 /// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
 /// they have no values.
-pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
+pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
     let basis = basis_of_start(evaluator, part, [t, span])?;
     let row = |k: usize| part.rows[k] as usize;
     let mut dependents: Vec<Dependent> = basis
@@ -55,7 +55,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
 }
 
 /// How far all that the declaration of a row asks for is off, with all other equations met.
-fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Part, row: usize, t: f64) -> Option<f64> {
+fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usize, t: f64) -> Option<f64> {
     let system = evaluator.system;
     let is_own = |other: &u32| system.rows[*other as usize].declaration == system.rows[row].declaration;
     let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
@@ -74,7 +74,7 @@ pub fn times_nearby(t: f64, span: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
-fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Basis> {
+fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Basis> {
     let mut best: Option<(Basis, Vec<f64>)> = None;
     for (k, t) in times_nearby(t, span).enumerate() {
         if k > 0 {
@@ -95,7 +95,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
 
 /// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in
 /// line has none in the place of its tip. Beside that position they have.
-fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Part, t: f64, dependents: &mut [Dependent]) {
+fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependents: &mut [Dependent]) {
     evaluator.nudge(&part.columns);
     let Some(linear) = evaluator.linear(&part.rows, &part.columns, None, t) else {
         return;
