@@ -7,7 +7,7 @@ mod support;
 use mechc::rooms::syntax::ast::File;
 use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign};
 use mechc::rooms::syntax::format::expression;
-use mechc::rooms::syntax::{Parsed, format, parse, parse_expression};
+use mechc::rooms::syntax::{ParsedText, format, parse, parse_expression};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
 use proptest::prelude::*;
@@ -27,7 +27,7 @@ fn read<T>(text: &str, parse: impl Fn(&Sources, mechc::FileId) -> Result<T, Diag
 }
 
 /// The tree of a text without faults.
-fn whole(parsed: Parsed) -> Result<File, Diagnostics> {
+fn whole(parsed: ParsedText) -> Result<File, Diagnostics> {
     if parsed.faults.is_empty() { Ok(parsed.tree) } else { Err(parsed.faults) }
 }
 

@@ -35,7 +35,7 @@ impl Writer<'_> {
         let kind = |name, docs, orders, outputs, length| Kind { name, docs, orders, outputs, length };
         let docs = "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or\nrad).";
         let mut kinds = vec![
-            kind("phi", "The residual of the equations (m, m^2 or rad).", 1, &outputs.phi[..], "N"),
+            kind("phi", "The residual of the equations, each in its unit: see [`row`].", 1, &outputs.phi[..], "N"),
             kind("phi_q", docs, 1, &outputs.phi_q, "ENTRIES"),
         ];
         let docs = "The partial derivative of `phi` by time (the equation's unit per s).";

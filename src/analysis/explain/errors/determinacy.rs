@@ -132,7 +132,8 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
             )
         }),
         DeclarationKind::Joint(JointKind::Translational) => {
-            match (gap_kind(system, one.row), declaration.axes.as_slice()) {
+            let axes: Vec<&String> = declaration.axes.iter().map(|&axis| &system.axes[axis].name).collect();
+            match (gap_kind(system, one.row), axes.as_slice()) {
                 (CoordinateKind::Length, [a, b]) => {
                     format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
                 }
