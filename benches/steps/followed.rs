@@ -102,25 +102,25 @@ pub mod coordinate {
     pub const ROCKER_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 9
+    /// joint `main 1` (m), line 9
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 9
+    /// joint `main 2` (m), line 9
     pub const MAIN_2: usize = 1;
-    /// joint `pin 1`, line 10
+    /// joint `pin 1` (m), line 10
     pub const PIN_1: usize = 2;
-    /// joint `pin 2`, line 10
+    /// joint `pin 2` (m), line 10
     pub const PIN_2: usize = 3;
-    /// joint `knee 1`, line 11
+    /// joint `knee 1` (m), line 11
     pub const KNEE_1: usize = 4;
-    /// joint `knee 2`, line 11
+    /// joint `knee 2` (m), line 11
     pub const KNEE_2: usize = 5;
-    /// joint `pivot 1`, line 12
+    /// joint `pivot 1` (m), line 12
     pub const PIVOT_1: usize = 6;
-    /// joint `pivot 2`, line 12
+    /// joint `pivot 2` (m), line 12
     pub const PIVOT_2: usize = 7;
-    /// driver `motor`, line 13
+    /// driver `motor` (rad), line 13
     pub const MOTOR: usize = 8;
 }
 
@@ -233,7 +233,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 32 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {

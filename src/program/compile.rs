@@ -1,8 +1,8 @@
 //! Laying a constraint system out as operations.
 
-use super::{CheckSlopes, Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
+use super::{CheckSlopes, Inputs, Op, Outputs, PlacedSide, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
-use crate::ir::{self, ConstraintSystem};
+use crate::ir::{self, ConstraintSystem, RightSide, With};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
@@ -41,14 +41,8 @@ impl Program {
         outputs.terms =
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
-        outputs.nu = layout.place(Stage::Velocity, system.nu().iter().copied());
-        let velocity = |list: &[ExprId]| layout.place(Stage::Velocity, list.iter().copied());
-        outputs.by_signal = system.by_inputs().map(velocity).collect();
-        outputs.gamma = layout.place(Stage::Acceleration, system.gamma().iter().copied());
-        outputs.jerk = layout.place(Stage::Jerk, system.jerk().into_iter().flatten().copied());
-        // as variations have it: what is differentiated brings no branches of its own
+        outputs.right_sides = layout.right_sides(system);
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
-        outputs.by_param = system.by_params().map(&mut varied).collect();
         let slopes = &system.check_slopes;
         outputs.check_slopes = CheckSlopes {
             coordinates: varied(&slopes.by_q),
@@ -71,6 +65,17 @@ impl Program {
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
         outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
+    }
+}
+
+/// When a right side can be evaluated.
+fn stage_of(with: With) -> Stage {
+    match with {
+        With::Time(0 | 1) | With::Input(_) => Stage::Velocity,
+        With::Time(2) => Stage::Acceleration,
+        With::Time(_) => Stage::Jerk,
+        // as variations have it: what is differentiated brings no branches of its own
+        With::Param(_) => Stage::Variation,
     }
 }
 
@@ -136,6 +141,19 @@ impl<'s> Layout<'s> {
             },
             next: varied + 3 * n * variations,
         }
+    }
+
+    /// All right sides, those first that are evaluated first.
+    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<PlacedSide> {
+        let mut sides: Vec<(Stage, &RightSide)> =
+            system.right_sides().iter().map(|side| (stage_of(side.with), side)).collect();
+        sides.sort_by_key(|(stage, side)| (*stage, side.with));
+        let mut placed: Vec<PlacedSide> = Vec::with_capacity(sides.len());
+        for (stage, RightSide { with, entries }) in sides {
+            placed.push(PlacedSide { with: *with, entries: self.place(stage, entries.iter().copied()) });
+        }
+        placed.sort_by_key(|side| side.with);
+        placed
     }
 
     /// Emits what the roots need that is not there yet, and gives their registers.

@@ -108,25 +108,25 @@ pub mod coordinate {
     pub const PISTON_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 30
+    /// joint `main 1` (m), line 30
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 30
+    /// joint `main 2` (m), line 30
     pub const MAIN_2: usize = 1;
-    /// joint `big 1`, line 31
+    /// joint `big 1` (m), line 31
     pub const BIG_1: usize = 2;
-    /// joint `big 2`, line 31
+    /// joint `big 2` (m), line 31
     pub const BIG_2: usize = 3;
-    /// joint `small 1`, line 32
+    /// joint `small 1` (m), line 32
     pub const SMALL_1: usize = 4;
-    /// joint `small 2`, line 32
+    /// joint `small 2` (m), line 32
     pub const SMALL_2: usize = 5;
-    /// joint `barrel 1`, line 33
+    /// joint `barrel 1` (m), line 33
     pub const BARREL_1: usize = 6;
-    /// joint `barrel 2`, line 33
+    /// joint `barrel 2` (a pure number), line 33
     pub const BARREL_2: usize = 7;
-    /// driver `motor`, line 36
+    /// driver `motor` (rad), line 36
     pub const MOTOR: usize = 8;
 }
 
@@ -231,7 +231,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 20 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {

@@ -51,7 +51,14 @@ impl Crate {
     pub fn named(&self, module: &Names) -> BTreeSet<Names> {
         let file = &self.files[module];
         let modules: BTreeSet<Names> = self.files.keys().cloned().collect();
-        let in_code = paths(&file.body).into_iter().filter_map(|path| absolute(module, &path, &modules));
+        let by_use = |path: &str| {
+            let (first, rest) = path.split_once("::")?;
+            let (used, _) = file.uses.iter().find(|(used, _)| used.last().is_some_and(|last| last == first))?;
+            Some(used.iter().cloned().chain(rest.split("::").map(str::to_owned)).collect())
+        };
+        let in_code = paths(&file.body)
+            .into_iter()
+            .filter_map(|path| by_use(&path).or_else(|| absolute(module, &path, &modules)));
         // what is only handed on is a signpost
         let stands = |path: &Names| path.last().is_some_and(|last| words(&file.body).any(|word| word == last));
         let in_lines = file.uses.iter().filter(|(path, hands_on)| !hands_on || stands(path));
@@ -71,10 +78,24 @@ impl Crate {
         let (Some(file), Some(name)) = (self.files.get(module), rest.first()) else {
             return module.to_vec();
         };
-        match file.uses.iter().find(|(used, _)| used.last() == Some(name) && used != path) {
-            Some((used, _)) if depth < 8 => self.declaring(&[used, &rest[1..]].concat(), depth + 1),
-            _ => module.to_vec(),
+        let by_name = file.uses.iter().map(|(used, _)| used).find(|used| used.last() == Some(name) && *used != path);
+        let handed_on =
+            || file.uses.iter().filter(|(used, hands_on)| *hands_on && used.last().is_some_and(|l| l == "*"));
+        let by_star = || handed_on().map(|(used, _)| &used[..used.len() - 1]).find(|used| self.has(used, name));
+        match by_name {
+            _ if depth == 8 => module.to_vec(),
+            Some(used) => self.declaring(&[used, &rest[1..]].concat(), depth + 1),
+            None => by_star().map_or(module.to_vec(), |used| self.declaring(&[used, rest].concat(), depth + 1)),
         }
+    }
+
+    /// Whether a file declares something for others that has a name, or hands it on.
+    fn has(&self, module: &[String], name: &str) -> bool {
+        self.files.get(module).is_some_and(|file| {
+            let is_declared = |line: &str| line.trim_start().starts_with("pub") && words(line).any(|word| word == name);
+            file.body.lines().any(is_declared)
+                || file.uses.iter().any(|(used, _)| used.last().is_some_and(|l| l == name))
+        })
     }
 }
 

@@ -9,7 +9,7 @@ use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind, Row};
 use crate::structure::{self, Determined, Part, Refused};
 use crate::tolerances::determinacy::determine::LARGEST;
 
@@ -202,7 +202,8 @@ fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
                 .map(|&(column, slope)| system.value_at(slope, &q) * system.coordinates[column as usize].scale);
             let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
             let scale = if norm > 0.0 { norm } else { 1.0 };
-            Check { phi: system.rows[row].phi, declaration: system.rows[row].declaration, scale }
+            let Row { declaration, phi, unit } = system.rows[row];
+            Check { phi, unit, declaration, scale }
         })
         .collect();
     system.leave_out(&rows, checks);

@@ -7,7 +7,6 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
-use crate::diag::Diagnostic;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
 use crate::structure::{Determined, Part};
@@ -48,11 +47,9 @@ pub enum LinkOf {
     Declaration(DeclarationId),
 }
 
-/// The diagnosis where the nearest position is `q`.
-pub fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
-    let system = determined.system();
-    let (open, _) = told(determined, q, t)?;
-    Some(errors::open_loop(system, &open, t))
+/// What does not close where the nearest position is `q`.
+pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
+    told(determined, q, t).map(|(open, _)| open)
 }
 
 /// The coordinates [m, rad] where all is closed but what is told to be open.
@@ -110,26 +107,30 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
         .collect();
     evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
     let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows[row].declaration == at);
+    let (kind, by) = widest_gap(evaluator, rows)?;
+    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+}
+
+/// In what rows are open, and by how much all of these (m or rad); none where they close.
+fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> Option<(CoordinateKind, f64)> {
+    let system = evaluator.system;
     let gaps: Vec<(CoordinateKind, f64)> =
         rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
+    if gaps.is_empty() {
+        // no motion that could be seen closes it
+        return Some((CoordinateKind::Length, f64::INFINITY));
+    }
     let of_kind = |wanted: CoordinateKind| {
         let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
     // from elsewhere it closes: the estimates are too far off, and no length is wrong
-    if !gaps.is_empty() && length <= CLOSED * system.length && angle <= CLOSED {
+    if length <= CLOSED * system.length && angle <= CLOSED {
         return None;
     }
-    let (kind, by) = if gaps.is_empty() {
-        // no motion that could be seen closes it
-        (CoordinateKind::Length, f64::INFINITY)
-    } else if length / system.length > 0.1 * angle {
-        (CoordinateKind::Length, length)
-    } else {
-        (CoordinateKind::Angle, angle)
-    };
-    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+    let is_length = length / system.length > 0.1 * angle;
+    Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
 /// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
