@@ -72,7 +72,7 @@ impl Interface<'_> {
         self.places(page, "COORDINATE", "COORDINATES", "Where each coordinate stands in a list of them.", &coordinates);
         if self.has_params() {
             let names = Case::Constant.names(system.params.iter().map(|of| of.name.as_str()));
-            let said = system.params.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit)));
+            let said = system.params.iter().map(|of| format!("{} ({})", of.name, unit(&of.unit())));
             self.places(
                 page,
                 "PARAM",
@@ -156,8 +156,8 @@ impl Interface<'_> {
                     let inner = |part: usize| format!("{}_{}", self.prefix, called(&params.types[part].name));
                     let (declared, says) = match &own.of {
                         Of::Number(param) => {
-                            let of = unit(&self.unit.system.params[*param].unit);
-                            (format!("double {name}"), format!("{} ({of})", own.source))
+                            let of = self.unit.system.params[*param].unit();
+                            (format!("double {name}"), format!("{} ({})", own.source, unit(&of)))
                         }
                         Of::Part(part) => (format!("{} {name}", inner(*part)), own.source.clone()),
                         Of::Copies(part, lengths) => {
