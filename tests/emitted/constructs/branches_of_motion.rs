@@ -71,19 +71,19 @@ pub mod coordinate {
     pub const WHEEL_PHI: usize = 5;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 4
+    /// joint `main 1` (m), line 4
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 4
+    /// joint `main 2` (m), line 4
     pub const MAIN_2: usize = 1;
-    /// joint `hub 1`, line 6
+    /// joint `hub 1` (m), line 6
     pub const HUB_1: usize = 2;
-    /// joint `hub 2`, line 6
+    /// joint `hub 2` (m), line 6
     pub const HUB_2: usize = 3;
-    /// constraint `follow`, line 8
+    /// constraint `follow` (rad), line 8
     pub const FOLLOW: usize = 4;
-    /// driver `motor`, line 7
+    /// driver `motor` (rad), line 7
     pub const MOTOR: usize = 5;
 }
 
@@ -131,7 +131,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 11 operations.
 pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {

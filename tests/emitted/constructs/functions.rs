@@ -44,13 +44,13 @@ pub mod coordinate {
     pub const ARM_PHI: usize = 2;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 4
+    /// joint `main 1` (m), line 4
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 4
+    /// joint `main 2` (m), line 4
     pub const MAIN_2: usize = 1;
-    /// driver `motor`, line 5
+    /// driver `motor` (rad), line 5
     pub const MOTOR: usize = 2;
 }
 
@@ -91,7 +91,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 19 operations.
 pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {

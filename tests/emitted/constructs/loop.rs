@@ -80,25 +80,25 @@ pub mod coordinate {
     pub const ROCKER_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 6
+    /// joint `main 1` (m), line 6
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 6
+    /// joint `main 2` (m), line 6
     pub const MAIN_2: usize = 1;
-    /// joint `pin 1`, line 7
+    /// joint `pin 1` (m), line 7
     pub const PIN_1: usize = 2;
-    /// joint `pin 2`, line 7
+    /// joint `pin 2` (m), line 7
     pub const PIN_2: usize = 3;
-    /// joint `knee 1`, line 8
+    /// joint `knee 1` (m), line 8
     pub const KNEE_1: usize = 4;
-    /// joint `knee 2`, line 8
+    /// joint `knee 2` (m), line 8
     pub const KNEE_2: usize = 5;
-    /// joint `pivot 1`, line 9
+    /// joint `pivot 1` (m), line 9
     pub const PIVOT_1: usize = 6;
-    /// joint `pivot 2`, line 9
+    /// joint `pivot 2` (m), line 9
     pub const PIVOT_2: usize = 7;
-    /// driver `motor`, line 10
+    /// driver `motor` (rad), line 10
     pub const MOTOR: usize = 8;
 }
 
@@ -163,7 +163,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 27 operations.
 pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {

@@ -72,19 +72,19 @@ pub mod coordinate {
     pub const LOOP_PHI_2: usize = 5;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `LOOP 1`, line 10
+    /// joint `LOOP 1` (m), line 10
     pub const LOOP_1: usize = 0;
-    /// joint `LOOP 2`, line 10
+    /// joint `LOOP 2` (m), line 10
     pub const LOOP_2: usize = 1;
-    /// joint `self 1`, line 11
+    /// joint `self 1` (m), line 11
     pub const SELF_1: usize = 2;
-    /// joint `self 2`, line 11
+    /// joint `self 2` (m), line 11
     pub const SELF_2: usize = 3;
-    /// driver `match`, line 12
+    /// driver `match` (rad), line 12
     pub const MATCH: usize = 4;
-    /// driver `impl`, line 13
+    /// driver `impl` (rad), line 13
     pub const IMPL: usize = 5;
 }
 
@@ -136,7 +136,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 17 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {

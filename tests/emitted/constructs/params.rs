@@ -81,25 +81,25 @@ pub mod coordinate {
     pub const OTHER_1_BAR_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 4
+    /// joint `main 1` (m), line 4
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 4
+    /// joint `main 2` (m), line 4
     pub const MAIN_2: usize = 1;
-    /// joint `other[0].pin 1`, line 14
+    /// joint `other[0].pin 1` (m), line 14
     pub const OTHER_0_PIN_1: usize = 2;
-    /// joint `other[0].pin 2`, line 14
+    /// joint `other[0].pin 2` (m), line 14
     pub const OTHER_0_PIN_2: usize = 3;
-    /// joint `other[1].pin 1`, line 14
+    /// joint `other[1].pin 1` (m), line 14
     pub const OTHER_1_PIN_1: usize = 4;
-    /// joint `other[1].pin 2`, line 14
+    /// joint `other[1].pin 2` (m), line 14
     pub const OTHER_1_PIN_2: usize = 5;
-    /// constraint `other[0].motor`, line 15
+    /// constraint `other[0].motor` (rad), line 15
     pub const OTHER_0_MOTOR: usize = 6;
-    /// constraint `other[1].motor`, line 15
+    /// constraint `other[1].motor` (rad), line 15
     pub const OTHER_1_MOTOR: usize = 7;
-    /// driver `motor`, line 7
+    /// driver `motor` (rad), line 7
     pub const MOTOR: usize = 8;
 }
 
@@ -154,7 +154,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 9 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
