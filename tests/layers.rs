@@ -52,8 +52,7 @@ const COMMAND_LINE: &[&str] = &[
 ];
 
 /// Links that close a circle between files of one room: none more, and each that is gone goes from here too.
-const CIRCLES: &[(&str, &str)] =
-    &[("emit/tape", "emit/equations"), ("syntax/build", "syntax/formula"), ("syntax/errors", "syntax/depth")];
+const CIRCLES: &[(&str, &str)] = &[("syntax/build", "syntax/formula"), ("syntax/errors", "syntax/depth")];
 
 fn read() -> Crate {
     Crate::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("src"), &files("src", "rs"))

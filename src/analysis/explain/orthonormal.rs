@@ -19,11 +19,6 @@ impl Orthonormal {
         Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
     }
 
-    /// How many vectors there are.
-    pub fn count(&self) -> usize {
-        self.count
-    }
-
     /// Whether they span the whole space.
     pub fn is_whole(&self) -> bool {
         self.count == self.columns.ncols()
@@ -130,7 +125,7 @@ mod tests {
         assert!(all.take(&first, 0.0));
         let (rest, shares) = all.beside(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
         assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
-        assert!(all.take(&rest, 1e-6) && all.count() == 2 && !all.is_whole());
+        assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
         // what lies between those that are there adds nothing
         let (rest, _) = all.beside(&first + all.last().expect("a vector"));
         assert!(!all.take(&rest, 1e-6));
