@@ -2006,12 +2006,6 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
-/// until the next. What it comes from is not a number either, and is asked for that.
-pub fn larger_so_far(largest: f64, value: f64) -> f64 {
-    if value <= largest { largest } else { value }
-}
-
 /// What leads from some numbers to others.
 pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
     let mut way = *to;
@@ -2387,10 +2381,20 @@ impl<M: Solved> Solution<M> {
 }
 }
 
+pub mod so_far {
+//! What is the largest, found one by one.
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
+}
+}
+
 pub mod pivots {
 //! What pivots tell of a position.
 
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -2419,7 +2423,8 @@ pub mod newton {
 //! Newton's iteration.
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::{larger, larger_so_far};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.

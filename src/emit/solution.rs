@@ -1,8 +1,9 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute};
-use super::equations::{ARRAYS, Equations};
+use super::code::{Code, Function, Input, MODULE, Out, Scene};
+use super::equations::{ARRAYS, Equations, Reached};
 use super::names::Names;
+use super::operand::{Arguments, Operand};
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
@@ -62,13 +63,13 @@ impl<'s> Solution<'s> {
     }
 
     /// What a column of a table is called, in a lane or alone.
-    fn column(&self, table: u32, column: Column, lane: &str) -> String {
+    fn column(&self, table: u32, column: Column, lane: &str) -> Operand {
         if self.equations.is_constant(table, column) {
-            return self.equations.table(table, column);
+            return Operand::own(self.equations.table(table, column));
         }
         let cells = self.unit.program.tables()[table as usize].column(column);
         let first = self.known.get(&cells.start).copied().unwrap_or(0);
-        format!("m{lane}.known[{first}..{}]", first + cells.len())
+        Operand::of(format!("m{lane}.known[{first}..{}]", first + cells.len()), &["m"])
     }
 
     /// Whether anything is left to iterate for.
@@ -120,7 +121,7 @@ impl<'s> Solution<'s> {
             )),
             is_public: false,
             arguments,
-            out: Out::Given { begin: "at.begin(t);" },
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         self.note(solver, has_lanes);
@@ -162,7 +163,7 @@ impl<'s> Solution<'s> {
             ),
             is_public: false,
             arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
-            out: Out::Given { begin: "at.begin(t);" },
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
             margin: 0,
         };
         self.note(solver, false);
@@ -174,6 +175,7 @@ impl<'s> Solution<'s> {
         let Shared { instructions, segments, registers } =
             tape::share(solver.instructions(), solver.segments(), solver.registers());
         let notes = Notes {
+            loaded: &|register| self.equations.loaded(register, &self.known),
             pivot: &|number| {
                 let pivot = solver.pivots()[number as usize];
                 (pivot.turn, pivot.weight)
@@ -182,7 +184,7 @@ impl<'s> Solution<'s> {
             bound: &|row| self.motion.bounds[row as usize],
         };
         let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
-        let Tape { words, starts } = book.encode(&instructions, self.equations, &self.known, &notes);
+        let Tape { words, starts } = book.encode(&instructions, &notes);
         let (mut list, mut settling) = (Vec::new(), Vec::new());
         for segment in &segments {
             let (range, tears) = match segment {
@@ -221,7 +223,7 @@ impl<'s> Solution<'s> {
             page.line(&format!("code: &SOLVE{ending},"));
         });
         page.end_statement();
-        page.text(&tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words));
+        tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
     }
 
     /// What a column holds.
@@ -335,39 +337,42 @@ impl SolverScene<'_> {
 impl Scene for SolverScene<'_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(false, "register {register} has no operation");
-        Input::Text("f64::NAN".to_owned())
+        Input::Is(Operand::Number(f64::NAN))
     }
 
-    fn load(&self, register: Register) -> String {
+    fn load(&self, register: Register) -> Operand {
         let lane = self.lane();
         if let Some(place) = self.solution.known.get(&register) {
-            return format!("m{lane}.known[{place}]");
+            return Operand::of(format!("m{lane}.known[{place}]"), &["m"]);
         }
         let of = if self.solution.equations.is_led { "way" } else { "params" };
-        match self.solution.equations.input(register, &format!("m{lane}.{of}"), lane) {
-            Input::Bound { value, .. } | Input::Text(value) => value,
+        let given = format!("m{lane}.{of}");
+        let reached = Reached { given, names: &["m"], names_with_time: &["m", "t"], lane };
+        match self.solution.equations.input(register, &reached) {
+            Input::Bound { value, .. } | Input::Is(value) => value,
         }
     }
 
-    fn place(&self, column: u32) -> String {
+    fn place(&self, column: u32) -> Operand {
+        let at = |text: String| Operand::of(text, &["at"]);
         if let Some(place) = self.solution.joined(column) {
-            return format!("at.joined[{place}]{}", self.lane());
+            return at(format!("at.joined[{place}]{}", self.lane()));
         }
         let held = self.solution.holds(column);
         match held {
-            Holds::Coordinate { index, order } => format!("at.{}[{index}]{}", ARRAYS[order], self.lane()),
+            Holds::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
             Holds::Measure { order, .. } => {
                 let of = if self.has_lanes { "" } else { "measures." };
                 let place = column - self.solver.layout().measures[order];
-                format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane())
+                at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
             }
             Holds::Slope { of, by } => match by.checked_sub(self.solution.unit.program.inputs.count as usize) {
-                None => format!("at.along.by_signal[{by}][{of}]"),
-                Some(param) => format!("by[{param}][{of}]"),
+                None => at(format!("at.along.by_signal[{by}][{of}]")),
+                Some(param) => Operand::of(format!("by[{param}][{of}]"), &["by"]),
             },
             Holds::Time | Holds::Appended(_) | Holds::Varied | Holds::Multiplier | Holds::Reaction(_) => {
                 debug_assert!(false, "no code has a place for {held:?}");
-                String::new()
+                Operand::Number(f64::NAN)
             }
         }
     }
@@ -382,7 +387,7 @@ impl Scene for SolverScene<'_> {
         }
     }
 
-    fn table(&self, table: u32, column: Column) -> String {
+    fn table(&self, table: u32, column: Column) -> Operand {
         self.solution.column(table, column, self.lane())
     }
 
@@ -390,42 +395,48 @@ impl Scene for SolverScene<'_> {
         Vec::new()
     }
 
-    fn store(&self, column: u32, value: &str) -> Option<String> {
-        match self.solution.holds(column) {
-            // third derivatives are no results
-            Holds::Coordinate { order: 3, .. } if self.solution.joined(column).is_none() => None,
-            _ => match value.parse::<f64>() {
-                // +0 where it is −0
-                Ok(number) => Some(number + 0.0)
-                    .filter(|number| number.to_bits() != 0)
-                    .map(|number| format!("{} = {};", self.place(column), literal(number))),
-                Err(_) => Some(format!("{} = {value} + 0.0;", self.place(column))),
-            },
-        }
+    fn stores(&self, column: u32) -> bool {
+        // third derivatives are no results
+        let is_third = matches!(self.solution.holds(column), Holds::Coordinate { order: 3, .. });
+        !is_third || self.solution.joined(column).is_some()
     }
 
-    fn act(&self, op: Instruction, value: &str) -> String {
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)> {
+        let place = self.place(column);
+        let line = match value {
+            // +0 where it is −0
+            Operand::Number(value) if value.to_bits() << 1 == 0 => return None,
+            Operand::Number(_) => format!("{place} = {value};"),
+            Operand::Held { .. } => format!("{place} = {value} + 0.0;"),
+        };
+        Some((line, place.arguments()))
+    }
+
+    fn act(&self, op: Instruction, value: &Operand) -> (String, Arguments) {
         let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
-        match (op, self.has_lanes) {
+        let line = match (op, self.has_lanes) {
             (Instruction::Pivot { pivot, .. }, has_lanes) => {
                 let pivot = solver.pivots()[pivot as usize];
                 let lane = if has_lanes { "k, " } else { "" };
                 format!("at.pivot({lane}{}, {value}, {});", pivot.turn, literal(pivot.weight))
             }
             (Instruction::Residual { row, .. }, false) => {
-                format!("at.holds &= {} <= {};", absolute(value), literal(bounds[row as usize]))
+                format!("at.holds &= {} <= {};", value.absolute(), literal(bounds[row as usize]))
             }
             (Instruction::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
             _ => String::new(),
-        }
+        };
+        (line, &["at"])
     }
 
-    fn watch(&self, weight: u32, value: &str) -> String {
+    fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments) {
         let weight = self.solver.weight(weight);
-        if self.has_lanes {
-            return strain(value, weight / LARGEST_MULTIPLIER);
-        }
-        format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+        let line = if self.has_lanes {
+            strain(value, weight / LARGEST_MULTIPLIER)
+        } else {
+            format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+        };
+        (line, &["at"])
     }
 
     fn has_lanes(&self) -> bool {
@@ -434,6 +445,6 @@ impl Scene for SolverScene<'_> {
 }
 
 /// The line that watches a value of a lane, which must not be above 1 when it is multiplied by a factor.
-fn strain(value: &str, factor: f64) -> String {
+fn strain(value: &Operand, factor: f64) -> String {
     format!("at.watch(k, {value}, {});", literal(factor))
 }

@@ -1,6 +1,9 @@
 //! Laying a constraint system out as operations.
 
-use super::{CheckSlopes, Inputs, Op, Outputs, PlacedSide, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
+use super::{
+    Inputs, Op, Outputs, PlacedCheckSlopes, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
+    TableLayout,
+};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
 use crate::ir::{self, ConstraintSystem, RightSide, With};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -45,7 +48,7 @@ impl Program {
         outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
         let slopes = &system.check_slopes;
-        outputs.check_slopes = CheckSlopes {
+        outputs.check_slopes = PlacedCheckSlopes {
             coordinates: varied(&slopes.by_q),
             signals: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),
@@ -195,11 +198,11 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn rim(&mut self, rim: &ir::Rim) -> Rim {
+    fn rim(&mut self, rim: &ir::Rim) -> PlacedRim {
         let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
         let terms = self.place(Stage::Rims, self.graph.terms(rim.gauge));
         let found = self.place(Stage::Rims, [rim.gauge, rim.slope]);
-        Rim { gauge: found[0], slope: found[1], terms, on_time: !moves }
+        PlacedRim { gauge: found[0], slope: found[1], terms, on_time: !moves }
     }
 
     /// The stage in which a node is computed when `wanted` needs it first.

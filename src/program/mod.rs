@@ -158,7 +158,7 @@ pub struct Inputs {
 
 /// How equations that were left out change.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct CheckSlopes {
+pub struct PlacedCheckSlopes {
     /// With the coordinates: by the pattern of [`crate::ir::CheckSlopes`].
     pub coordinates: Vec<Register>,
     /// With each signal, one entry per check.
@@ -232,11 +232,11 @@ pub struct Outputs {
     /// Entries of `Φ` that follow from the others.
     pub checks: Vec<Register>,
     /// How they change.
-    pub check_slopes: CheckSlopes,
+    pub check_slopes: PlacedCheckSlopes,
     /// Quantities that keep their signs.
     pub watches: Vec<Register>,
     /// Where formulas come to the end of what their functions take.
-    pub rims: Vec<Rim>,
+    pub rims: Vec<PlacedRim>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
 }
@@ -305,7 +305,7 @@ impl Outputs {
 
 /// Where a quantity stands at whose zero a formula may have an edge.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Rim {
+pub struct PlacedRim {
     /// The quantity.
     pub gauge: Register,
     /// Its time derivative.

@@ -1205,12 +1205,6 @@ pub fn larger(a: f64, b: f64) -> f64 {
     if b > a || b.is_nan() { b } else { a }
 }
 
-/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
-/// until the next. What it comes from is not a number either, and is asked for that.
-pub fn larger_so_far(largest: f64, value: f64) -> f64 {
-    if value <= largest { largest } else { value }
-}
-
 /// What leads from some numbers to others.
 pub fn difference<N: Numbers>(to: &N, from: &N) -> N {
     let mut way = *to;
@@ -1586,10 +1580,20 @@ impl<M: Solved> Solution<M> {
 }
 }
 
+pub mod so_far {
+//! What is the largest, found one by one.
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
+}
+}
+
 pub mod pivots {
 //! What pivots tell of a position.
 
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -1618,7 +1622,8 @@ pub mod newton {
 //! Newton's iteration.
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::{larger, larger_so_far};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -2862,7 +2867,7 @@ pub mod lane_strain {
 //! What must not be too large in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
@@ -2879,7 +2884,7 @@ pub mod lane_pivots {
 //! What pivots tell of a position in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of one over a pivot, and of what makes that a pure number.
@@ -2902,7 +2907,8 @@ pub mod lane_newton {
 
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::{larger, larger_so_far};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
 pub struct Settling<const L: usize> {

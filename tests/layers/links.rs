@@ -71,6 +71,42 @@ impl Crate {
         known.filter(|other| other != module && !other.is_empty()).collect()
     }
 
+    /// The types that a room shows at its door, each with the module of the file that declares it: declared there or in a module that is
+    /// public, or handed on.
+    pub fn shown(&self, room: &Names) -> BTreeSet<(String, Names)> {
+        let file = &self.files[room];
+        let mut shown: BTreeSet<(String, Names)> = self.types(room);
+        for (path, _) in file.uses.iter().filter(|(_, hands_on)| *hands_on) {
+            let declaring = self.declaring(path, 0);
+            let is_wanted = |(name, _): &(String, Names)| path.last().is_some_and(|last| last == name || last == "*");
+            shown.extend(
+                self.files
+                    .get(&declaring)
+                    .map(|_| self.types(&declaring))
+                    .unwrap_or_default()
+                    .into_iter()
+                    .filter(is_wanted),
+            );
+        }
+        let is_public = |line: &str| line.trim().strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned);
+        for module in file.code.lines().filter_map(is_public).map(|name| [room.as_slice(), &[name]].concat()) {
+            shown.extend(self.types(&module));
+        }
+        shown
+    }
+
+    /// The public types that a file declares.
+    fn types(&self, module: &Names) -> BTreeSet<(String, Names)> {
+        let name_of = |line: &str| {
+            let declared = line.strip_prefix("pub ")?;
+            let kinds = ["struct ", "enum ", "trait ", "type "];
+            let name = kinds.iter().find_map(|kind| declared.strip_prefix(kind))?;
+            words(name).next().map(str::to_owned)
+        };
+        let code = self.files.get(module).map(|file| file.code.as_str()).unwrap_or_default();
+        code.lines().filter_map(name_of).map(|name| (name, module.clone())).collect()
+    }
+
     /// The module of the file that declares what a path names.
     fn declaring(&self, path: &[String], depth: usize) -> Names {
         let length = (0..=path.len()).rev().find(|&n| self.files.contains_key(&path[..n])).unwrap_or(0);

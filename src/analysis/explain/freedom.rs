@@ -3,11 +3,13 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use super::free_motion::motion_in_words;
+use super::orthonormal::Orthonormal;
 use super::proposals::Proposals;
-use super::redundancy::{Basis, orthogonal};
+use super::redundancy::basis_of;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, IdVec};
-use crate::structure::Part;
+use crate::structure::Subsystem;
 use crate::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
+use nalgebra::DVector;
 
 /// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]
@@ -34,15 +36,15 @@ pub struct Freedom {
 
 impl Freedom {
     /// What the rows of a part leave free of its columns at a time (s); none where they cannot be met.
-    pub fn of(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<Freedom> {
+    pub fn of(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
         let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
         if linear.residual.iter().any(|open| open.abs() > ASSEMBLED) {
             return None;
         }
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let system = evaluator.system;
-        let taken = Basis::of(&jacobian, part.columns.len()).vectors;
-        let shares = shares_left(&taken, part.columns.len());
+        let taken = basis_of(&jacobian, part.columns.len()).span;
+        let shares = taken.shares_left();
         let with_share = |least: f64| {
             let mut count = system.bodies.map(|_| 0);
             for (&column, &share) in part.columns.iter().zip(&shares) {
@@ -139,9 +141,9 @@ impl Freedom {
 
 /// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
 /// value at that time (s).
-pub fn motions_as_drawn(system: &ConstraintSystem, part: &Part, t: f64) -> Option<Vec<FreeMotion>> {
+pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<FreeMotion>> {
     let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
-    let taken = Basis::of(&jacobian, part.columns.len()).vectors;
+    let taken = basis_of(&jacobian, part.columns.len()).span;
     Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
 }
 
@@ -157,55 +159,43 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     FreeMotion { bodies: system.bodies.ids().filter(moves).map(moved).collect() }
 }
 
-/// The motions beside an orthonormal basis of what is held, each told by itself, of all coordinates.
-fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+/// The motions beside what is held, each told by itself, of all coordinates.
+fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
     let mut motions = Vec::new();
-    while let Some(motion) = next_motion(system, part, &taken) {
-        taken.push(motion.clone());
+    while let Some(motion) = next_motion(system, part, &mut taken) {
         motions.push(motion);
     }
-    apart(motions).iter().map(|motion| spread(motion, part, system.coordinates.len())).collect()
+    apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates.len())).collect()
 }
 
-/// How much of each coordinate is free.
-fn shares_left(taken: &[Vec<f64>], n: usize) -> Vec<f64> {
-    (0..n).map(|k| 1.0 - taken.iter().map(|vector| vector[k] * vector[k]).sum::<f64>()).collect()
-}
-
-/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest.
-fn next_motion(system: &ConstraintSystem, part: &Part, taken: &[Vec<f64>]) -> Option<Vec<f64>> {
+/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
+fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
     let n = part.columns.len();
-    if taken.len() >= n {
+    if taken.is_whole() {
         return None;
     }
-    let shares = shares_left(taken, n);
+    let shares = taken.shares_left();
     let is_angle = |k: usize| system.coordinates[part.columns[k] as usize].kind == CoordinateKind::Angle;
     let freest =
         |wanted: &dyn Fn(usize) -> bool| (0..n).filter(|&k| wanted(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
     let any = freest(&|_| true)?;
     let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
-    let mut unit = vec![0.0; n];
-    unit[of_angle.unwrap_or(any)] = 1.0;
-    let (rest, _) = orthogonal(&unit, taken);
-    let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (norm > 0.0).then(|| rest.iter().map(|x| x / norm).collect())
+    let mut axis = DVector::zeros(n);
+    axis[of_angle.unwrap_or(any)] = 1.0;
+    let (rest, _) = taken.beside(axis);
+    taken.take(&rest, 0.0).then(|| taken.last())?
 }
 
 /// The same motions, each without the leading coordinates of the others: so it can be told by itself.
-fn apart(mut motions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     for k in 0..motions.len() {
-        let n = motions[k].len();
-        let Some(leading) = (0..n).max_by(|&a, &b| motions[k][a].abs().total_cmp(&motions[k][b].abs())) else {
-            return motions;
-        };
-        let pivot = motions[k][leading];
-        let reference: Vec<f64> = motions[k].iter().map(|x| x / pivot).collect();
+        let motion = &motions[k];
+        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+        let Some(leading) = largest else { return motions };
+        let reference = motion / motion[leading];
         for (j, other) in motions.iter_mut().enumerate() {
-            let share = other[leading];
             if j != k {
-                for (x, r) in other.iter_mut().zip(&reference) {
-                    *x -= share * r;
-                }
+                other.axpy(-other[leading], &reference, 1.0);
             }
         }
         motions[k] = reference;
@@ -214,7 +204,7 @@ fn apart(mut motions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 }
 
 /// A motion of a part's coordinates as one of all coordinates.
-fn spread(motion: &[f64], part: &Part, n: usize) -> Vec<f64> {
+fn spread(motion: &[f64], part: &Subsystem, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     for (&column, x) in part.columns.iter().zip(motion) {
         all[column as usize] = *x;

@@ -9,7 +9,7 @@ use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
-use crate::structure::{Determined, Part};
+use crate::structure::{Determined, Subsystem};
 use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
 
 /// A loop that does not close.
@@ -69,20 +69,20 @@ fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64
 }
 
 /// All equations, or the first block that stays open.
-fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Part> {
+fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Subsystem> {
     let system = determined.system();
     let n = system.rows.len();
     if n <= LARGEST {
-        return Some(Part { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
+        return Some(Subsystem { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
     }
     determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST).find_map(|block| {
         let linear = evaluator.linear(&block.rows, &block.columns, None, t)?;
         let is_open = linear.residual.iter().any(|open| open.abs() > CLOSED);
-        is_open.then(|| Part { rows: block.rows.clone(), columns: block.columns.clone() })
+        is_open.then(|| Subsystem { rows: block.rows.clone(), columns: block.columns.clone() })
     })
 }
 
-fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenLoop> {
+fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<OpenLoop> {
     let system = evaluator.system;
     let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
     let largest = linear.residual.iter().fold(0.0, |m: f64, open| m.max(open.abs()));
@@ -137,7 +137,7 @@ fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> O
 /// than a pin.
 fn weakest(
     system: &ConstraintSystem,
-    part: &Part,
+    part: &Subsystem,
     linear: &Linear,
     declarations: &[DeclarationId],
 ) -> Option<DeclarationId> {
@@ -163,7 +163,7 @@ fn weakest(
 }
 
 /// The lengths along which the residuals pull or press.
-fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
+fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
     let system = evaluator.system;
     let mut links = Vec::new();
     for &k in declarations {
@@ -199,7 +199,7 @@ fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: 
 /// What a declaration pulls at a body or the ground with, its residuals taken for springs.
 fn force(
     evaluator: &Evaluator<'_>,
-    part: &Part,
+    part: &Subsystem,
     linear: &Linear,
     declaration: DeclarationId,
     body: Option<BodyId>,

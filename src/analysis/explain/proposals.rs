@@ -1,10 +1,11 @@
 //! What could be written to take a freedom: drivers, and joints that may have been forgotten.
 
 use super::evaluator::Evaluator;
-use super::redundancy::orthogonal;
+use super::orthonormal::Orthonormal;
 use crate::ir::{BodyId, ConstraintSystem, Declaration, DeclarationKind, IdVec, JointKind, PointId};
 use crate::math;
 use crate::tolerances::determinacy::freedom::{COINCIDE, DANGLING, MOST_POINTS, SUGGESTED, TAKEN};
+use nalgebra::DVector;
 use rustc_hash::FxHashMap;
 use std::collections::hash_map::Entry;
 
@@ -26,13 +27,11 @@ impl Proposals<'_, '_> {
             let takes = |(_, rates): &(String, Vec<f64>)| rates[0].abs() > TAKEN;
             return candidates.into_iter().filter(takes).map(|(text, _)| text).take(SUGGESTED).collect();
         }
-        let mut taken: Vec<Vec<f64>> = Vec::new();
+        let mut taken = Orthonormal::of_dimension(self.motions.len());
         let mut chosen = Vec::new();
         for (text, rates) in candidates {
-            let (rest, _) = orthogonal(&rates, &taken);
-            let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if norm > TAKEN && taken.len() < self.motions.len() {
-                taken.push(rest.iter().map(|x| x / norm).collect());
+            let (rest, _) = taken.beside(DVector::from_vec(rates));
+            if taken.take(&rest, TAKEN) {
                 chosen.push(text);
             }
         }

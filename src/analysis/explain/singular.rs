@@ -6,7 +6,7 @@ use super::free_motion::motion_in_words;
 use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, WatchKind};
-use crate::program::Rim;
+use crate::program::PlacedRim;
 use crate::tolerances::singular::reasons::{AT_HAND, FLAT, NEAR, NEAR_FOLD, TAKES_PART};
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
@@ -128,7 +128,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic>
     kinematics.restore(state);
     let span = kinematics.span();
     let rims = kinematics.rims().to_vec();
-    let mut left = |rim: &Rim| {
+    let mut left = |rim: &PlacedRim| {
         let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
         f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
     };
@@ -147,7 +147,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic>
 }
 
 /// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
-fn corner_ahead(kinematics: &mut Kinematics, rim: &Rim, state: &State) -> Option<f64> {
+fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
     let left = -2.0 * gauge / slope;
     let [before, _] = gauge_at(kinematics, rim, state, -left);
@@ -156,7 +156,7 @@ fn corner_ahead(kinematics: &mut Kinematics, rim: &Rim, state: &State) -> Option
 }
 
 /// A gauge and its slope where the motion goes on evenly from a state for a time (s).
-fn gauge_at(kinematics: &mut Kinematics, rim: &Rim, state: &State, after: f64) -> [f64; 2] {
+fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
     // what is wrong with the position shows in the gauge

@@ -5,7 +5,8 @@
 
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::{larger, larger_so_far};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
 pub struct Settling<const L: usize> {

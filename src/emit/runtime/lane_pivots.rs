@@ -1,7 +1,7 @@
 //! What pivots tell of a position in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of one over a pivot, and of what makes that a pure number.

@@ -1,7 +1,7 @@
 //! What must not be too large in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of a value that must not be above 1 when it is multiplied by a factor.

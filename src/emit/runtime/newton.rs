@@ -1,7 +1,8 @@
 //! Newton's iteration.
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::{larger, larger_so_far};
+use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.

@@ -1,6 +1,6 @@
 //! What pivots tell of a position.
 
-use super::numbers::larger_so_far;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {

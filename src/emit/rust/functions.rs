@@ -57,18 +57,21 @@ impl Writer<'_> {
     pub fn functions(&self, page: &mut Page) {
         self.left_out(page);
         for Kind { name, docs, orders, outputs, length } in self.kinds() {
-            page.text(&self.equations.function(&Wanted {
-                name,
-                docs,
-                is_public: true,
-                orders,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: name == "phi_t",
-                given: Given::None,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name,
+                    docs,
+                    is_public: true,
+                    orders,
+                    has_time: true,
+                    varied: false,
+                    outputs,
+                    length,
+                    negated: name == "phi_t",
+                    given: Given::None,
+                },
+                page,
+            );
         }
         if self.unit.system.coordinates.len() <= LARGEST_DENSE {
             dense(page);
@@ -96,18 +99,21 @@ impl Writer<'_> {
             } else {
                 format!("As [`{name}`], on branches of formulas that are given.")
             };
-            page.text(&self.equations.function(&Wanted {
-                name: &self.on_sides(name),
-                docs: &docs,
-                is_public: false,
-                orders,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: false,
-                given: Given::All,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name: &self.on_sides(name),
+                    docs: &docs,
+                    is_public: false,
+                    orders,
+                    has_time: true,
+                    varied: false,
+                    outputs,
+                    length,
+                    negated: false,
+                    given: Given::All,
+                },
+                page,
+            );
         }
         if has_pivoting {
             self.varied(Given::All, page);
@@ -155,18 +161,21 @@ impl Writer<'_> {
         }
         let outputs: Vec<Register> = variations.iter().flatten().flatten().copied().collect();
         let is_public = given == Given::None;
-        page.text(&self.equations.function(&Wanted {
-            name: &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
-            docs: VARIED,
-            is_public,
-            orders: 3,
-            has_time: true,
-            varied: true,
-            outputs: &outputs,
-            length: "VARIED",
-            negated: false,
-            given,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
+                docs: VARIED,
+                is_public,
+                orders: 3,
+                has_time: true,
+                varied: true,
+                outputs: &outputs,
+                length: "VARIED",
+                negated: false,
+                given,
+            },
+            page,
+        );
     }
 
     /// The measures with their derivatives.
@@ -199,18 +208,21 @@ impl Writer<'_> {
         });
         let all: Vec<Register> =
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
-        page.text(&self.equations.function(&Wanted {
-            name: "all_measures",
-            docs: "The measures, their rates and their accelerations, one behind the other.",
-            is_public: false,
-            orders: if has_jerk { 4 } else { 3 },
-            has_time: true,
-            varied: true,
-            outputs: &all,
-            length: &all.len().to_string(),
-            negated: false,
-            given: Given::None,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: "all_measures",
+                docs: "The measures, their rates and their accelerations, one behind the other.",
+                is_public: false,
+                orders: if has_jerk { 4 } else { 3 },
+                has_time: true,
+                varied: true,
+                outputs: &all,
+                length: &all.len().to_string(),
+                negated: false,
+                given: Given::None,
+            },
+            page,
+        );
     }
 }
 

@@ -166,17 +166,20 @@ impl Writer<'_> {
             page.line("let mut next = || all.next().unwrap_or(f64::NAN);");
             page.line("core::array::from_fn(|_| core::array::from_fn(|_| next()))");
         });
-        page.text(&self.equations.function(&Wanted {
-            name: &name,
-            docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
-            is_public: false,
-            orders: 1,
-            has_time: true,
-            varied: false,
-            outputs: &all,
-            length: &format!("N * {count}"),
-            negated: false,
-            given: Given::All,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &name,
+                docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
+                is_public: false,
+                orders: 1,
+                has_time: true,
+                varied: false,
+                outputs: &all,
+                length: &format!("N * {count}"),
+                negated: false,
+                given: Given::All,
+            },
+            page,
+        );
     }
 }

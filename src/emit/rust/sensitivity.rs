@@ -94,20 +94,23 @@ impl Writer<'_> {
             self.left_out_pattern(page);
         }
         let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
-        page.text(&self.equations.function(&Wanted {
-            name: &format!("left_out_slopes_by_{by}"),
-            docs: &format!(
-                "How the equations that were left out change with the coordinates, and then with each {by}."
-            ),
-            is_public: false,
-            orders: 1,
-            has_time: true,
-            varied: false,
-            outputs: &all,
-            length: &all.len().to_string(),
-            negated: false,
-            given: Given::All,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &format!("left_out_slopes_by_{by}"),
+                docs: &format!(
+                    "How the equations that were left out change with the coordinates, and then with each {by}."
+                ),
+                is_public: false,
+                orders: 1,
+                has_time: true,
+                varied: false,
+                outputs: &all,
+                length: &all.len().to_string(),
+                negated: false,
+                given: Given::All,
+            },
+            page,
+        );
     }
 
     /// The function that everybody may call.
