@@ -117,14 +117,17 @@ impl Checker<'_> {
     }
 
     pub(super) fn equations(&mut self) {
-        let mut parts = 0..self.parts.len();
+        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        self.equations.resize(self.count.equations, None);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
+                    let k = own.next().unwrap_or_default();
                     if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        self.model.equations.push(Equation { declared, driver, form, dimension, written });
+                        let equation = Equation { declared, driver, form, dimension, written };
+                        self.equations[k] = Some(self.model.add_equation(equation));
                     }
                 }
                 ItemKind::Part(_) => {
@@ -135,6 +138,7 @@ impl Checker<'_> {
                 _ => {}
             }
         }
+        self.import_equations();
     }
 
     /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
@@ -262,7 +266,7 @@ impl Checker<'_> {
             .collect()
     }
 
-    fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
+    pub(super) fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
             .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))
@@ -316,7 +320,8 @@ pub(super) fn dimension_of_sides(sides: [Value; 2]) -> Dimension {
 
 /// How the formula of a measure is read.
 pub(super) fn measure_context(judged: bool) -> Context<'static> {
-    Context { judged, time: true, inputs: true, quantities: true, measures: true, ..Context::constant("a measure") }
+    let context = Context::constant("a measure");
+    Context { judged, time: true, inputs: true, quantities: true, rates: true, measures: true, ..context }
 }
 
 /// Whether a side of an equation is a length and nothing else.

@@ -240,8 +240,11 @@ impl Lowering<'_> {
                 Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
                 Named::Held(part, bound) => self.held(part, bound),
                 Named::Reduction(k) => self.reduced(k),
-                // refused by `check` as long as nobody computes it
-                Named::Force(..) => self.graph.constant(0.0),
+                // as long as nobody computes it, it has no value
+                Named::Force(..) => {
+                    let (one, zero) = (self.graph.constant(1.0), self.graph.constant(0.0));
+                    self.graph.div(one, zero)
+                }
                 // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
                 Named::Argument => self.graph.constant(0.0),
             };

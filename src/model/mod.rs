@@ -187,12 +187,6 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
-    /// The id of the constraint or driver that has a place among all of them, also before it is there: formulas may name it.
-    #[must_use]
-    pub fn equation_at(place: usize) -> EquationId {
-        EquationId(place as u32)
-    }
-
     /// The ids of the parts, in order.
     pub fn part_ids(&self) -> impl Iterator<Item = PartId> + use<> {
         (0..self.parts.len() as u32).map(PartId)
