@@ -74,6 +74,13 @@ impl Checker<'_> {
                     .map(|quantity| self.name_symbol(Named::Quantity(self.part, quantity), 0))
             }),
         };
+        let coordinates = coordinates.filter(|pair: &[ExprId; 2]| {
+            let is_of_forces = pair.iter().any(|&id| self.holds_force(id));
+            if is_of_forces {
+                self.report(errors::force_in("a trace", "a force", point.span));
+            }
+            !is_of_forces
+        });
         let asked = self.asked_at_times(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {

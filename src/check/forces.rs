@@ -33,12 +33,12 @@ impl<'a> Checker<'a> {
 
     fn mass(&mut self, body: BodyId, feature: &ast::Feature, [mass, at, inertia]: [Option<&Expr>; 3]) -> Option<Mass> {
         let frame = Frame::Body(body);
-        let mass = self.not_negative(frame, mass, "a mass", Dimension::MASS);
+        let mass = self.not_negative(frame, mass, "mass", Dimension::MASS);
         let at = match at {
             Some(at) => self.at_site(Site::Inside(frame), None, |checker| checker.place(frame, at)),
             None => Some(self.origin_of(frame, feature.span)),
         };
-        let inertia = self.not_negative(frame, inertia, "a moment of inertia", Dimension::INERTIA);
+        let inertia = self.not_negative(frame, inertia, "inertia", Dimension::INERTIA);
         Some(Mass { body, mass: mass?, at: at?, inertia: inertia?, span: feature.span })
     }
 
@@ -47,12 +47,13 @@ impl<'a> Checker<'a> {
         self.model.add_point(Point { frame, name: None, span, at: [zero; 2] })
     }
 
-    /// A constant that is not below zero; zero where nothing is said.
-    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, place: &str, wanted: Dimension) -> Option<ExprId> {
+    /// A constant behind a keyword that is not below zero; zero where nothing is said.
+    fn not_negative(&mut self, frame: Frame, e: Option<&Expr>, keyword: &str, wanted: Dimension) -> Option<ExprId> {
         let Some(e) = e else { return Some(self.model.graph.constant(0.0)) };
-        let (id, value) = self.at_site(Site::Inside(frame), None, |checker| checker.constant(e, place, wanted))?;
+        let place = format!("what stands behind `{keyword}`");
+        let (id, value) = self.at_site(Site::Inside(frame), None, |checker| checker.constant(e, &place, wanted))?;
         if value < 0.0 {
-            self.report(errors::negative_mass(place, e.span, value, wanted));
+            self.report(errors::negative_mass(e.span, value, wanted));
             return None;
         }
         Some(id)
@@ -159,11 +160,12 @@ impl Checker<'_> {
     fn quantity_of_load(&mut self, name: &Name, on: &Expr) -> Option<Quantity> {
         let bare = on.bare();
         let ExprKind::Call { name: called, arguments } = &bare.kind else {
-            self.report(errors::load_on_no_quantity(name, on.span, &NoLoad::Formula));
+            let is_sum = matches!(bare.kind, ExprKind::Sum(..));
+            self.report(errors::load_on_no_quantity(name, on.span, if is_sum { &NoLoad::Sum } else { &NoLoad::Other }));
             return None;
         };
         let Some(word) = self.quantity_word(called) else {
-            let fault = if called.text == "der" { NoLoad::Rate } else { NoLoad::Formula };
+            let fault = if called.text == "der" { NoLoad::Rate } else { NoLoad::Other };
             self.report(errors::load_on_no_quantity(name, on.span, &fault));
             return None;
         };
@@ -226,7 +228,7 @@ impl Checker<'_> {
     /// `effort(D)`, `force_x(J)`, `force_y(J)`, `torque(J)`
     pub(super) fn force(&mut self, e: &Expr, name: &Name, arguments: &[Expr], context: &Context<'_>) -> Option<Value> {
         if !context.measures {
-            self.report(errors::force_in(context.place, &name.text, e.span));
+            self.report(errors::force_in(context.place, &format!("`{}`", name.text), e.span));
             return None;
         }
         let [argument] = arguments else {

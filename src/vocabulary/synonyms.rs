@@ -482,7 +482,6 @@ pub static SYNONYMS: &[Synonym] = &[
     unit(&["lb", "lbs", "pound", "pounds"], &["lbm", "lbf"], "a mass is in `lbm`, a force in `lbf`").takes_a_formula(),
     unit(&["newton", "newtons"], &["N"], "was `N` meant?"),
     unit(&["kgf", "kp"], &["N"], "kilograms are no force; `1 kgf` is `9.80665 N`").takes_a_formula(),
-    unit(&["mn"], &["kN"], "neither meganewtons nor millinewtons are a unit; write `1000 kN` or `0.001 N`").takes_a_formula(),
     unit(&["joule", "joules"], &["J"], "was `J` meant?"),
     unit(&["kj", "mj"], &["J"], "write `1000 J` for `1 kJ`").takes_a_formula(),
     unit(&["watt", "watts"], &["W"], "was `W` meant?"),

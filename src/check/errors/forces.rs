@@ -10,13 +10,17 @@ use crate::syntax::ast::Name;
 
 /// What a load works on instead of one quantity of positions.
 pub enum NoLoad<'n> {
-    /// A formula, or something that is none.
-    Formula,
+    /// Several of them.
+    Sum,
+    /// Something else, which is none.
+    Other,
     /// `der(…)`
     Rate,
     /// A quantity that measures alone may hold, by its word.
     OfMeasures(&'n str),
 }
+
+const QUANTITIES: &str = "a load works on `x`, `y`, `angle`, `distance`, `rotation` and `displacement`";
 
 pub fn mass_of_the_ground(span: Span) -> Diagnostic {
     Diagnostic::new(Code::E0312, "the ground has no mass")
@@ -24,8 +28,8 @@ pub fn mass_of_the_ground(span: Span) -> Diagnostic {
         .help("a mass belongs to a body: leave this one out, or give it to the body that carries it")
 }
 
-pub fn negative_mass(place: &str, span: Span, value: f64, dimension: Dimension) -> Diagnostic {
-    Diagnostic::new(Code::E0418, format!("{place} is below zero"))
+pub fn negative_mass(span: Span, value: f64, dimension: Dimension) -> Diagnostic {
+    Diagnostic::new(Code::E0418, format!("{} is below zero", dimension.in_words().trim_end_matches(" (kg*m^2)")))
         .at(span, format!("this is {}", told(value, dimension)))
         .help("what is cut out of a body is not declared: give the body the mass, centre and inertia that are left")
 }
@@ -45,13 +49,12 @@ pub fn gravity_of_a_part(part: &Name, mechanism: &str, gravity: Span) -> Diagnos
 
 pub fn load_on_no_quantity(name: &Name, span: Span, fault: &NoLoad<'_>) -> Diagnostic {
     let (label, help) = match fault {
-        NoLoad::Formula => ("this is none", "a force on a sum of quantities is a load on each of them"),
+        NoLoad::Sum => ("a sum", "a force on a sum of quantities is a load on each of them"),
+        NoLoad::Other => ("this is none", QUANTITIES),
         NoLoad::Rate => {
             ("a rate", "a damper is a load on the quantity whose rate is in its formula: `load d: -c * der(K) on K`")
         }
-        NoLoad::OfMeasures(_) => {
-            ("for measures alone", "a load works on `x`, `y`, `angle`, `distance`, `rotation` and `displacement`")
-        }
+        NoLoad::OfMeasures(_) => ("for measures alone", QUANTITIES),
     };
     let what = match fault {
         NoLoad::OfMeasures(word) => format!("load `{}` cannot work on `{word}`", name.text),
@@ -69,15 +72,12 @@ pub fn load_on_no_body(name: &Name, span: Span) -> Diagnostic {
 /// The text is that of the force.
 pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension, text: &str) -> Diagnostic {
     let fix = force.dimension.is(Dimension::PURE).then(|| with_unit(force.span, text, unit_of_force(wanted))).flatten();
-    let help = match fix {
-        Some(_) => None,
-        None => Some(format!("a load on {} is {}", on.dimension.in_words(), words_of_force(wanted))),
-    };
-    let headline = format!("load `{}` on {} must be {}", name.text, on.dimension.in_words(), words_of_force(wanted));
+    let headline =
+        format!("load `{}` on {} must be {}", name.text, words_of_place(on.dimension), words_of_force(wanted));
     Diagnostic::new(Code::E0419, headline)
         .at(force.span, force.dimension.in_words())
-        .also(on.span, on.dimension.in_words())
-        .help_if(help)
+        .also(on.span, words_of_place(on.dimension))
+        .help("a force works on a length, a torque on an angle: their product is an energy")
         .change(fix)
 }
 
@@ -85,11 +85,16 @@ pub fn load_of_no_energy(name: &Name, [force, on]: [Part; 2], wanted: Dimension,
 pub fn plain_load(name: &Name, span: Span, text: &str, on: Part, wanted: Dimension) -> Diagnostic {
     let help =
         "a number without a unit is a torque where it works on an angle; a force says its unit: `20 N`, `1800 N/m`";
-    Diagnostic::new(Code::E0419, format!("load `{}` on {} holds no unit", name.text, on.dimension.in_words()))
+    Diagnostic::new(Code::E0419, format!("load `{}` on {} holds no unit", name.text, words_of_place(on.dimension)))
         .at(span, "a pure number")
-        .also(on.span, on.dimension.in_words())
+        .also(on.span, words_of_place(on.dimension))
         .help(help)
         .change(with_unit(span, text, unit_of_force(wanted)))
+}
+
+/// Angles are pure numbers.
+fn words_of_place(dimension: Dimension) -> &'static str {
+    if dimension.is(Dimension::PURE) { "an angle" } else { "a length" }
 }
 
 fn unit_of_force(wanted: Dimension) -> &'static str {
@@ -100,8 +105,8 @@ fn words_of_force(wanted: Dimension) -> &'static str {
     if wanted.is(Dimension::FORCE) { "a force (N)" } else { "a torque (N*m)" }
 }
 
-pub fn force_in(place: &str, word: &str, span: Span) -> Diagnostic {
-    Diagnostic::new(Code::E0312, format!("`{word}` may not stand in {place}"))
+pub fn force_in(place: &str, what: &str, span: Span) -> Diagnostic {
+    Diagnostic::new(Code::E0312, format!("{what} may not stand in {place}"))
         .at(span, "comes out of the motion, when that is known")
         .help("efforts and reactions stand in measures and results")
 }
