@@ -232,14 +232,15 @@ fn an_input_is_led_to_a_number_too() {
     let file = sources.add("four_bar.mech", text);
     let tree = syntax::parse(&sources, file).tree;
     // time goes from 1 s to 3 s, and nobody says anything of the other input: 21 deg are added at first, and 63 deg at last
-    let lead = Some(check::Lead { times: [1.0, 3.0], inputs: vec![("turn".to_owned(), 250_f64.to_radians())] });
+    let inputs = vec![("turn".to_owned(), 250_f64.to_radians())];
+    let lead = Some(check::Lead { times: [1.0, 3.0], inputs, params: false });
     let surroundings = check::Surroundings { lead, ..check::Surroundings::default() };
     let (model, said) = check::check(&tree.mechanisms[0], &surroundings, &sources);
     let model = model.unwrap_or_else(|| panic!("{said:?}"));
     let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
     let (determined, _) =
-        analysis::determine(lower::lower(&model), false, Horizon::of_analysis(None)).expect("determined");
+        analysis::determine(lower::lowered(&model), false, Horizon::of_analysis(None)).expect("determined");
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };
@@ -339,4 +340,70 @@ fn a_part_tells_what_it_passed_on_its_way_and_where_it_is_used() {
     for ((_, found), (_, wanted)) in told.iter().zip(wanted) {
         assert!((found - wanted).abs() < 1e-6, "{told:?}");
     }
+}
+
+/// A mechanism with params that are set, led to them from its own values.
+fn led_over(text: &str, set: &[&str]) -> Compiled {
+    let set = set.iter().map(|set| (*set).to_owned()).collect();
+    let checked =
+        Parsed::of("four_bar.mech", text).check(&Choice { set, lead: true, ..Choice::default() }, &Memory::default());
+    let (compiled, said) = checked.compile(Redundant::Refused, &Cancel::default());
+    compiled.unwrap_or_else(|| panic!("{:?} {said:?}", checked.diagnostics()))
+}
+
+const START: &str = "param start = 30 deg";
+
+#[test]
+fn params_that_are_set_are_gone_over_to_along_the_branch() {
+    let mut elsewhere = 0;
+    for links in CRANK_ROCKER.iter().chain(&DRAG_LINK) {
+        let text = |declarations: &str, driver: &str| four_bar(links, declarations, driver);
+        for target in [31.0, 180.0, 359.0, -75.0, -500.0] {
+            let set = format!("start={target} deg");
+            let wanted = followed(text, target);
+            assert!(same_place(&first_row(&led_over(&text(START, "start"), &[&set]), 0.0), &wanted), "{target} deg");
+            // a param that follows from another goes as well, and so does one that is set instead of following
+            let follows = text("param half = 15 deg\n param start = 2 * half", "start");
+            let half = format!("half={} deg", target / 2.0);
+            assert!(same_place(&first_row(&led_over(&follows, &[&half]), 0.0), &wanted), "{target} deg");
+            assert!(same_place(&first_row(&led_over(&follows, &[&set]), 0.0), &wanted), "{target} deg");
+            let alone = compiled(&text("", &format!("{target} deg + 0 rad/s * t")), &[], None);
+            let (rows, _) = run(&alone, &Times::listed(0.0, vec![0.0]));
+            elsewhere += usize::from(rows.first().is_none_or(|row| !same_place(row, &wanted)));
+        }
+    }
+    assert!(elsewhere > 4, "{elsewhere}: estimates alone would have done as well, and this shows nothing");
+}
+
+#[test]
+fn lengths_and_points_lead_as_well() {
+    let text = "mechanism m {
+        param A = (30 mm, 0)
+        param coupler_length = 90 mm
+        ground { point O = (0, 0)  point C = (100 mm, 0) }
+        body crank at (0, 0, 30 deg) { point O = (0, 0)  point A = A }
+        body coupler at (26 mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (coupler_length, 0) }
+        body rocker at (100 mm, 0, 80 deg) { point C = (0, 0)  point B = (70 mm, 0) }
+        joint main:  revolute(ground.O, crank.O)
+        joint left:  revolute(crank.A, coupler.A)
+        joint right: revolute(coupler.B, rocker.B)
+        joint back:  revolute(ground.C, rocker.C)
+        driver motor: rotation(main) = 30 deg
+    }";
+    let row = first_row(&led_over(text, &["coupler_length=100mm", "A.y=10mm"]), 0.0);
+    let place = |body: usize, [x, y]: [f64; 2]| {
+        let [at, to, phi] = [row[1 + 3 * body], row[2 + 3 * body], row[3 + 3 * body]];
+        [at + cos(phi) * x - sin(phi) * y, to + sin(phi) * x + cos(phi) * y]
+    };
+    for (one, other) in [(place(0, [0.03, 0.01]), place(1, [0.0; 2])), (place(1, [0.1, 0.0]), place(2, [0.07, 0.0]))] {
+        assert!((one[0] - other[0]).hypot(one[1] - other[1]) < 1e-12, "{row:?}");
+    }
+    // at 145.5 mm coupler and rocker lie in one line
+    let (rows, said) = run(&led_over(text, &["coupler_length=300mm"]), &Times::listed(0.0, vec![0.0]));
+    assert_eq!((rows.len(), codes(&said)), (0, vec!["E0612", "E0601"]));
+    let told = said.iter().next().expect("a diagnostic");
+    assert!(
+        told.message
+            .starts_with("on the way to the values that are set there is a dead point at `coupler_length` = 0.1455238")
+    );
 }

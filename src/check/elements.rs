@@ -133,7 +133,8 @@ impl Checker<'_> {
                     if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        let equation = Equation { declared, driver, form, dimension, written };
+                        let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
+                        let equation = Equation { declared, driver, form, dimension, is_angle, written };
                         self.equations[k] = Some(self.model.add_equation(equation));
                     }
                 }
@@ -159,6 +160,7 @@ impl Checker<'_> {
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
+    /// What an equation says, and the dimension of its sides.
     fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dimension)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
@@ -198,7 +200,7 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
+        let alike = self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
                 self.remember_any_length(side, value.id, context.judged);
@@ -227,8 +229,18 @@ impl Checker<'_> {
             }
             return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
         }
-        let dimension = dimension_of_sides([a, b]);
-        Some((EquationForm::Equality(a.id, b.id), dimension))
+        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)], &context) };
+        Some((EquationForm::Equality(a.id, b.id), dim.settled()))
+    }
+
+    /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
+    /// whatever is wanted.
+    fn plain_dimension(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Dim {
+        let telling: Vec<(&Expr, Value)> = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).collect();
+        let known = telling.iter().find_map(|&(side, value)| self.known_dimension(side, value, context));
+        // where numbers hide it in both, what is read as more than a number
+        let read = || telling.iter().map(|(_, value)| value.dim).find(|&dim| dim != Dim::PURE).unwrap_or(Dim::PURE);
+        known.map_or_else(read, Dim::Of)
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.
@@ -316,13 +328,6 @@ impl Checker<'_> {
         }
         self.model.analysis = Some(Analysis { from: start, to: end, every: step, span });
     }
-}
-
-/// The dimension of both sides of an equation. A plain number is taken in the unit of what it stands beside, so that only what has a
-/// dimension tells.
-pub(super) fn dimension_of_sides(sides: [Value; 2]) -> Dimension {
-    let dimensions = sides.into_iter().map(|side| side.dim.settled());
-    dimensions.into_iter().find(|dimension| !dimension.is(Dimension::PURE)).unwrap_or(Dimension::PURE)
 }
 
 /// How the formula of a measure is read.

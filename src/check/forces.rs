@@ -370,11 +370,11 @@ impl Checker<'_> {
         }
     }
 
-    /// Whether a driver or constraint works on an angle, or on another pure number.
+    /// Whether a driver or constraint works on an angle.
     fn turns(&self, e: &Expr) -> bool {
         let ExprKind::Name(name) = &e.bare().kind else { return false };
         let Some(Entity::Equation(k)) = self.entity(name) else { return false };
         let equation = self.equations.get(k).copied().flatten();
-        equation.is_some_and(|equation| self.model[equation].dimension.is(Dimension::PURE))
+        equation.is_some_and(|equation| self.model[equation].is_angle)
     }
 }

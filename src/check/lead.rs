@@ -1,4 +1,4 @@
-//! A mechanism on its way from its own inputs to others: each of them, and time, on a straight line.
+//! A mechanism on its way from its own inputs and parameters to others: each of them, and time, on a straight line.
 //!
 //! The model that comes out has no time of its own: what stands in the place of time goes from 0, where inputs are what the text says, to
 //! 1, where they are what they are told to be. Its motion is no motion of the mechanism, but leads from one start to another.
@@ -6,7 +6,7 @@
 use super::formula::{Dim, Value};
 use super::{Checker, errors};
 use crate::expr::{ExprId, Symbol};
-use crate::model::{Condition, Led};
+use crate::model::{Condition, Declared, Dimension, Led};
 use crate::syntax::ast::Name;
 
 /// Where a mechanism is led.
@@ -16,6 +16,8 @@ pub struct Lead {
     pub times: [f64; 2],
     /// The inputs that are led to a number (SI), by their names; the others are led to what they are at the last time.
     pub inputs: Vec<(String, f64)>,
+    /// Whether parameters that are set go from what the text says to what they are set to; else they are that all the way.
+    pub params: bool,
 }
 
 /// What an input may need to have a value: conditions of the text's own formula, and of what it is told to be.
@@ -55,8 +57,20 @@ impl Checker<'_> {
             Dim::Of(dimension) => dimension,
             Dim::Any => Dim::PURE.settled(),
         };
-        self.model.led.push(Led { declared, line, dimension });
+        self.model.led.push(Led { declared, param: None, line, dimension });
         Some(Value { id: self.along_a_line(line), ..told })
+    }
+
+    /// The value with which a parameter begins (SI), which has one by the text and another one that it is set to; on the way from the one
+    /// to the other `lower` leads it.
+    pub(super) fn led_param(&mut self, declared: &Declared, own: ExprId, set: f64, dimension: Dimension) -> f64 {
+        let from = self.value_on_the_way(own, 0.0);
+        if !self.lead.is_some_and(|lead| lead.params) || from.to_bits() == set.to_bits() || !from.is_finite() {
+            return set;
+        }
+        let param = Some(self.model.params.len() as u32);
+        self.model.led.push(Led { declared: declared.clone(), param, line: [from, set], dimension });
+        from
     }
 
     /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.

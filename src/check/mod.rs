@@ -690,11 +690,18 @@ impl<'a> Checker<'a> {
                 }
             }
         };
-        self.settable(self.declared(name), &name.text, docs, value)
+        self.settable(self.declared(name), &name.text, docs, in_file.id, value)
     }
 
-    /// A number that is a parameter of the model, unless it follows from others.
-    fn settable(&mut self, declared: Declared, name: &str, docs: &[String], value: Value) -> Option<Value> {
+    /// A number that is a parameter of the model, unless it follows from others; `own` is what it is by the text.
+    fn settable(
+        &mut self,
+        declared: Declared,
+        name: &str,
+        docs: &[String],
+        own: ExprId,
+        value: Value,
+    ) -> Option<Value> {
         if self.follows(value.id) {
             return Some(self.with_shift(&declared, value));
         }
@@ -705,15 +712,12 @@ impl<'a> Checker<'a> {
         }
         let index = self.model.params.len() as u32;
         self.note_param(&declared, Symbol::Param(index), value.dim);
-        self.model.params.push(Param {
-            declared,
-            docs: docs.to_vec(),
-            value: number,
-            dimension: match value.dim {
-                Dim::Of(dimension) => dimension,
-                Dim::Any => Dimension::PURE,
-            },
-        });
+        let dimension = match value.dim {
+            Dim::Of(dimension) => dimension,
+            Dim::Any => Dimension::PURE,
+        };
+        let number = self.led_param(&declared, own, number, dimension);
+        self.model.params.push(Param { declared, docs: docs.to_vec(), value: number, dimension });
         Some(Value { id: self.model.graph.symbol(Symbol::Param(index)), dim: value.dim })
     }
 
@@ -723,6 +727,7 @@ impl<'a> Checker<'a> {
         if self.bound_param(name).is_some() {
             Drawn { at, dimensional } = self.point_as_bound(name, Drawn { at, dimensional })?;
         }
+        let own = at;
         for (coordinate, setting) in self.settings_of(name) {
             let given = self.point_given(name, coordinate, setting, Drawn { at, dimensional })?;
             (at, dimensional) = (given.at, given.dimensional);
@@ -732,7 +737,7 @@ impl<'a> Checker<'a> {
             // a zero has no sign here: in a direction it would count
             let is_zero = self.constant_value(at[k]) == Some(0.0);
             let id = if is_zero && !self.follows(at[k]) { self.model.graph.constant(0.0) } else { at[k] };
-            self.settable(declared, &name.text, docs, Value { id, dim: Dim::LENGTH })
+            self.settable(declared, &name.text, docs, own[k], Value { id, dim: Dim::LENGTH })
         };
         let (x, y) = (coordinate(0, "x")?, coordinate(1, "y")?);
         Some(Drawn { at: [x.id, y.id], dimensional })

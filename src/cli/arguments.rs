@@ -374,6 +374,7 @@ pub(super) struct Interval {
 }
 
 #[derive(Args, Debug)]
+#[allow(clippy::struct_excessive_bools)] // each is an option of its own
 pub(super) struct RunArguments {
     #[command(flatten)]
     pub input: Input,
@@ -400,6 +401,10 @@ pub(super) struct RunArguments {
     /// Differentiate every column by an input or parameter too: `--by turn` adds `crank.phi.by.turn` and so on. Repeatable
     #[arg(long, value_name = "NAME")]
     pub by: Vec<String>,
+
+    /// Assemble with the file's own values, and go over to those of `--set` along the branch
+    #[arg(long)]
+    pub lead: bool,
 
     /// Bounds the residual of every equation, relative to the mechanism's size
     #[arg(long, value_name = "X", default_value = "1e-12", value_parser = positive)]

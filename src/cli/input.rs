@@ -21,35 +21,24 @@ pub(super) fn compiled(
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
-    compiled_by(parsed, (input, &[]), allow_redundant, reporter, timings)
+    compiled_as(parsed, &choice(input), allow_redundant, reporter, timings)
 }
 
-/// The same, with the names by which its columns are differentiated.
-pub(super) fn compiled_by(
+/// The same of what is chosen.
+pub(super) fn compiled_as(
     parsed: &Parsed,
-    (input, by): (&Input, &[String]),
+    choice: &Choice,
     allow_redundant: bool,
     reporter: &mut Reporter,
     timings: &mut Timings,
 ) -> Result<Compiled, Failure> {
-    Ok(checked_and_compiled(parsed, (input, by), allow_redundant, reporter, timings)?.1)
-}
-
-/// The same, with the stage before.
-pub(super) fn checked_and_compiled(
-    parsed: &Parsed,
-    (input, by): (&Input, &[String]),
-    allow_redundant: bool,
-    reporter: &mut Reporter,
-    timings: &mut Timings,
-) -> Result<(ManuallyDrop<Checked>, Compiled), Failure> {
     // see `run`: nothing is taken apart before the process ends
-    let checked = ManuallyDrop::new(checked(parsed, input, by, reporter)?);
+    let checked = ManuallyDrop::new(checked_in(parsed, choice, &Disk, reporter)?);
     timings.end(Phase::Check);
     let (compiled, said) = proven(&checked, allow_redundant);
     let compiled = reporter.settle(compiled, said)?;
     timings.end(Phase::Prove);
-    Ok((checked, compiled))
+    Ok(compiled)
 }
 
 /// The proof of a mechanism, with what is to be said of it.
@@ -61,7 +50,7 @@ pub(super) fn proven(checked: &Checked, allow_redundant: bool) -> (Option<Compil
 /// Reads and checks the mechanism of a command, which need not be determined; prints its warnings.
 pub(super) fn model(input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
     let parsed = parsed(input, reporter)?;
-    checked(&parsed, input, &[], reporter)
+    checked(&parsed, input, reporter)
 }
 
 /// Reads the file of a command.
@@ -82,24 +71,18 @@ pub(super) fn path(input: &Input) -> &Path {
 }
 
 /// Checks the mechanism of a command, and prints its warnings.
-pub(super) fn checked(
-    parsed: &Parsed,
-    input: &Input,
-    by: &[String],
-    reporter: &mut Reporter,
-) -> Result<Checked, Failure> {
-    checked_in(parsed, &choice(input, by), &Disk, reporter)
+pub(super) fn checked(parsed: &Parsed, input: &Input, reporter: &mut Reporter) -> Result<Checked, Failure> {
+    checked_in(parsed, &choice(input), &Disk, reporter)
 }
 
 /// What the options of a command choose.
-pub(super) fn choice(input: &Input, by: &[String]) -> Choice {
+pub(super) fn choice(input: &Input) -> Choice {
     Choice {
         mechanism: input.mechanism.clone(),
         set: input.set.clone(),
-        varied: Vec::new(),
         inputs: input.signals.clone(),
         samples: input.samples.clone(),
-        by: by.to_vec(),
+        ..Choice::default()
     }
 }
 

@@ -14,7 +14,7 @@ use crate::analysis::Answers;
 use crate::diag::Diagnostics;
 use crate::layout::ColumnUnit;
 use crate::output::{TableFormat, TableWriter};
-use crate::stages::{Run, RunOptions};
+use crate::stages::{Choice, Run, RunOptions};
 use std::io::IsTerminal;
 use std::mem::ManuallyDrop;
 
@@ -24,8 +24,8 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     // the process ends with the command: to take a large mechanism apart first would only take time
     let parsed = ManuallyDrop::new(input::parsed(&arguments.input, reporter)?);
     timings.end(Phase::Parse);
-    let asked = (&arguments.input, arguments.by.as_slice());
-    let compiled = input::compiled_by(&parsed, asked, arguments.allow_redundant, reporter, &mut timings)?;
+    let choice = Choice { by: arguments.by.clone(), lead: arguments.lead, ..input::choice(&arguments.input) };
+    let compiled = input::compiled_as(&parsed, &choice, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;
     let output = Output::open(&arguments.output, &reporter.spared())?;

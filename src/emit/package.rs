@@ -272,7 +272,7 @@ impl Writer<'_> {
         };
         let names = Params::new(self.unit.system).paths;
         let rows = params.iter().zip(&names).map(|(param, name)| {
-            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit), literal(param.value)]
+            [format!("`{name}`"), format!("`{}`", param.name), unit(&param.unit()), literal(param.value)]
         });
         let rows: String = rows.map(|cells| line(&cells)).collect();
         let (field, value) = (&names[0], literal(first.value));

@@ -1,13 +1,13 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
 use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute};
-use super::equations::Equations;
+use super::equations::{ARRAYS, Equations};
 use super::names::Names;
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
 use super::{Motion, Unit};
-use crate::layout::RowLayout;
+use crate::layout::{Holds, row_holds};
 use crate::program::{Column, Register};
 use crate::solver::{Instruction, Segment, Solver};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
@@ -22,12 +22,15 @@ pub(super) struct Solution<'s> {
     pub known: FxHashMap<Register, usize>,
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
+    /// What the columns hold that operations leave values in.
+    holds: Vec<Holds>,
 }
 
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined(&motion.solver);
-        let mut solution = Solution { unit, motion, equations, known: FxHashMap::default(), joined };
+        let mut solution =
+            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
         let instructions = || {
             let sensitive = motion.sensitive.iter().flat_map(Solver::instructions);
             motion.solver.instructions().iter().chain(sensitive)
@@ -121,8 +124,7 @@ impl<'s> Solution<'s> {
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         self.note(solver, has_lanes);
-        let layout = *solver.layout();
-        code.print(&SolverScene { solution: self, solver, layout, has_lanes }, &function)
+        code.print(&SolverScene { solution: self, solver, has_lanes }, &function)
     }
 
     /// Notes what a solver's operations use as lines.
@@ -164,8 +166,7 @@ impl<'s> Solution<'s> {
             margin: 0,
         };
         self.note(solver, false);
-        let layout = *solver.layout();
-        Some(code.print(&SolverScene { solution: self, solver, layout, has_lanes: false }, &function))
+        Some(code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function))
     }
 
     /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
@@ -223,6 +224,17 @@ impl<'s> Solution<'s> {
         page.text(&tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words));
     }
 
+    /// What a column holds.
+    fn holds(&self, column: u32) -> Holds {
+        debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
+        self.holds.get(column as usize).copied().unwrap_or(Holds::Time)
+    }
+
+    /// The place of a column among those that are joined.
+    fn joined(&self, column: u32) -> Option<usize> {
+        self.joined.binary_search(&column).ok()
+    }
+
     /// The column of the first derivative by parameters.
     pub fn first_by_params(&self) -> u32 {
         self.results() + self.joined.len() as u32
@@ -237,14 +249,17 @@ impl<'s> Solution<'s> {
     /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
     /// behind that the derivatives by parameters.
     fn listed(&self, op: Instruction) -> Instruction {
-        let (layout, results) = (self.motion.solver.layout(), self.results());
-        let place = |column: u32| match self.joined.binary_search(&column) {
-            Ok(place) => results + place as u32,
-            Err(_) if column >= layout.by_signal => {
-                let place = column - layout.by_signal + layout.printed as u32;
-                if place < results { place } else { place + self.joined.len() as u32 }
+        let inputs = &self.unit.program.inputs;
+        let place = |column: u32| match (self.joined(column), self.holds(column)) {
+            (Some(place), _) => self.results() + place as u32,
+            (None, Holds::Slope { of, by }) => {
+                let (of, by) = (of as u32, by as u32);
+                match by.checked_sub(inputs.count) {
+                    None => self.motion.solver.layout().printed as u32 + by * inputs.n + of,
+                    Some(param) => self.first_by_params() + param * inputs.n + of,
+                }
             }
-            Err(_) => column,
+            (None, _) => column,
         };
         match op {
             Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
@@ -307,7 +322,6 @@ pub(super) fn wrapped(text: &str) -> String {
 struct SolverScene<'s> {
     solution: &'s Solution<'s>,
     solver: &'s Solver,
-    layout: RowLayout,
     has_lanes: bool,
 }
 
@@ -315,26 +329,6 @@ impl SolverScene<'_> {
     /// What picks a lane.
     fn lane(&self) -> &'static str {
         if self.has_lanes { "[k]" } else { "" }
-    }
-
-    /// The place of a column among those that are joined.
-    fn joined(&self, column: u32) -> Option<usize> {
-        self.solution.joined.binary_search(&column).ok()
-    }
-
-    /// The kind of a column, its order and its number there.
-    fn kind(&self, column: u32) -> (bool, usize, usize) {
-        let n = self.solution.unit.program.inputs.n;
-        for order in (0..4).rev() {
-            let first = self.layout.coordinates[order];
-            if column >= first && column < first + n {
-                return (true, order, (column - first) as usize);
-            }
-            if order < 3 && column >= self.layout.measures[order] {
-                return (false, order, (column - self.layout.measures[order]) as usize);
-            }
-        }
-        (true, 0, 0)
     }
 }
 
@@ -356,31 +350,34 @@ impl Scene for SolverScene<'_> {
     }
 
     fn place(&self, column: u32) -> String {
-        if let Some(place) = self.joined(column) {
+        if let Some(place) = self.solution.joined(column) {
             return format!("at.joined[{place}]{}", self.lane());
         }
-        if let Some(k) = column.checked_sub(self.layout.by_signal) {
-            let inputs = &self.solution.unit.program.inputs;
-            let (number, k) = (k / inputs.n, k % inputs.n);
-            return match number.checked_sub(inputs.count) {
-                None => format!("at.along.by_signal[{number}][{k}]"),
-                Some(param) => format!("by[{param}][{k}]"),
-            };
-        }
-        match self.kind(column) {
-            (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
-            (false, order, k) => {
+        let held = self.solution.holds(column);
+        match held {
+            Holds::Coordinate { index, order } => format!("at.{}[{index}]{}", ARRAYS[order], self.lane()),
+            Holds::Measure { order, .. } => {
                 let of = if self.has_lanes { "" } else { "measures." };
-                format!("at.{of}{}[{k}]{}", ["values", "rates", "accelerations"][order], self.lane())
+                let place = column - self.solver.layout().measures[order];
+                format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane())
+            }
+            Holds::Slope { of, by } => match by.checked_sub(self.solution.unit.program.inputs.count as usize) {
+                None => format!("at.along.by_signal[{by}][{of}]"),
+                Some(param) => format!("by[{param}][{of}]"),
+            },
+            Holds::Time | Holds::Appended(_) | Holds::Varied => {
+                debug_assert!(false, "no code has a place for {held:?}");
+                String::new()
             }
         }
     }
 
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
-        match self.kind(column) {
-            _ if column >= self.layout.by_signal || self.joined(column).is_some() => None,
-            (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
+        match self.solution.holds(column) {
+            Holds::Coordinate { index, order } if order < 3 => {
+                Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
+            }
             _ => None,
         }
     }
@@ -394,8 +391,9 @@ impl Scene for SolverScene<'_> {
     }
 
     fn store(&self, column: u32, value: &str) -> Option<String> {
-        match self.kind(column) {
-            (true, 3, _) if column < self.layout.by_signal && self.joined(column).is_none() => None,
+        match self.solution.holds(column) {
+            // third derivatives are no results
+            Holds::Coordinate { order: 3, .. } if self.solution.joined(column).is_none() => None,
             _ => match value.parse::<f64>() {
                 // +0 where it is −0
                 Ok(number) => Some(number + 0.0)

@@ -3,10 +3,12 @@
 //! 1989).
 
 mod contacts;
+mod features;
 mod frames;
 mod gears;
 mod inputs;
 mod joints;
+mod led;
 mod numbering;
 mod parts;
 mod quantities;
@@ -20,11 +22,10 @@ mod velocities;
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
 };
 use crate::model::{
-    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
-    Quantity,
+    self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use crate::tolerances::scales::size::FAR_FRAME;
 use numbering::Numbering;
@@ -38,6 +39,7 @@ const HOLDS_JERK: u8 = 2;
 pub fn lower(model: &Mechanism) -> ConstraintSystem {
     let mut lowering = Lowering::of(model);
     let mut system = lowering.written();
+    led::lead_params(model, &mut system);
     let with_jerk = needs_jerk(model, &system);
     system.derive(with_jerk);
     system.derive_variations();
@@ -47,6 +49,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     if !model.outcomes.is_empty() {
         lowering.ask_of_the_whole(&mut system);
     }
+    lowering.add_features(&mut system);
     debug_assert_eq!(system.validate(), Ok(()));
     system
 }
@@ -71,7 +74,7 @@ fn params(model: &Mechanism) -> Vec<Param> {
         name: param.declared.name.clone(),
         part: path(&param.declared.name),
         value: param.value,
-        unit: param.dimension.unit(),
+        dimension: param.dimension,
         span: param.declared.span,
     };
     model.params.iter().map(param).collect()
@@ -142,6 +145,22 @@ fn carry(
 fn units(of: &model::Units) -> Units {
     let model::Units { si, printed, scale } = of.clone();
     Units { si, printed, scale }
+}
+
+/// An entry of `Φ`, and what it is measured in.
+type Entry = (ExprId, RowUnit);
+
+/// Some that are measured in the same.
+fn entries<const N: usize>(unit: RowUnit, phi: [ExprId; N]) -> Vec<Entry> {
+    phi.map(|phi| (phi, unit)).to_vec()
+}
+
+/// What the row of an equation is measured in: as its sides, but of a distance the squares.
+fn unit_of(equation: &model::Equation) -> RowUnit {
+    match equation.form {
+        EquationForm::Equality(..) => RowUnit { dimension: equation.dimension, is_angle: equation.is_angle },
+        EquationForm::Distance(..) => RowUnit::AREA,
+    }
 }
 
 impl<'m> Lowering<'m> {
@@ -335,22 +354,10 @@ impl Lowering<'_> {
         result
     }
 
-    fn declare(
-        &mut self,
-        declared: &crate::model::Declared,
-        kind: DeclarationKind,
-        phi: &[ExprId],
-        points: &[PointId],
-        axes: &[AxisId],
-    ) {
+    fn declare(&mut self, declared: &crate::model::Declared, kind: DeclarationKind, phi: &[Entry], points: &[PointId]) {
         let declaration = self.declarations.next_id();
         let (name, span) = (declared.name.clone(), declared.span);
         let points: Vec<ir::PointId> = points.iter().copied().map(same_point).collect();
-        let written = |&axis: &AxisId| {
-            let axis = &self.model[axis];
-            format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
-        };
-        let axes = axes.iter().map(written).collect();
         self.declarations.push(Declaration {
             name,
             span,
@@ -358,11 +365,13 @@ impl Lowering<'_> {
             rows: phi.len(),
             features: points.clone(),
             points,
-            axes,
+            axes: Vec::new(),
+            circles: Vec::new(),
+            at: None,
             written: None,
             is_spoken_of: false,
         });
-        self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
+        self.rows.extend(phi.iter().map(|&(phi, unit)| Row { declaration, phi, unit }));
     }
 
     fn joint_rows(&mut self) {
@@ -370,7 +379,12 @@ impl Lowering<'_> {
         for joint in &model.joints {
             let phi = self.joint(joint);
             let kind = DeclarationKind::Joint(joint.kind.plain());
-            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
+            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
+            if let Some(declaration) = self.declarations.last_mut() {
+                // both have the same, in the same order
+                declaration.axes = joint.kind.axes().into_iter().map(|axis| axis.index().into()).collect();
+                declaration.circles = joint.kind.circles().into_iter().map(|circle| circle.index().into()).collect();
+            }
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
@@ -388,8 +402,8 @@ impl Lowering<'_> {
                     EquationForm::Equality(..) => Vec::new(),
                     EquationForm::Distance(p, q, _) => vec![p, q],
                 };
-                let phi = self.equation_row(equation.form);
-                self.declare(&equation.declared, kind, &[phi], &points, &[]);
+                let entry = (self.equation_row(equation.form), unit_of(equation));
+                self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
                     declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();

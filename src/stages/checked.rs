@@ -27,6 +27,8 @@ pub struct Choice {
     pub mechanism: Option<String>,
     /// `NAME=FORMULA`; the last of one name counts.
     pub set: Vec<String>,
+    /// Whether it is assembled with the file's own values, and led over to those of `set` along the branch.
+    pub lead: bool,
     /// The same of what varies from one run to the next, over those of `set`: messages name it so.
     pub varied: Vec<String>,
     /// What inputs are: `NAME=FORMULA`, each name once.
@@ -135,7 +137,8 @@ impl Checked {
         let given = given(choice, world, &mut sources);
         let files = table_files(&library, with_parts(&library, tree, &sources), world, &mut sources);
         let (mut model, mut leading, mut checked_with) = (None, None, Surroundings::default());
-        let is_told = !choice.inputs.is_empty() || choice.samples.is_some();
+        let leads_params = choice.lead && !choice.set.is_empty();
+        let is_told = !choice.inputs.is_empty() || choice.samples.is_some() || leads_params;
         let spaceless = |name: &String| syntax::normalized(name).chars().filter(|c| !c.is_whitespace()).collect();
         let by = choice.by.iter().map(spaceless).collect();
         match (settings, given) {
@@ -154,12 +157,35 @@ impl Checked {
                 let sources = sources.clone();
                 let has_parts = model.as_ref().is_some_and(|model| !model.parts.is_empty());
                 let read = parsed.shared();
-                leading =
-                    (is_told || has_parts).then(|| Arc::new(Leading { read, number, surroundings, sources, is_told }));
+                leading = (is_told || has_parts)
+                    .then(|| Arc::new(Leading { read, number, surroundings, sources, is_told, leads_params }));
             }
         }
         let checked = Checked::with(parsed.with_sources(sources), Some(number), library, model, diagnostics);
-        Checked { leading, surroundings: Arc::new(checked_with), ..checked }
+        let checked = Checked { leading, surroundings: Arc::new(checked_with), ..checked };
+        if leads_params { checked.unless_counts_are_led() } else { checked }
+    }
+
+    /// Refuses to lead what decides how often something is there: no way leads from one number of bodies to another.
+    fn unless_counts_are_led(mut self) -> Checked {
+        let is_led =
+            |path: &str| ["", ".x", ".y"].iter().any(|axis| self.param_in_part(&format!("{path}{axis}")).is_some());
+        let settings = self.surroundings.settings.iter();
+        let counts =
+            settings.filter(|setting| self.is_sound() && !is_led(&setting.path)).map(|Setting { path, value }| {
+                let said = format!(
+                    "`{path}` decides what is repeated, and nothing leads from one number of bodies to another"
+                );
+                Diagnostic::new(Code::E0706, said).at(value.span, "").help("leave `--lead` out, or this setting")
+            });
+        let mut refused = Diagnostics::default();
+        refused.extend(counts.collect::<Vec<_>>());
+        if !refused.is_empty() {
+            self.model = None;
+            refused.extend((*self.diagnostics).clone());
+            self.diagnostics = Arc::new(refused);
+        }
+        self
     }
 
     /// The model in which inputs are signals, where there are any.

@@ -23,13 +23,15 @@ const TOLD: usize = 8;
 /// What it takes to lead a mechanism to the inputs that it is told, and its parts to theirs.
 #[derive(Debug)]
 pub(super) struct Leading {
-    pub read: Arc<syntax::Parsed>,
+    pub read: Arc<syntax::ParsedText>,
     /// Its number in the file.
     pub number: usize,
     pub surroundings: Surroundings,
     pub sources: Sources,
-    /// Whether it is told inputs.
+    /// Whether it is told inputs, or parameters that are led.
     pub is_told: bool,
+    /// Whether parameters that are set are led from what they are by the text.
+    pub leads_params: bool,
 }
 
 impl Leading {
@@ -45,6 +47,7 @@ impl Leading {
         let mut starts = Starts {
             surroundings: &self.surroundings,
             sources: &self.sources,
+            leads_params: self.leads_params,
             leave_out_redundant,
             options,
             alone: FxHashMap::default(),
@@ -110,6 +113,7 @@ type Key = (Span, Vec<u64>, String);
 struct Starts<'s> {
     surroundings: &'s Surroundings,
     sources: &'s Sources,
+    leads_params: bool,
     leave_out_redundant: bool,
     options: &'s LeadOptions,
     alone: FxHashMap<Key, Option<Rc<Alone>>>,
@@ -121,14 +125,15 @@ struct Starts<'s> {
 impl<'s> Starts<'s> {
     fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
-        let lead = Some(Lead { times, inputs: Vec::new() });
+        let lead = Some(Lead { times, inputs: Vec::new(), params: self.leads_params });
         let led = Surroundings { lead, by: Vec::new(), ..self.surroundings.clone() };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
         let from = if whole.0.system().parts.is_empty() {
             None
         } else {
-            let own = Surroundings { given: Given::default(), by: Vec::new(), ..self.surroundings.clone() };
+            let settings = if self.leads_params { Vec::new() } else { self.surroundings.settings.clone() };
+            let own = Surroundings { given: Given::default(), settings, by: Vec::new(), ..self.surroundings.clone() };
             Some(self.assembled(tree, own)?.q)
         };
         // if alone it is nowhere, there is nothing to lead
@@ -244,7 +249,8 @@ impl<'s> Starts<'s> {
         let ToLead { start, ref alone, inputs, .. } = parts[line.farthest];
         let times = [alone.t, t];
         let targets = start.inputs.iter().zip(inputs).map(|((name, _), value)| (name.clone(), *value)).collect();
-        let led = Surroundings { lead: Some(Lead { times, inputs: targets }), ..alone.surroundings.clone() };
+        let led =
+            Surroundings { lead: Some(Lead { times, inputs: targets, params: false }), ..alone.surroundings.clone() };
         let Some((whole, inputs, span)) = self.text_of(start).and_then(|tree| self.compiled(tree, &led)) else {
             return;
         };
@@ -380,7 +386,7 @@ fn not_led(
     let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
     let here = here.unwrap_or_default();
     let message = match of {
-        None => format!("on the way to the inputs that are given there is {what}{here}"),
+        None => format!("on the way to {} there is {what}{here}", aim(&moving)),
         Some(of) => format!("on the way of the part `{}` to its inputs there is {what}{here}", of.name),
     };
     let mut diagnostic = Diagnostic::new(Code::E0612, message);
@@ -395,7 +401,11 @@ fn not_led(
     let (tried, mend) = match of {
         None => (
             "the estimates in `at` alone are tried instead, which may mean another branch",
-            "give the input a formula of its own from which a way leads to what is given",
+            if is_of_params(&moving) {
+                "set a value from before that"
+            } else {
+                "give the input a formula of its own from which a way leads to what is given"
+            },
         ),
         Some(_) => (
             "the part is assembled with the whole instead, which may mean another branch",
@@ -413,7 +423,7 @@ fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, wh
     let moving: Vec<&Led> = inputs.iter().filter(|input| input.line[0].total_cmp(&input.line[1]).is_ne()).collect();
     let here = moving.first().map(|input| format!(" at `{}` = {}", input.declared.name, value_at(input, part)));
     let way = match of {
-        None => "on the way to the inputs that are given".to_owned(),
+        None => format!("on the way to {}", aim(&moving)),
         Some(of) => format!("on the way of the part `{}` to its inputs", of.name),
     };
     let message = format!(
@@ -439,7 +449,16 @@ fn passed(of: Option<&PartStart>, inputs: &[Led], times: [f64; 2], part: f64, wh
     diagnostic.datum("part", part).datum("t", times[0] + (times[1] - times[0]) * part)
 }
 
-/// The value of an input at a part of its way, with its unit.
+fn is_of_params(moving: &[&Led]) -> bool {
+    moving.iter().any(|led| led.param.is_some())
+}
+
+/// What a mechanism is led to.
+fn aim(moving: &[&Led]) -> &'static str {
+    if is_of_params(moving) { "the values that are set" } else { "the inputs that are given" }
+}
+
+/// The value of an input or a parameter at a part of its way, with its unit.
 fn value_at(input: &Led, part: f64) -> String {
     let [from, to] = input.line;
     let value = from + (to - from) * part;

@@ -35,6 +35,8 @@ pub use emitted::RustOptions;
 pub use formula::{Formula, NAMES};
 pub use imported::imported;
 pub use known::{Declaration, Interface};
+#[cfg(feature = "rooms")]
+pub use lowered::lowered;
 pub use parsed::Parsed;
 pub use run::{Assembly, Run, RunOptions};
 pub use seen::Seen;

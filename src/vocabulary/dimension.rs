@@ -16,6 +16,8 @@ impl Dimension {
     pub const PURE: Dimension = Dimension::of(0.0, 0.0, 0.0);
     /// A length.
     pub const LENGTH: Dimension = Dimension::of(1.0, 0.0, 0.0);
+    /// An area.
+    pub const AREA: Dimension = Dimension::of(2.0, 0.0, 0.0);
     /// A time.
     pub const TIME: Dimension = Dimension::of(0.0, 1.0, 0.0);
     /// One over a time.
@@ -50,6 +52,12 @@ impl Dimension {
         near(self.length, other.length) && near(self.time, other.time) && near(self.mass, other.mass)
     }
 
+    /// Whether it is one.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.length.is_finite() && self.time.is_finite() && self.mass.is_finite()
+    }
+
     /// Of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
@@ -79,7 +87,7 @@ impl Dimension {
             (Dimension::ANGULAR_ACCELERATION, "an angular acceleration (1/s^2)"),
             (Dimension::SPEED, "a speed (m/s)"),
             (Dimension::ACCELERATION, "an acceleration (m/s^2)"),
-            (Dimension::of(2.0, 0.0, 0.0), "an area (m^2)"),
+            (Dimension::AREA, "an area (m^2)"),
             (Dimension::MASS, "a mass"),
             (Dimension::INERTIA, "a moment of inertia (kg*m^2)"),
             (Dimension::FORCE, "a force (N)"),
@@ -91,6 +99,16 @@ impl Dimension {
             .iter()
             .find(|(known, _)| self.is(*known))
             .map_or_else(|| format!("a quantity in {}", self.unit()), |(_, words)| (*words).to_owned())
+    }
+
+    /// As [`Dimension::unit`], angles told from other pure numbers: `rad/s` for a turning speed.
+    #[must_use]
+    pub fn unit_of(self, is_angle: bool) -> String {
+        let unit = self.unit();
+        match unit.strip_prefix('1') {
+            Some(rest) if is_angle => format!("rad{rest}"),
+            _ => unit,
+        }
     }
 
     /// As a product of SI units: `m^2/s`; `1` for a pure number. Where there is mass it is said by the force, so that a torque is

@@ -142,49 +142,49 @@ pub mod coordinate {
     pub const GAUGE_PHI: usize = 20;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 41
+    /// joint `main 1` (m), line 41
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 41
+    /// joint `main 2` (m), line 41
     pub const MAIN_2: usize = 1;
-    /// joint `seam 1`, line 42
+    /// joint `seam 1` (m), line 42
     pub const SEAM_1: usize = 2;
-    /// joint `seam 2`, line 42
+    /// joint `seam 2` (m), line 42
     pub const SEAM_2: usize = 3;
-    /// joint `seam 3`, line 42
+    /// joint `seam 3` (rad), line 42
     pub const SEAM_3: usize = 4;
-    /// joint `pivot 1`, line 43
+    /// joint `pivot 1` (m), line 43
     pub const PIVOT_1: usize = 5;
-    /// joint `pivot 2`, line 43
+    /// joint `pivot 2` (m), line 43
     pub const PIVOT_2: usize = 6;
-    /// joint `strut`, line 44
+    /// joint `strut` (m^2), line 44
     pub const STRUT: usize = 7;
-    /// joint `guide 1`, line 45
+    /// joint `guide 1` (m), line 45
     pub const GUIDE_1: usize = 8;
-    /// joint `guide 2`, line 45
+    /// joint `guide 2` (a pure number), line 45
     pub const GUIDE_2: usize = 9;
-    /// joint `block`, line 46
+    /// joint `block` (m), line 46
     pub const BLOCK: usize = 10;
-    /// constraint `stone_turn`, line 48
+    /// constraint `stone_turn` (rad), line 48
     pub const STONE_TURN: usize = 11;
-    /// constraint `stone_lift`, line 49
+    /// constraint `stone_lift` (m), line 49
     pub const STONE_LIFT: usize = 12;
-    /// constraint `follow`, line 50
+    /// constraint `follow` (m), line 50
     pub const FOLLOW: usize = 13;
-    /// constraint `hold`, line 51
+    /// constraint `hold` (m), line 51
     pub const HOLD: usize = 14;
-    /// constraint `turn`, line 52
+    /// constraint `turn` (rad), line 52
     pub const TURN: usize = 15;
-    /// constraint `sign_free`, line 53
+    /// constraint `sign_free` (rad), line 53
     pub const SIGN_FREE: usize = 16;
-    /// driver `motor`, line 55
+    /// driver `motor` (rad), line 55
     pub const MOTOR: usize = 17;
-    /// driver `push`, line 56
+    /// driver `push` (m), line 56
     pub const PUSH: usize = 18;
-    /// driver `lift`, line 57
+    /// driver `lift` (m), line 57
     pub const LIFT: usize = 19;
-    /// driver `swing`, line 58
+    /// driver `swing` (rad), line 58
     pub const SWING: usize = 20;
 }
 
@@ -360,7 +360,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 259 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -6481,16 +6481,22 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; a last one that is not a number wins.
+/// The largest value beside its scale; not a number if one is not.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; a second one that is not a number wins.
+/// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
 }
 
 /// What leads from some numbers to others.
@@ -6871,7 +6877,7 @@ impl<M: Solved> Solution<M> {
 pub mod pivots {
 //! What pivots tell of a position.
 
-use super::numbers::larger;
+use super::numbers::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -6880,7 +6886,7 @@ impl<M: Solved> Solution<M> {
         if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
             *is_negative ^= inverse < 0.0;
         }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
+        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
     }
 }
 }
@@ -6900,7 +6906,7 @@ pub mod newton {
 //! Newton's iteration.
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
-use super::numbers::larger;
+use super::numbers::{larger, larger_so_far};
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -6923,7 +6929,7 @@ impl Newton {
     pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger(self.first, size / scale);
+            self.first = larger_so_far(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;

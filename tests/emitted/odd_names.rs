@@ -122,19 +122,19 @@ pub mod coordinate {
     pub const LOOP_PHI_2: usize = 5;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `LOOP 1`, line 19
+    /// joint `LOOP 1` (m), line 19
     pub const LOOP_1: usize = 0;
-    /// joint `LOOP 2`, line 19
+    /// joint `LOOP 2` (m), line 19
     pub const LOOP_2: usize = 1;
-    /// joint `self 1`, line 20
+    /// joint `self 1` (m), line 20
     pub const SELF_1: usize = 2;
-    /// joint `self 2`, line 20
+    /// joint `self 2` (m), line 20
     pub const SELF_2: usize = 3;
-    /// driver `match`, line 22
+    /// driver `match` (rad), line 22
     pub const MATCH: usize = 4;
-    /// driver `impl`, line 23
+    /// driver `impl` (rad), line 23
     pub const IMPL: usize = 5;
 }
 
@@ -186,7 +186,7 @@ impl Pose {
     }
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 25 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -887,16 +887,22 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; a last one that is not a number wins.
+/// The largest value beside its scale; not a number if one is not.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; a second one that is not a number wins.
+/// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if b > a || b.is_nan() { b } else { a }
+}
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
 }
 
 /// What leads from some numbers to others.

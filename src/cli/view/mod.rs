@@ -39,7 +39,7 @@ pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result
     let given = &arguments.input;
     let parsed = input::parsed(given, reporter)?;
     // see `run`: nothing is taken apart before the process ends
-    let checked = ManuallyDrop::new(input::checked(&parsed, given, &[], reporter)?);
+    let checked = ManuallyDrop::new(input::checked(&parsed, given, reporter)?);
     let options = RunOptions { pass_bifurcations: arguments.pass_bifurcations, ..RunOptions::default() };
     let target = Target { arguments, form, output, frames };
     let compiled = match input::proven(&checked, arguments.allow_redundant) {

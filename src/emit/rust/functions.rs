@@ -35,17 +35,17 @@ impl Writer<'_> {
         let kind = |name, docs, orders, outputs, length| Kind { name, docs, orders, outputs, length };
         let docs = "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or\nrad).";
         let mut kinds = vec![
-            kind("phi", "The residual of the equations (m, m^2 or rad).", 1, &outputs.phi[..], "N"),
+            kind("phi", "The residual of the equations, each in its unit: see [`row`].", 1, &outputs.phi[..], "N"),
             kind("phi_q", docs, 1, &outputs.phi_q, "ENTRIES"),
         ];
         let docs = "The partial derivative of `phi` by time (the equation's unit per s).";
-        kinds.push(kind("phi_t", docs, 1, &outputs.nu, "N"));
+        kinds.push(kind("phi_t", docs, 1, outputs.nu(), "N"));
         let docs = "Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).";
-        kinds.push(kind("nu", docs, 1, &outputs.nu, "N"));
+        kinds.push(kind("nu", docs, 1, outputs.nu(), "N"));
         let docs = "Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).";
-        kinds.push(kind("gamma", docs, 2, &outputs.gamma, "N"));
-        if !outputs.jerk.is_empty() {
-            kinds.push(kind("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, &outputs.jerk, "N"));
+        kinds.push(kind("gamma", docs, 2, outputs.gamma(), "N"));
+        if !outputs.jerk().is_empty() {
+            kinds.push(kind("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, outputs.jerk(), "N"));
         }
         if !outputs.checks.is_empty() {
             kinds.push(kind("left_out", LEFT_OUT, 1, &outputs.checks, "LEFT_OUT"));

@@ -84,7 +84,7 @@ impl Writer<'_> {
                     let (docs, of) = match &field.of {
                         Of::Number(param) => {
                             let param = &self.unit.system.params[*param];
-                            (format!("`{source}` ({}){}", param.unit, self.line(param.span)), "f64".to_owned())
+                            (format!("`{source}` ({}){}", param.unit(), self.line(param.span)), "f64".to_owned())
                         }
                         Of::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
                         Of::Copies(part, lengths) => {

@@ -19,7 +19,7 @@ impl Writer<'_> {
         if !is_led {
             page.constant("Number of parameters.", "pub const PARAMS: usize", &params.len().to_string());
             let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
-            let said = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit));
+            let said = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit()));
             numbered(page, "Where each parameter stands in what [`sensitivity`] gives.", "param", said.zip(&names));
             self.public_sensitivity(page);
         }
@@ -32,7 +32,7 @@ impl Writer<'_> {
         }
         let has_pivoting = solution.motion.blocks.is_some();
         if has_pivoting {
-            self.rights("param", &self.unit.program.outputs.by_param, "PARAMS", page);
+            self.rights("param", self.unit.program.outputs.by_params(), "PARAMS", page);
         }
         self.left_out_slopes("param", &self.unit.program.outputs.check_slopes.params, page);
         self.uses("sensitivity", "Sensitive");

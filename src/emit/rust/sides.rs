@@ -5,7 +5,7 @@ use crate::emit::equations::{Given, Wanted};
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::text::{constant, literal};
-use crate::program::{Register, Rim};
+use crate::program::{PlacedRim, Register};
 
 impl Writer<'_> {
     /// The branches of formulas.
@@ -153,7 +153,7 @@ impl Writer<'_> {
         self.rims().next().is_some()
     }
 
-    fn rims(&self) -> impl Iterator<Item = &Rim> {
+    fn rims(&self) -> impl Iterator<Item = &PlacedRim> {
         let is_led = self.equations.is_led;
         self.unit.program.outputs.rims.iter().filter(move |rim| rim.on_time && !is_led)
     }

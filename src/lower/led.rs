@@ -1,0 +1,32 @@
+//! Parameters on their way from one value to another: in the equations of a mechanism that is led a straight line of time stands for each.
+
+use crate::expr::{ExprId, Symbol};
+use crate::ir::ConstraintSystem;
+use crate::model::Mechanism;
+use rustc_hash::FxHashMap;
+
+/// Lets the parameters that are led go their way in all that holds on it. Estimates keep the values with which the way begins, and so do
+/// tables, whose cells are numbers.
+pub(super) fn lead_params(model: &Mechanism, system: &mut ConstraintSystem) {
+    let lines: FxHashMap<u32, [f64; 2]> = model.led.iter().filter_map(|led| Some((led.param?, led.line))).collect();
+    if lines.is_empty() {
+        return;
+    }
+    let (before, mut known) = (system.graph.clone(), FxHashMap::default());
+    let graph = &mut system.graph;
+    let mut led = |id: &mut ExprId| {
+        graph.import(&before, &[*id], &mut known, |graph, symbol| match symbol {
+            Symbol::Param(k) if lines.contains_key(&k) => {
+                let [from, to] = lines[&k];
+                let (from, way, time) = (graph.constant(from), graph.constant(to - from), graph.symbol(Symbol::Time));
+                let gone = graph.mul(way, time);
+                graph.add(from, gone)
+            }
+            other => graph.symbol(other),
+        });
+        *id = known[id];
+    };
+    system.rows.iter_mut().for_each(|row| led(&mut row.phi));
+    system.conditions.iter_mut().for_each(|condition| led(&mut condition.positive));
+    system.watches.iter_mut().for_each(|watch| led(&mut watch.value));
+}
