@@ -76,7 +76,7 @@ impl<'a> Checker<'a> {
             return None;
         }
         // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
-        let is_quantity = context.measures || self.space.get(&name.text).is_none();
+        let is_quantity = context.rates || self.space.get(&name.text).is_none();
         if is_quantity && self.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);
         }
@@ -133,7 +133,15 @@ impl<'a> Checker<'a> {
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner = Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
+        let inner = Context {
+            time: true,
+            quantities: false,
+            rates: false,
+            measures: false,
+            results: false,
+            names: true,
+            ..*context
+        };
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 

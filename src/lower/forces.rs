@@ -61,12 +61,11 @@ impl Lowering<'_> {
         for (joint, id) in model.joints.iter().zip(model.joint_ids()) {
             let all =
                 [("fx", Force::ReactionX(id)), ("fy", Force::ReactionY(id)), ("torque", Force::ReactionTorque(id))];
-            let asked = if joint.kind.plain().exerts_torque() { &all[..] } else { &all[..2] };
+            let asked = if joint.kind.plain().has_torque() { &all[..] } else { &all[..2] };
             columns.extend(asked.iter().map(|&(ending, force)| self.column(&joint.declared, ending, force)));
         }
-        for (place, equation) in model.equations.iter().enumerate() {
-            let effort = Force::Effort(Mechanism::equation_at(place));
-            columns.push(self.column(&equation.declared, "effort", effort));
+        for (equation, id) in model.equations.iter().zip(model.equation_ids()) {
+            columns.push(self.column(&equation.declared, "effort", Force::Effort(id)));
         }
         columns
     }

@@ -190,10 +190,9 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
-    /// The id of the constraint or driver that has a place among all of them, also before it is there: formulas may name it.
-    #[must_use]
-    pub fn equation_at(place: usize) -> EquationId {
-        EquationId(place as u32)
+    /// The ids of the constraints and drivers, in order.
+    pub fn equation_ids(&self) -> impl Iterator<Item = EquationId> + use<> {
+        (0..self.equations.len() as u32).map(EquationId)
     }
 
     /// The ids of the joints, in order.

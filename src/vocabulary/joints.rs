@@ -38,21 +38,21 @@ impl JointKind {
         }
     }
 
-    /// Whether it holds its bodies against turning about the point that what it exerts is reduced to.
+    /// Whether it can exert a moment about the point that its force is reduced to; that of the others is zero.
     #[must_use]
-    pub const fn exerts_torque(self) -> bool {
+    pub const fn has_torque(self) -> bool {
         match self {
-            JointKind::Revolute
-            | JointKind::RevoluteRevolute
-            | JointKind::PointFollower
-            | JointKind::Cam
-            | JointKind::FlatFollower => false,
             JointKind::Translational
             | JointKind::Weld
             | JointKind::RevoluteTranslational
             | JointKind::Gear
             | JointKind::InternalGear
             | JointKind::RackPinion => true,
+            JointKind::Revolute
+            | JointKind::RevoluteRevolute
+            | JointKind::PointFollower
+            | JointKind::Cam
+            | JointKind::FlatFollower => false,
         }
     }
 }

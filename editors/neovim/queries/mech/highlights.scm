@@ -11,8 +11,8 @@
 
 [
   "use" "as" "mechanism" "param" "fn" "table" "input" "part" "ground" "body" "point" "axis" "circle" "curve" "joint" "driver"
-  "constraint" "measure" "trace" "result" "analysis" "periodic" "spline" "columns" "on" "at" "toward" "mirrored" "along" "to"
-  "radius" "from" "every" "in"
+  "constraint" "mass" "gravity" "load" "measure" "trace" "result" "analysis" "periodic" "spline" "columns" "on" "at" "toward"
+  "mirrored" "along" "to" "radius" "inertia" "from" "every" "in"
 ] @keyword
 ["if" "then" "else"] @keyword.conditional
 ["and" "or" "not"] @keyword.operator
@@ -36,6 +36,7 @@
   (driver name: (identifier) @variable)
   (constraint name: (identifier) @variable)
   (measure name: (identifier) @variable)
+  (load name: (identifier) @variable)
   (trace name: (identifier) @variable)
   (result name: (identifier) @variable)
 ]
