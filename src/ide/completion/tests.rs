@@ -139,6 +139,7 @@ fn declarations_come_where_they_can_begin() {
     2 axis — a directed line of a body or the ground → axis «a» = «P» along («dx», «dy»)
     2 circle — a circle of a body or the ground: a gear's pitch circle, a roller, an eccentric → circle «c» = «P» radius «r»
     2 curve — a profile of a body or the ground → curve «k»(«u») = («x», «y»)
+    2 mass — a mass of a body, with its centre and its moment of inertia about that → mass «M»
     ");
     insta::assert_snapshot!(proposed(&format!("{FOUR_BAR}\nme$0"), 9), @r#"
     2 use — takes the mechanisms of another file, which may then serve as parts → use "«FILE».mech"
