@@ -315,7 +315,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         }
         ItemKind::Joint { arguments, .. } => all.extend(arguments),
         ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
-            all.extend([left, right])
+            all.extend([left, right]);
         }
         ItemKind::Gravity { acceleration } => all.push(acceleration),
         ItemKind::Analysis { from, to, every } => all.extend([from, to, every]),

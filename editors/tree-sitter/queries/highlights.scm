@@ -67,7 +67,8 @@
 ; <words units>
 ((reference) @type.builtin
   (#any-of? @type.builtin
-    "m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm"))
+    "m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm" "kg" "lbm"
+    "N" "kN" "lbf" "J" "W" "kW" "Pa" "kPa" "MPa" "bar"))
 ; </words>
 
 ; <words functions>
@@ -82,7 +83,7 @@
 ((call name: (identifier) @function.builtin)
   (#any-of? @function.builtin
     "x" "y" "angle" "distance" "rotation" "displacement" "curvature" "pole_x" "pole_y" "speed"
-    "pressure_angle" "slip"))
+    "pressure_angle" "slip" "effort" "force_x" "force_y" "torque"))
 ; </words>
 
 ; <words reductions>
