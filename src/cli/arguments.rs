@@ -358,7 +358,7 @@ pub(super) enum Stage {
 }
 
 /// When an analysis begins and ends, over what the file says.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub(super) struct Interval {
     /// First time, in seconds or with a unit
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -429,9 +429,17 @@ pub(super) struct ViewArguments {
     #[command(flatten)]
     pub input: Input,
 
-    /// Where the picture goes; its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
+    /// Where the picture goes; without it a page is served that follows the file. Its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<String>,
+
+    /// Open the page that follows the file in the browser
+    #[arg(long, conflicts_with = "output")]
+    pub open: bool,
+
+    /// The port of the page that follows the file; one that is free if not given
+    #[arg(long, value_name = "PORT", conflicts_with = "output")]
+    pub port: Option<u16>,
 
     /// A slider on the page for a parameter: N values from A to B, each solved beforehand: `--vary rod_length=120mm..180mm:13`. Twice
     /// at most
