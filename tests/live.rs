@@ -142,7 +142,7 @@ fn no_file_is_served() {
     }
     let page = served.asked("GET /", &[("Host", &host)], "");
     assert!(page.starts_with("HTTP/1.1 200") && page.contains("connect-src 'self'"));
-    assert!(!page.contains("wheel") && !page.contains("disc.mech"), "the page holds something of the text");
+    assert!(!page.contains("axle") && !page.contains("disc.mech"), "the page holds something of the text");
 }
 
 #[test]

@@ -5,12 +5,12 @@ import { App } from "./app.ts";
 import { embedding } from "./embedding.ts";
 import { html } from "./elements.ts";
 import { Live } from "./live/live.ts";
-import { Connection } from "./live/transport.ts";
+import { Connection, Panel } from "./live/transport.ts";
 
 const began = async (): Promise<void> => {
     const data = document.getElementById("mechc")!.textContent!;
     if (data === "") {
-        new Live(new Connection(), document.getElementById("page")!);
+        new Live(globalThis.acquireVsCodeApi ? new Panel(globalThis.acquireVsCodeApi()) : new Connection(), document.getElementById("page")!);
         return;
     }
     const source: Source = Embedded.of(data);

@@ -71,12 +71,6 @@ impl Asked {
         };
         Ok(Asked { page, set: set.collect::<Result<_, Wrong>>()?, jog })
     }
-
-    /// Whether it is the file as it is.
-    #[must_use]
-    pub fn is_plain(&self) -> bool {
-        self.set.is_empty() && self.jog.is_none()
-    }
 }
 
 impl Write {
@@ -97,6 +91,15 @@ impl Write {
         let version = body["version"].as_u64().ok_or("a version is a number")?;
         Ok(Write { version, changes, sure: body["sure"].as_bool().unwrap_or(false) })
     }
+}
+
+/// Reads the place that a page shows in the editor (UTF-16).
+///
+/// # Errors
+/// There is none.
+pub(super) fn place_of(body: &[u8]) -> Result<u32, Wrong> {
+    let at = object(body)?["at"].as_u64().and_then(|at| u32::try_from(at).ok());
+    at.ok_or("a place is a number")
 }
 
 fn object(body: &[u8]) -> Result<Value, Wrong> {
@@ -129,7 +132,6 @@ mod tests {
         let jog = Some(Jogged { time: 0.5, inputs: vec![("turn".into(), 1.0)] });
         let set = vec![("rod".to_owned(), "2 mm".to_owned())];
         assert_eq!(asked, Ok(Asked { page: "a".into(), set, jog }));
-        assert!(Asked::of(br#"{"page":""}"#).expect("it is one").is_plain());
         let write =
             Write::of(br#"{"version":3,"changes":[{"name":"rod","old":"2 mm","value":3}]}"#).expect("it is one");
         let rod = Change { name: "rod".into(), old: "2 mm".into(), value: 3.0 };

@@ -27,6 +27,8 @@ pub(super) enum Call {
     Motion,
     /// To write values into the file.
     Write,
+    /// To show a place of the file in the editor.
+    Show,
 }
 
 /// The header with the token.
@@ -41,11 +43,12 @@ pub(super) fn admitted(head: &Head, ours: &Ours) -> Result<Call, u16> {
         "/events" => Call::Events,
         "/motion" => Call::Motion,
         "/write" => Call::Write,
+        "/show" => Call::Show,
         _ => return Err(404),
     };
     match (call, head.method.as_str()) {
         (Call::Page, "GET") => return Ok(Call::Page),
-        (Call::Events | Call::Motion | Call::Write, "POST") => {}
+        (Call::Events | Call::Motion | Call::Write | Call::Show, "POST") => {}
         _ => return Err(405),
     }
     let is_of_our_page = only(head, "origin").is_some_and(|origin| origin.strip_prefix("http://") == Some(host));
@@ -95,6 +98,7 @@ mod tests {
         assert_eq!(asked("POST", "/events", &OURS), Ok(Call::Events));
         assert_eq!(asked("POST", "/motion", &OURS), Ok(Call::Motion));
         assert_eq!(asked("POST", "/write", &OURS), Ok(Call::Write));
+        assert_eq!(asked("POST", "/show", &OURS), Ok(Call::Show));
         for host in ["localhost:4321", "[::1]:4321"] {
             let origin = format!("http://{host}");
             let headers = [("host", host), ("origin", &origin), ("x-mechc-token", TOKEN)];
@@ -141,7 +145,7 @@ mod tests {
             "http://127.0.0.1:4321/",
             "http://evil.example/http://127.0.0.1:4321",
         ];
-        for path in ["/events", "/motion", "/write"] {
+        for path in ["/events", "/motion", "/write", "/show"] {
             for origin in others {
                 let headers = [OURS[0], ("origin", origin), OURS[2]];
                 assert_eq!(asked("POST", path, &headers), Err(403), "{path} {origin}");
@@ -153,7 +157,7 @@ mod tests {
 
     #[test]
     fn without_the_token_nothing_is_told_and_nothing_written() {
-        for path in ["/events", "/motion", "/write"] {
+        for path in ["/events", "/motion", "/write", "/show"] {
             assert_eq!(asked("POST", path, &OURS[..2]), Err(403));
             for token in ["", "0123456789abcdee", "0123456789abcde", "0123456789abcdef0", "0123456789ABCDEF"] {
                 let headers = [OURS[0], OURS[1], ("x-mechc-token", token)];

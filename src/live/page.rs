@@ -5,6 +5,8 @@ use crate::source::Sources;
 use crate::stages::Seen;
 use crate::view::page::{Column, Page, Variant, Vary};
 
+pub use crate::view::page::{base64, shell};
+
 /// The page of one motion.
 #[must_use]
 pub fn written(seen: &Seen, sources: &Sources) -> String {

@@ -1,6 +1,6 @@
 //! The server: connections on this machine's own addresses, each with a thread, and no more of them than a few pages have.
 
-use super::asked::{Asked, Write as Written};
+use super::asked::{Asked, Write as Written, place_of};
 use super::guard::{Call, Ours, admitted};
 use super::http::{Connection, Fault, Kind, Patient, head_of};
 use super::workshop::Workshop;
@@ -211,6 +211,10 @@ fn answered(connection: &mut Connection<TcpStream>, shared: &Shared) -> Result<b
             return Ok(false);
         }
         Call::Motion => (Kind::Bytes, workshop.answer(&Asked::of(&body).map_err(|_| Fault::Refused(400))?)),
+        Call::Show => {
+            workshop.show(place_of(&body).map_err(|_| Fault::Refused(400))?);
+            (Kind::Json, b"{}".to_vec())
+        }
         Call::Write => {
             let write = Written::of(&body).map_err(|_| Fault::Refused(400))?;
             (Kind::Json, workshop.write(&write).to_string().into_bytes())

@@ -23,10 +23,10 @@ impl Shelf {
         Shelf { world, read: Mutex::default() }
     }
 
-    /// Whether some file that was looked at is another by now; of several `touched` ones at least.
-    pub fn is_old(&self) -> bool {
+    /// Whether some file that was looked at is another in a world.
+    pub fn is_old(&self, world: &dyn World) -> bool {
         let read = self.read.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        read.into_iter().any(|(path, known)| match (known, self.world.read(&path)) {
+        read.into_iter().any(|(path, known)| match (known, world.read(&path)) {
             (Ok(known), Ok(now)) => known.bytes != now.bytes,
             (Err(known), Err(now)) => known.kind != now.kind(),
             _ => true,
@@ -100,12 +100,12 @@ mod tests {
     fn what_was_read_stays_until_somebody_asks_whether_it_is_old() {
         let desk = Arc::new(Desk(Mutex::new(Memory::default().with("a", "1"))));
         let shelf = Shelf::new(Arc::clone(&desk) as Arc<dyn World>);
-        assert!(!shelf.is_old(), "nobody has looked at anything");
+        assert!(!shelf.is_old(&*desk), "nobody has looked at anything");
         assert_eq!(&*shelf.read(Path::new("a")).expect("it is there").bytes, b"1");
         assert!(shelf.read(Path::new("b")).is_err());
-        assert!(!shelf.is_old());
+        assert!(!shelf.is_old(&*desk));
         *desk.0.lock().expect("a lock") = Memory::default().with("a", "1").with("b", "2");
-        assert!(shelf.is_old(), "a file that was missing is there");
+        assert!(shelf.is_old(&*desk), "a file that was missing is there");
         assert!(shelf.read(Path::new("b")).is_err(), "a version changed while it was in use");
         assert_eq!(shelf.files().len(), 2);
     }

@@ -1,12 +1,11 @@
 //! A mechanism as a page asks for it: checked, proven, assembled, followed.
 
-use super::workshop::{Texts, Workshop};
+use super::shelf::Shelf;
 use crate::analysis::Times;
 use crate::cancel::Cancel;
 use crate::diag::{Code, Color, Diagnostic, Diagnostics, Format, render};
 use crate::source::Sources;
-use crate::stages::{Checked, Choice, Compiled, Crank, Jog, Knob, RunOptions, Seen, Stand};
-use crate::world::World;
+use crate::stages::{Checked, Choice, Compiled, Crank, Jog, Knob, Parsed, Redundant, RunOptions, Seen, Stand};
 use serde_json::{Value, json};
 use std::sync::Mutex;
 
@@ -61,18 +60,29 @@ impl Solved {
 }
 
 /// Makes them of the texts of a version.
-pub(super) struct Solver<'w> {
-    pub workshop: &'w Workshop,
-    pub texts: &'w Texts,
+pub(super) struct Solver<'s> {
+    /// The file, if it could be read.
+    pub parsed: &'s Result<Parsed, (Sources, Diagnostics)>,
+    pub shelf: &'s Shelf,
+    /// What of it is shown.
+    pub choice: &'s Choice,
+    pub redundant: Redundant,
+    pub pass_bifurcations: bool,
+    /// The times of a mechanism.
+    pub times: &'s TimesOf<'s>,
 }
+
+/// Says the times of a mechanism, or why they cannot be told.
+type TimesOf<'s> = dyn Fn(&Compiled, &mut Sources) -> Result<Times, Diagnostics> + 's;
 
 impl Solver<'_> {
     /// The file as it is.
     pub fn own(&self, cancel: &Cancel) -> Solved {
-        self.solved(&self.workshop.choice, cancel)
+        self.solved(self.choice, cancel)
     }
 
-    /// With params that are set; symbols and extent are those of the file as it is, so that nothing jumps. Nothing if it is given up.
+    /// With params that are set; symbols and extent are those of the file as it is, so that nothing jumps under a
+    /// hand. Nothing if it is given up.
     pub fn set(&self, own: &Solved, set: &[(String, String)], cancel: &Cancel) -> Option<Solved> {
         let mut solved = self.solved(&self.choice(own, set), cancel);
         if let (Some(seen), Some(before), Some(checked)) = (&mut solved.seen, &own.seen, &solved.checked) {
@@ -88,27 +98,26 @@ impl Solver<'_> {
     fn choice(&self, own: &Solved, set: &[(String, String)]) -> Choice {
         let knobs = own.knobs();
         let leads = |(name, _): &(String, String)| knobs.iter().any(|knob| knob.name == *name && knob.leads);
-        let mut choice = Choice { lead: set.iter().all(leads), ..self.workshop.choice.clone() };
+        let mut choice = Choice { lead: set.iter().all(leads), ..self.choice.clone() };
         choice.set.extend(set.iter().map(|(name, formula)| format!("{name}={formula}")));
         choice
     }
 
     fn options(&self, stand: Option<Stand>, cancel: &Cancel) -> RunOptions {
-        let pass_bifurcations = self.workshop.pass_bifurcations;
+        let pass_bifurcations = self.pass_bifurcations;
         RunOptions { pass_bifurcations, stand, cancel: cancel.clone(), ..RunOptions::default() }
     }
 
     fn solved(&self, choice: &Choice, cancel: &Cancel) -> Solved {
-        let parsed = match &self.texts.parsed {
+        let parsed = match self.parsed {
             Ok(parsed) => parsed,
             Err((sources, said)) => return Solved::nothing(sources.clone(), said.clone()),
         };
-        let world: &dyn World = &self.texts.shelf;
-        let checked = parsed.check(choice, world);
+        let checked = parsed.check(choice, self.shelf);
         let (mut said, mut sources) = (checked.diagnostics().clone(), checked.sources().clone());
-        let (compiled, more) = checked.compile(self.workshop.redundant, cancel);
+        let (compiled, more) = checked.compile(self.redundant, cancel);
         said.extend(more);
-        let times = compiled.as_ref().map(|compiled| self.workshop.host.times(compiled, &mut sources));
+        let times = compiled.as_ref().map(|compiled| (self.times)(compiled, &mut sources));
         let times = times.and_then(|times| times.map_err(|why| said.extend(why)).ok());
         let options = self.options(None, cancel);
         let seen = compiled.as_ref().zip(times.as_ref()).and_then(|(compiled, times)| {
@@ -182,17 +191,17 @@ impl Solver<'_> {
         (stand, inputs, gone): (&Stand, &[Moved], f64),
         cancel: &Cancel,
     ) -> (Option<Vec<f64>>, Diagnostics, Sources) {
-        let Ok(parsed) = &self.texts.parsed else { return (None, Diagnostics::default(), Sources::default()) };
+        let Ok(parsed) = self.parsed else { return (None, Diagnostics::default(), Sources::default()) };
         let mut choice = self.choice(solved, set);
         let is_moved = |told: &String| {
             told.split_once('=').is_some_and(|(name, _)| inputs.iter().any(|moved| moved.name == name.trim()))
         };
         choice.inputs.retain(|told| !is_moved(told));
         choice.inputs.extend(inputs.iter().map(|moved| moved.told(gone)));
-        let checked = parsed.check(&choice, &self.texts.shelf);
+        let checked = parsed.check(&choice, self.shelf);
         let sources = checked.sources().clone();
         let mut said = checked.diagnostics().clone();
-        let (compiled, more) = checked.compile(self.workshop.redundant, cancel);
+        let (compiled, more) = checked.compile(self.redundant, cancel);
         said.extend(more);
         let times = Times::listed(stand.t, vec![stand.t]);
         let run = compiled.and_then(|compiled| {

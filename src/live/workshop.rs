@@ -37,15 +37,20 @@ pub trait Host: Send + Sync {
     /// # Errors
     /// Why it cannot be written, in words.
     fn write(&self, text: &str) -> Result<(), String>;
+
+    /// Shows a place of the file (UTF-16), where there is something to show it in.
+    fn show(&self, at: u32) {
+        let _ = at;
+    }
 }
 
 /// What is made of a file.
 pub struct Workshop {
     path: PathBuf,
-    pub(super) choice: Choice,
-    pub(super) redundant: Redundant,
-    pub(super) pass_bifurcations: bool,
-    pub(super) host: Box<dyn Host>,
+    choice: Choice,
+    redundant: Redundant,
+    pass_bifurcations: bool,
+    host: Box<dyn Host>,
     now: Mutex<Now>,
     has_changed: Condvar,
     /// One at a time looks whether something has changed.
@@ -60,7 +65,7 @@ struct Now {
 
 /// What pages are told without asking.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub(super) struct News {
+pub struct News {
     /// Of the texts.
     pub version: u64,
     /// Where an editor's cursor is in the file (UTF-16), if there is one.
@@ -68,12 +73,12 @@ pub(super) struct News {
 }
 
 /// The texts of a version, and what has been made of them.
-pub(super) struct Texts {
-    pub version: u64,
-    pub shelf: Shelf,
-    pub parsed: Result<Parsed, (Sources, Diagnostics)>,
+struct Texts {
+    version: u64,
+    shelf: Shelf,
+    parsed: Result<Parsed, (Sources, Diagnostics)>,
     /// Ends what is made of them, once there are others.
-    pub cancel: Cancel,
+    cancel: Cancel,
     own: OnceLock<Arc<Solved>>,
     /// The settings that were asked for last, with what came of them.
     last: Mutex<Option<(Vec<(String, String)>, Arc<Solved>)>>,
@@ -124,7 +129,7 @@ impl Workshop {
     pub fn look(&self) -> bool {
         let _alone = lock(&self.looking);
         let before = self.texts();
-        if !before.shelf.is_old() {
+        if !before.shelf.is_old(&*self.host.world()) {
             return false;
         }
         before.cancel.cancel();
@@ -141,12 +146,18 @@ impl Workshop {
     }
 
     /// What is new to who was told that before; nothing if that takes too long.
-    pub(super) fn news(&self, told: Option<&News>, at_most: Duration) -> Option<News> {
+    #[must_use]
+    pub fn news(&self, told: Option<&News>, at_most: Duration) -> Option<News> {
         let news = |now: &Now| News { version: now.texts.version, at: now.at };
         let is_old = |now: &mut Now| Some(&news(now)) == told;
         let waited = self.has_changed.wait_timeout_while(lock(&self.now), at_most, is_old);
         let (now, time) = waited.unwrap_or_else(PoisonError::into_inner);
         (!time.timed_out()).then(|| news(&now))
+    }
+
+    /// Shows a place of the file (UTF-16) in the editor.
+    pub fn show(&self, at: u32) {
+        self.host.show(at);
     }
 
     /// Answers a page. What it had asked before and is waiting for is given up.
@@ -162,7 +173,6 @@ impl Workshop {
     }
 
     fn answered(&self, texts: &Texts, asked: &Asked, cancel: &Cancel) -> Option<(Value, Vec<Vec<f64>>)> {
-        let solver = Solver { workshop: self, texts };
         let own = self.own(texts)?;
         if !own.is_sound() {
             return Some((wrong(texts.version, &own), Vec::new()));
@@ -170,10 +180,14 @@ impl Workshop {
         let knobs = own.knobs();
         let known = |(name, _): &&(String, String)| knobs.iter().any(|knob| knob.name == *name);
         let set: Vec<(String, String)> = asked.set.iter().filter(known).cloned().collect();
-        let solved =
-            if set.is_empty() { own.clone() } else { remembered(texts, &set, || solver.set(&own, &set, cancel))? };
+        let solved = if set.is_empty() {
+            own.clone()
+        } else {
+            remembered(texts, &set, || self.with_solver(texts, |solver| solver.set(&own, &set, cancel)))?
+        };
         if let Some(Jogged { time, inputs }) = &asked.jog {
-            let (reached, said, row) = solver.jogged(&solved, &set, *time, inputs, cancel)?;
+            let (reached, said, row) =
+                self.with_solver(texts, |solver| solver.jogged(&solved, &set, *time, inputs, cancel))?;
             let jog = json!({ "reached": reached, "said": said });
             return Some((json!({ "live": { "version": texts.version, "jog": jog } }), row));
         }
@@ -228,7 +242,7 @@ impl Workshop {
         let has_mark = texts.shelf.read(&self.path).is_ok_and(|file| file.bytes.starts_with(MARK.as_bytes()));
         let text = if has_mark { format!("{MARK}{text}") } else { text };
         // as late as can be
-        if texts.shelf.is_old() {
+        if texts.shelf.is_old(&*self.host.world()) {
             return Err(refused(OTHER));
         }
         self.host.write(&text).map_err(Edited::Refused)?;
@@ -238,9 +252,20 @@ impl Workshop {
 
     /// The file as it is.
     fn own(&self, texts: &Texts) -> Option<Arc<Solved>> {
-        let solver = Solver { workshop: self, texts };
-        let own = texts.own.get_or_init(|| Arc::new(solver.own(&texts.cancel)));
+        let make = || Arc::new(self.with_solver(texts, |solver| solver.own(&texts.cancel)));
+        let own = texts.own.get_or_init(make);
         (!texts.cancel.is_cancelled()).then(|| Arc::clone(own))
+    }
+
+    fn with_solver<T>(&self, texts: &Texts, work: impl FnOnce(&Solver) -> T) -> T {
+        work(&Solver {
+            parsed: &texts.parsed,
+            shelf: &texts.shelf,
+            choice: &self.choice,
+            redundant: self.redundant,
+            pass_bifurcations: self.pass_bifurcations,
+            times: &|compiled, sources| self.host.times(compiled, sources),
+        })
     }
 
     fn texts(&self) -> Arc<Texts> {

@@ -143,6 +143,12 @@ impl Page<'_> {
     }
 }
 
+/// Bytes as Base64.
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
+    base64::written(bytes)
+}
+
 /// A page without data, which asks the server that it comes from.
 #[must_use]
 pub fn shell() -> String {

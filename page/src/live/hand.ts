@@ -1,7 +1,7 @@
 // Taking hold of what is drawn: a crank, by the angle around its pivot; a point that a param of the file is.
 
 import type { Document } from "../data/document.ts";
-import type { Told } from "../data/live.ts";
+import type { Knob, Told } from "../data/live.ts";
 import { unitOfLength } from "../data/lengths.ts";
 import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
 
@@ -37,10 +37,11 @@ export class Hand implements Grasp {
 
     constructor(private readonly deeds: Deeds) {}
 
-    offer(told: Told, document: Document): void {
+    /** There is another motion, with some params set. */
+    offer(told: Told, document: Document, set: ReadonlyMap<string, number>): void {
         this.told = told;
         this.document = document;
-        this.drawn = drawnPoints(told, document);
+        this.drawn = drawnPoints(told, document, set);
     }
 
     points(): readonly { name: string; at: Pair }[] {
@@ -99,7 +100,11 @@ export class Hand implements Grasp {
 }
 
 /** The params that are points, where something is drawn there at first. */
-function drawnPoints({ knobs = [] }: Told, { motion, scene, table }: Document): { name: string; at: Pair; units: [string, string] }[] {
+function drawnPoints(
+    { knobs = [] }: Told,
+    { motion, scene, table }: Document,
+    set: ReadonlyMap<string, number>,
+): { name: string; at: Pair; units: [string, string] }[] {
     if (table.rows === 0) return [];
     const first = motion.at(motion.from, motion.moment());
     const places = scene.points.map(({ frame, at }) => placeOf(first, [frame, ...at]));
@@ -108,7 +113,8 @@ function drawnPoints({ knobs = [] }: Told, { motion, scene, table }: Document): 
         const other = knobs[k + 1];
         if (!knob.name.endsWith(".x") || other?.name !== `${knob.name.slice(0, -1)}y` || knob.formula !== null || other.formula !== null) return [];
         const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
-        const at = [knob.value * unitOfLength(units[0]), other.value * unitOfLength(units[1])] as Pair;
+        const now = ({ name, value }: Knob) => set.get(name) ?? value;
+        const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;
         const isThere = places.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < NEAR * size);
         return isThere ? [{ name: knob.name.slice(0, -2), at, units }] : [];
     });

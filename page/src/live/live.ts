@@ -6,7 +6,7 @@ import type { Document } from "../data/document.ts";
 import type { Page } from "../data/format.ts";
 import { html } from "../elements.ts";
 import { embedding } from "../embedding.ts";
-import { Knobs } from "../panes/knobs.ts";
+import { Knobs, type Refusal } from "../panes/knobs.ts";
 import { Said } from "../panes/said.ts";
 import { Hand } from "./hand.ts";
 import type { News, State, Transport } from "./transport.ts";
@@ -122,17 +122,17 @@ export class Live {
         this.app?.stand(undefined);
     }
 
-    private async write(sure: boolean): Promise<string | undefined> {
+    private async write(sure: boolean): Promise<Refusal | undefined> {
         const changes = [...this.set].flatMap(([name, value]) => {
             const text = this.told?.knobs?.find((knob) => knob.name === name)?.text;
             return typeof text === "string" ? [{ name, old: text, value }] : [];
         });
         if (changes.length < this.set.size) {
-            return "Some of these are not set in this file, and nothing was written.";
+            return { says: "Some of these are not set in this file, and nothing was written." };
         }
         const written = await this.transport.write({ version: this.shown, changes, sure });
-        if ("asks" in written) return confirm(written.asks) ? this.write(true) : undefined;
-        if ("refused" in written) return written.refused;
+        if ("asks" in written) return { says: written.asks, isQuestion: true };
+        if ("refused" in written) return { says: written.refused };
         for (const { name, value } of changes) if (this.set.get(name) === value) this.set.delete(name);
         this.knobs.at(this.set, this.moved);
         return undefined;
@@ -205,7 +205,7 @@ export class Live {
         app.takeInputs((live.jogs ?? []).map(({ name }, k) => [name, values(k)]));
         this.knobs.offer(live.knobs ?? [], live.jogs ?? [], this.set);
         this.knobs.at(this.set, this.moved);
-        this.hand.offer(live, document);
+        this.hand.offer(live, document, this.set);
         app.show(document);
         if (this.still !== undefined) this.hasChanged = true;
     }

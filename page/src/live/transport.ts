@@ -87,7 +87,71 @@ export class Connection implements Transport {
         return (await response.json()) as Written;
     }
 
+    show(at: number): void {
+        void this.post("/show", { at }).catch(() => undefined);
+    }
+
     private post(path: string, body: object, signal?: AbortSignal): Promise<Response> {
         return fetch(path, { method: "POST", headers: this.headers, body: JSON.stringify(body), signal: signal ?? null, cache: "no-store" });
+    }
+}
+
+interface Editor {
+    postMessage(message: object): void;
+}
+
+declare global {
+    /** What a panel of VS Code speaks to its extension with. */
+    var acquireVsCodeApi: (() => Editor) | undefined;
+}
+
+type Heard =
+    | { kind: "news"; version: number; at: number | null }
+    | { kind: "state"; state: State }
+    | { kind: "answer"; id: number; data: unknown }
+    | { kind: "failed"; id: number; why: string };
+
+/** To the extension of the editor that the page is a panel of. */
+export class Panel implements Transport {
+    private readonly waiting = new Map<number, { done: (data: unknown) => void; failed: (why: Error) => void }>();
+    private asked = 0;
+
+    constructor(private readonly editor: Editor) {}
+
+    listen(tell: (news: News) => void, turned: (state: State) => void): void {
+        addEventListener("message", ({ data }: MessageEvent<Heard>) => {
+            if (data.kind === "news") tell(data);
+            else if (data.kind === "state") turned(data.state);
+            else {
+                const waiting = this.waiting.get(data.id);
+                this.waiting.delete(data.id);
+                if (data.kind === "answer") waiting?.done(data.data);
+                else waiting?.failed(new TypeError(data.why));
+            }
+        });
+        this.editor.postMessage({ kind: "ready" });
+    }
+
+    async ask(asked: object, signal: AbortSignal): Promise<ArrayBuffer> {
+        const data = await this.request({ kind: "ask", asked }, signal);
+        // some hosts of panels turn buffers into arrays of their own kind
+        return data instanceof ArrayBuffer ? data : new Uint8Array(data as ArrayLike<number>).slice().buffer;
+    }
+
+    async write(writing: Writing): Promise<Written> {
+        return (await this.request({ kind: "write", asked: writing })) as Written;
+    }
+
+    show(at: number): void {
+        this.editor.postMessage({ kind: "show", at });
+    }
+
+    private request(message: object, signal?: AbortSignal): Promise<unknown> {
+        const id = ++this.asked;
+        return new Promise((done, failed) => {
+            this.waiting.set(id, { done, failed });
+            signal?.addEventListener("abort", () => failed(new TypeError("given up")));
+            this.editor.postMessage({ ...message, id });
+        });
     }
 }

@@ -15,7 +15,13 @@ export interface Deeds {
     asInFile(): void;
     timeAgain(): void;
     /** Writes what is set into the file; says why not. */
-    write(sure: boolean): Promise<string | undefined>;
+    write(sure: boolean): Promise<Refusal | undefined>;
+}
+
+/** Why nothing is written; it may be if the reader says so. */
+export interface Refusal {
+    says: string;
+    isQuestion?: boolean;
 }
 
 /** Steps of a slider. */
@@ -147,9 +153,15 @@ export class Knobs implements Pane {
         );
     }
 
-    private async write(): Promise<void> {
-        const why = await this.does.write(false);
-        this.told.textContent = why ?? "";
+    private async write(sure = false): Promise<void> {
+        const why = await this.does.write(sure);
+        this.told.textContent = why?.says ?? "";
+        if (!why?.isQuestion) return;
+        const [replace, leave] = ["Replace", "Leave it"].map((shows) => html("button", { type: "button" }, shows));
+        replace!.addEventListener("click", () => void this.write(true));
+        leave!.addEventListener("click", () => (this.told.textContent = ""));
+        this.told.append(" ", replace!, " ", leave!);
+        replace!.focus();
     }
 }
 

@@ -1,6 +1,7 @@
 //! Waiting until a file may be another: told by the system where it tells, and looking again and again where it does not.
 
-use notify::{RecommendedWatcher, RecursiveMode, Watcher};
+use notify::event::{AccessKind, AccessMode};
+use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
@@ -23,7 +24,10 @@ pub(super) struct Watch {
 impl Watch {
     pub fn new() -> Watch {
         let (tell, told) = channel();
-        let watcher = notify::recommended_watcher(move |_| {
+        let watcher = notify::recommended_watcher(move |event: notify::Result<Event>| {
+            if event.is_ok_and(|event| is_only_read(event.kind)) {
+                return;
+            }
             // nobody waits any more when the process ends
             let _ = tell.send(());
         });
@@ -72,6 +76,11 @@ impl Watch {
     }
 }
 
+/// Whether somebody has only looked at a file, as who looks whether it has changed does.
+fn is_only_read(kind: EventKind) -> bool {
+    matches!(kind, EventKind::Access(how) if how != AccessKind::Close(AccessMode::Write))
+}
+
 /// The folder of a file, and where it is a link, that of what it leads to.
 fn folders_of(file: &Path) -> Vec<PathBuf> {
     let folder = |path: &Path| match path.parent() {
@@ -103,5 +112,11 @@ mod tests {
             watch.wait(std::slice::from_ref(&file));
             assert!(began.elapsed() < SELDOM / 2, "{:?}", began.elapsed());
         }
+        // what is only read is no news
+        while watch.told.try_recv().is_ok() {}
+        fs::read(&file).expect("it is read");
+        let began = Instant::now();
+        watch.wait(std::slice::from_ref(&file));
+        assert!(began.elapsed() >= SELDOM, "{:?}", began.elapsed());
     }
 }
