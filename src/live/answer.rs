@@ -9,7 +9,7 @@ use serde_json::Value;
 #[must_use]
 pub(super) fn framed(json: &Value, columns: &[Vec<f64>]) -> Vec<u8> {
     let mut text = json.to_string().into_bytes();
-    while (4 + text.len()) % 8 != 0 {
+    while !(4 + text.len()).is_multiple_of(8) {
         text.push(b' ');
     }
     let numbers: usize = columns.iter().map(Vec::len).sum();

@@ -48,7 +48,7 @@ pub(super) fn edited(checked: &Checked, write: &Write) -> Edited {
     if edits.windows(2).any(|pair| pair[0].0.end > pair[1].0.start) {
         return Edited::Refused("two of the values stand in the same place".to_owned());
     }
-    let mut text = own.text.to_string();
+    let mut text = own.text.clone();
     for (place, value) in edits.iter().rev() {
         text.replace_range(place.start as usize..place.end as usize, value);
     }

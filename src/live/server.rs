@@ -40,14 +40,17 @@ pub struct Serving {
 }
 
 impl Server {
-    /// Listens at a port of 127.0.0.1 and of ::1, where the machine has that; 0 is any that is free.
+    /// Listens at a port of `127.0.0.1` and of `::1`, where the machine has that; 0 is any that is free.
     ///
     /// # Errors
     /// Somebody else listens there, or there is no randomness.
     pub fn bind(port: u16) -> io::Result<Server> {
         let mut random = [0; TOKEN];
         getrandom::fill(&mut random).map_err(|why| io::Error::other(why.to_string()))?;
-        let token = random.iter().map(|byte| format!("{byte:02x}")).collect();
+        let mut token = String::new();
+        for byte in random {
+            token += &format!("{byte:02x}");
+        }
         let mut tries = 0;
         loop {
             tries += 1;
@@ -62,7 +65,8 @@ impl Server {
                 Err(_) => None,
             };
             let listeners = std::iter::once(first).chain(second).collect();
-            return Ok(Server { listeners, ours: Ours { port: found, token } });
+            let ours = Ours { port: found, token: token.clone() };
+            return Ok(Server { listeners, ours });
         }
     }
 

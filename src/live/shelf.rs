@@ -41,13 +41,12 @@ impl Shelf {
 
     fn kept(&self, path: &Path, read: impl FnOnce() -> io::Result<Contents>) -> io::Result<Contents> {
         let mut known = self.read.lock().unwrap_or_else(PoisonError::into_inner);
-        let found = match known.iter().find(|(other, _)| other == path) {
-            Some((_, found)) => found.clone(),
-            None => {
-                let found = read().map_err(|error| Missing { kind: error.kind(), text: error.to_string() });
-                known.push((path.to_owned(), found.clone()));
-                found
-            }
+        let found = if let Some((_, found)) = known.iter().find(|(other, _)| other == path) {
+            found.clone()
+        } else {
+            let found = read().map_err(|error| Missing { kind: error.kind(), text: error.to_string() });
+            known.push((path.to_owned(), found.clone()));
+            found
         };
         found.map_err(|Missing { kind, text }| io::Error::new(kind, text))
     }

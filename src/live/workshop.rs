@@ -63,6 +63,9 @@ struct Now {
     at: Option<u32>,
 }
 
+/// Params with what they are set to.
+type Settings = Vec<(String, String)>;
+
 /// What pages are told without asking.
 #[derive(Clone, PartialEq, Eq, Debug)]
 pub struct News {
@@ -81,7 +84,7 @@ struct Texts {
     cancel: Cancel,
     own: OnceLock<Arc<Solved>>,
     /// The settings that were asked for last, with what came of them.
-    last: Mutex<Option<(Vec<(String, String)>, Arc<Solved>)>>,
+    last: Mutex<Option<(Settings, Arc<Solved>)>>,
 }
 
 impl Texts {
@@ -227,7 +230,6 @@ impl Workshop {
 
     fn written(&self, write: &Write) -> Result<(), Edited> {
         let refused = |why: &str| Edited::Refused(why.to_owned());
-        const OTHER: &str = "the file is another by now than the one that this page shows";
         self.look();
         let texts = self.texts();
         if texts.version != write.version {
@@ -285,6 +287,9 @@ impl Workshop {
         cancel
     }
 }
+
+/// Why nothing is written onto what another hand wrote.
+const OTHER: &str = "the file is another by now than the one that this page shows";
 
 /// A byte-order mark.
 const MARK: &str = "\u{feff}";

@@ -409,7 +409,7 @@ test("a panel of an editor shows the same by way of its extension", async () => 
     const at = CRANK.indexOf("body coupler") + 6;
     await back({ kind: "news", version: 1, at });
     await page.waitForSelector('[data-body="coupler"].lit, [data-declaration].lit');
-    await page.locator(".source .declared").nth(3).click();
+    await page.evaluate(() => document.querySelectorAll(".source .declared")[3].click());
     await page.waitForTimeout(100);
     assert.equal(shown.length, 1);
     await page.context().close();

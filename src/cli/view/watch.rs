@@ -10,7 +10,7 @@ use std::time::Duration;
 /// So often files are looked at that nobody tells of.
 const POLL: Duration = Duration::from_millis(100);
 /// So often files are looked at all the same: a network's disk tells nothing of what others do.
-const SELDOM: Duration = Duration::from_millis(1000);
+const SELDOM: Duration = Duration::from_secs(1);
 /// Who writes a file in steps is given so long.
 const SETTLE: Duration = Duration::from_millis(8);
 

@@ -38,7 +38,7 @@ pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
         .map(|variant| {
             let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
             let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
-            variant_with(variant, every, packed, &texts, &scene)
+            variant_with(variant, every, &packed, &texts, &scene)
         })
         .collect();
     let mut all = json!({
@@ -104,7 +104,7 @@ pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f6
     if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
 }
 
-fn variant_with(variant: &Variant, every: usize, packed: String, texts: &Texts, shared: &Value) -> Value {
+fn variant_with(variant: &Variant, every: usize, packed: &str, texts: &Texts, shared: &Value) -> Value {
     let motion = variant.motion;
     let rows = kept(motion.rows().len(), every).count();
     let results = variant.results.iter().map(|(column, value)| {
