@@ -35,19 +35,23 @@ pub(super) struct Leading {
 }
 
 impl Leading {
-    /// Where it begins at a time (s), its own inputs being led from the one that the options tell; nothing where its estimates say it, with
+    /// Where it begins at a time (s), its own inputs being led from the one that the options tell, where it stands as is said, or else as it
+    /// assembles; nothing where its estimates say it, with
     /// what is to be said.
     pub fn begin(
         &self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
         horizon: Horizon,
+        stand: Option<&[f64]>,
         leave_out_redundant: bool,
         options: &LeadOptions,
     ) -> (Option<Vec<f64>>, Diagnostics) {
         let mut starts = Starts {
             surroundings: &self.surroundings,
             sources: &self.sources,
-            leads_params: self.leads_params,
+            stand,
+            // who stands somewhere has got there with the params that are set
+            leads_params: self.leads_params && stand.is_none(),
             leave_out_redundant,
             options,
             alone: FxHashMap::default(),
@@ -113,6 +117,7 @@ type Key = (Span, Vec<u64>, String);
 struct Starts<'s> {
     surroundings: &'s Surroundings,
     sources: &'s Sources,
+    stand: Option<&'s [f64]>,
     leads_params: bool,
     leave_out_redundant: bool,
     options: &'s LeadOptions,
@@ -129,7 +134,9 @@ impl<'s> Starts<'s> {
         let led = Surroundings { lead, by: Vec::new(), reactions: false, ..self.surroundings.clone() };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
-        let from = if whole.0.system().parts.is_empty() {
+        let from = if let Some(stand) = self.stand {
+            Some(stand.to_vec())
+        } else if whole.0.system().parts.is_empty() {
             None
         } else {
             let settings = if self.leads_params { Vec::new() } else { self.surroundings.settings.clone() };
