@@ -96,7 +96,7 @@ pub mod rooms {
     pub mod import { pub use crate::import::*; }
     pub mod ir { pub use crate::ir::*; }
     pub mod layout { pub use crate::layout::*; }
-    pub mod lower { pub use crate::lower::*; }
+    pub mod lower { pub use crate::stages::lowered; }
     #[cfg(feature = "lsp")]
     pub mod lsp { pub use crate::lsp::*; }
     pub mod math { pub use crate::math::*; }

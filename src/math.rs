@@ -20,7 +20,7 @@ mod without_branches {
     include!("math/without_branches.rs");
 }
 
-pub use curve::{about, along, farthest, parabola, predicted, quintic};
+pub use curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
 pub use search::{GOLDEN, GoldenSection, Halving, bisect, boundary};
 pub use sin_cos::sin_cos;
 pub use sin_cos_of_each::sin_cos_of_each;

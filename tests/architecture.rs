@@ -63,37 +63,60 @@ fn every_test_is_there() {
     assert!(looked_at > 30, "only {looked_at} tests were looked at");
 }
 
-/// What `tolerances` has for a file: the module that names it.
-fn limits_of(path: &str) -> Option<String> {
-    let chapters = fs::read_dir(root().join("src/tolerances")).expect("the room");
-    let texts = chapters.map(|entry| fs::read_to_string(entry.expect("a chapter").path()).expect("text"));
-    texts.into_iter().find_map(|text| {
-        let module = &text[text.find(&format!("(`{path}`)."))?..];
-        Some(module[..module.find("\n}\n")?].to_owned())
-    })
+/// The limits that a file takes from `tolerances`.
+fn limits_of(text: &str) -> impl Iterator<Item = &str> {
+    let lists = text.split("use crate::tolerances::").skip(1).filter_map(|tree| tree.split(';').next());
+    lists.flat_map(|tree| tree.split(|c: char| !c.is_ascii_alphanumeric() && c != '_')).filter(|word| is_limit(word))
 }
 
-/// The constants of a row of "Numbers" stand in one of its files.
+fn is_limit(word: &str) -> bool {
+    is_word(word) && word.chars().all(|c| c.is_ascii_uppercase() || c == '_')
+}
+
+/// The constants of a row of "Numbers" are used in one of its files: declared there, or taken from `tolerances`.
 #[test]
 fn every_constant_of_a_table_is_in_its_file() {
     let page = page();
     let mut looked_at = 0;
     for line in page.lines().filter(|line| line.starts_with("| ")) {
         let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
-        let [_, _, files, constants, _] = cells.as_slice() else { continue };
+        let (files, constants) = match cells.as_slice() {
+            [_, _, files, constants, _] | [constants, files, _] => (files, constants),
+            _ => continue,
+        };
         let texts: Vec<String> = quoted(files)
             .filter(|path| Path::new(path).extension().is_some_and(|ending| ending == "rs"))
-            .flat_map(|path| [place(path).and_then(|path| fs::read_to_string(path).ok()), limits_of(path)])
-            .flatten()
+            .filter_map(|path| fs::read_to_string(place(path)?).ok())
             .collect();
-        let is_constant = |word: &&str| is_word(word) && word.chars().all(|c| c.is_ascii_uppercase() || c == '_');
-        for constant in quoted(constants).filter(is_constant) {
+        if texts.is_empty() {
+            continue;
+        }
+        for constant in quoted(constants).filter(|word| is_limit(word)) {
             looked_at += 1;
-            let is_there = texts.iter().any(|text| text.contains(&format!("const {constant}:")));
-            assert!(is_there, "`{constant}` is not in {files}");
+            let is_in = |text: &String| {
+                text.contains(&format!("const {constant}:")) || limits_of(text).any(|limit| limit == constant)
+            };
+            assert!(texts.iter().any(is_in), "`{constant}` is not used in {files}");
         }
     }
-    assert!(looked_at > 100, "only {looked_at} constants were looked at");
+    assert!(looked_at > 200, "only {looked_at} constants were looked at");
+}
+
+/// Each module of `tolerances` says for which file or folder it is.
+#[test]
+fn every_module_of_limits_names_its_place() {
+    let mut looked_at = 0;
+    let chapters = sources(&root().join("src/tolerances")).into_iter();
+    for chapter in chapters.filter(|path| !path.ends_with("mod.rs")) {
+        let text = fs::read_to_string(&chapter).expect("text");
+        for (before, _) in text.match_indices("\npub mod ").map(|(at, _)| text.split_at(at)) {
+            looked_at += 1;
+            let said = before.rsplit("\n\n").next().unwrap_or_default();
+            let named = quoted(said).find(|path| place(path).is_some());
+            assert!(named.is_some(), "{}: {said}", chapter.display());
+        }
+    }
+    assert!(looked_at > 40, "only {looked_at} modules were looked at");
 }
 
 /// Numbers of mathematics, which limit nothing.
@@ -114,7 +137,7 @@ fn limits_of_the_mathematics_stand_in_their_room() {
                 if !["f64", "[f64;", "[[f64;"].iter().any(|number| kind.starts_with(number)) {
                     continue;
                 }
-                let is_constant = is_word(name) && name.chars().all(|c| c.is_ascii_uppercase() || c == '_');
+                let is_constant = is_limit(name);
                 assert!(
                     !is_constant || NO_LIMITS.contains(&name),
                     "{}: `{name}` belongs to `tolerances`",

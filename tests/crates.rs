@@ -15,7 +15,7 @@ const SLIDER_CRANK: &str = "examples/slider_crank.mech";
 
 /// A crate by the paths of its files, and the rows that it is checked against.
 struct Crate {
-    files: BTreeMap<&'static str, String>,
+    files: BTreeMap<String, String>,
     rows: Vec<Vec<f64>>,
 }
 

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, ExprId, Graph, Motion, Symbol, Unary};
+use mechc::rooms::expr::{Binary, ExprId, Graph, MotionLaw, Symbol, Unary};
 use mechc::rooms::ir::ConstraintSystem;
 use mechc::rooms::math;
 use std::fs;
@@ -194,8 +194,14 @@ fn branches_that_do_not_count_do_not_matter() {
 
 #[test]
 fn motion_functions() {
-    let motions =
-        [Motion::Step, Motion::Step5, Motion::Step7, Motion::Harmonic, Motion::Cycloidal, Motion::ModifiedSine];
+    let motions = [
+        MotionLaw::Step,
+        MotionLaw::Step5,
+        MotionLaw::Step7,
+        MotionLaw::Harmonic,
+        MotionLaw::Cycloidal,
+        MotionLaw::ModifiedSine,
+    ];
     for motion in motions {
         // the ranges keep clear of the edges of the pieces
         for range in [[-2.0, -1.0], [0.01, 0.13], [0.3, 1.0], [1.86, 1.95], [3.0, 4.0]] {
@@ -211,12 +217,12 @@ fn motion_functions() {
 fn motion_functions_reach_their_ends_smoothly() {
     // how many derivatives vanish at both ends
     let smooth = [
-        (Motion::Step, 1),
-        (Motion::Step5, 2),
-        (Motion::Step7, 3),
-        (Motion::Harmonic, 1),
-        (Motion::Cycloidal, 2),
-        (Motion::ModifiedSine, 2),
+        (MotionLaw::Step, 1),
+        (MotionLaw::Step5, 2),
+        (MotionLaw::Step7, 3),
+        (MotionLaw::Harmonic, 1),
+        (MotionLaw::Cycloidal, 2),
+        (MotionLaw::ModifiedSine, 2),
     ];
     for (motion, orders) in smooth {
         let mut g = Graph::new();

@@ -5,9 +5,9 @@
 mod support;
 
 use mechc::rooms::syntax::ast::File;
-use mechc::rooms::syntax::ast::{Comparison, Expr, ExprKind, Factor, Name, Sign};
+use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Name, Sign};
 use mechc::rooms::syntax::format::expression;
-use mechc::rooms::syntax::{Parsed, format, parse, parse_expression};
+use mechc::rooms::syntax::{ParsedText, format, parse, parse_expression};
 use mechc::{Color, Diagnostics, Format, render};
 use mechc::{Sources, Span};
 use proptest::prelude::*;
@@ -27,7 +27,7 @@ fn read<T>(text: &str, parse: impl Fn(&Sources, mechc::FileId) -> Result<T, Diag
 }
 
 /// The tree of a text without faults.
-fn whole(parsed: Parsed) -> Result<File, Diagnostics> {
+fn whole(parsed: ParsedText) -> Result<File, Diagnostics> {
     if parsed.faults.is_empty() { Ok(parsed.tree) } else { Err(parsed.faults) }
 }
 
@@ -244,12 +244,12 @@ fn tree() -> impl Strategy<Value = Expr> {
         let sign = prop_oneof![Just(Sign::Plus), Just(Sign::Minus)];
         let factor = prop_oneof![Just(Factor::Times), Just(Factor::Over)];
         let comparison = prop_oneof![
-            Just(Comparison::Less),
-            Just(Comparison::LessEqual),
-            Just(Comparison::Greater),
-            Just(Comparison::GreaterEqual),
-            Just(Comparison::Equal),
-            Just(Comparison::NotEqual),
+            Just(ComparisonSign::Less),
+            Just(ComparisonSign::LessEqual),
+            Just(ComparisonSign::Greater),
+            Just(ComparisonSign::GreaterEqual),
+            Just(ComparisonSign::Equal),
+            Just(ComparisonSign::NotEqual),
         ];
         let terms = proptest::collection::vec((sign, inner.clone()), 1..4);
         let factors = proptest::collection::vec((factor, inner.clone()), 1..4);

@@ -240,7 +240,7 @@ fn an_input_is_led_to_a_number_too() {
     let lines: Vec<(&str, [f64; 2])> = model.led.iter().map(|led| (led.declared.name.as_str(), led.line)).collect();
     assert_eq!(lines, [("turn", [30.0, 250.0]), ("more", [20.0, 60.0])].map(|(n, l)| (n, l.map(f64::to_radians))));
     let (determined, _) =
-        analysis::determine(lower::lower(&model), false, Horizon::of_analysis(None)).expect("determined");
+        analysis::determine(lower::lowered(&model), false, Horizon::of_analysis(None)).expect("determined");
     let program = Arc::new(Program::new(determined.system()));
     let (cancel, t) = (Cancel::default(), 1.0);
     let options = LeadOptions { tolerance: mechc::TOLERANCE, pass_bifurcations: false, t, cancel };

@@ -94,6 +94,11 @@ fn determined() -> Vec<Module> {
             list.push(Module::new(name, move |name| Emitted::new(name, &path, number).expect("determined")));
         }
     }
+    // stages are written as numbers; those that hold most constructs as lines too
+    list.extend(["everything", "odd_names"].map(|stage| {
+        let path = PathBuf::from(format!("tests/stages/{stage}/input.mech"));
+        Module::new(format!("{stage}_as_lines"), move |name| Emitted::new(name, &path, 0).expect("determined"))
+    }));
     let texts = texts::with_rims().into_iter().chain([("lift".to_owned(), texts::scissor_lift(50))]);
     list.extend(texts.map(|(name, text)| {
         Module::new(name, move |name| Emitted::of(name, &text, Path::new("text"), 0).expect("determined"))

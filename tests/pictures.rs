@@ -870,7 +870,7 @@ fn free(text: &str) -> Vec<Vec<(String, [f64; 3])>> {
     let file = sources.add("free.mech", text);
     let tree = syntax::parse(&sources, file).tree;
     let (model, said) = check::check(&tree.mechanisms[0], &check::Surroundings::default(), &sources);
-    let system = lower::lower(&model.unwrap_or_else(|| panic!("{said:?}")));
+    let system = lower::lowered(&model.unwrap_or_else(|| panic!("{said:?}")));
     let named = |FreeMotion { bodies }: FreeMotion| {
         bodies.into_iter().map(|(body, velocity)| (system.bodies[body].name.clone(), velocity)).collect()
     };

@@ -4,7 +4,7 @@
 
 mod support;
 
-use mechc::rooms::expr::{Binary, Comparison, Dependence, ExprId, Graph, Motion, Node, Symbol, Unary};
+use mechc::rooms::expr::{Binary, Comparison, Dependence, ExprId, Graph, MotionLaw, Node, Symbol, Unary};
 use mechc::rooms::math;
 use mechc::rooms::syntax::{self, ast};
 use mechc::{Compiled, Sources};
@@ -40,7 +40,7 @@ enum Tree {
     Binary(Binary, Box<[Tree; 2]>),
     Select(Box<Condition>, Box<[Tree; 2]>),
     /// From `u0` on, over a length; from `v0` to `v1`.
-    Motion(Motion, Box<Tree>, [f64; 4]),
+    MotionLaw(MotionLaw, Box<Tree>, [f64; 4]),
 }
 
 #[derive(Clone, Debug)]
@@ -278,7 +278,7 @@ impl Tree {
                 let condition = condition.build(g);
                 g.select(condition, a, b)
             }
-            Tree::Motion(motion, u, [u0, length, v0, v1]) => {
+            Tree::MotionLaw(motion, u, [u0, length, v0, v1]) => {
                 let u = u.build(g);
                 let [u0, v0, u1, v1] = [*u0, *v0, u0 + length, *v1].map(|c| g.constant(c));
                 g.motion(*motion, u, [u0, v0], [u1, v1])
@@ -306,7 +306,7 @@ impl Tree {
                 let (a, b) = both(pair);
                 condition.value(point).select(a, b)
             }
-            Tree::Motion(motion, u, [u0, length, v0, v1]) => {
+            Tree::MotionLaw(motion, u, [u0, length, v0, v1]) => {
                 let (u, start, end) = (u.value(point), Bounded::exact(*u0), Bounded::exact(u0 + length));
                 let s = u.sub(start).div(end.sub(start));
                 let between = Bounded::exact(*v0).add(Bounded::exact(v1 - v0).mul(law(*motion, s)));
@@ -318,18 +318,18 @@ impl Tree {
 }
 
 /// The motions as the language's page gives them.
-fn law(motion: Motion, s: Bounded) -> Bounded {
+fn law(motion: MotionLaw, s: Bounded) -> Bounded {
     let constant = Bounded::exact;
     let polynomial =
         |terms: &[(f64, i32)]| terms.iter().fold(constant(0.0), |sum, &(c, n)| sum.add(constant(c).mul(s.power(n))));
     let sine = |angle: Bounded| angle.unary(Unary::Sin);
     match motion {
-        Motion::Step => polynomial(&[(3.0, 2), (-2.0, 3)]),
-        Motion::Step5 => polynomial(&[(10.0, 3), (-15.0, 4), (6.0, 5)]),
-        Motion::Step7 => polynomial(&[(35.0, 4), (-84.0, 5), (70.0, 6), (-20.0, 7)]),
-        Motion::Harmonic => constant(0.5).mul(constant(1.0).sub(constant(PI).mul(s).unary(Unary::Cos))),
-        Motion::Cycloidal => s.sub(sine(constant(TAU).mul(s)).div(constant(TAU))),
-        Motion::ModifiedSine => {
+        MotionLaw::Step => polynomial(&[(3.0, 2), (-2.0, 3)]),
+        MotionLaw::Step5 => polynomial(&[(10.0, 3), (-15.0, 4), (6.0, 5)]),
+        MotionLaw::Step7 => polynomial(&[(35.0, 4), (-84.0, 5), (70.0, 6), (-20.0, 7)]),
+        MotionLaw::Harmonic => constant(0.5).mul(constant(1.0).sub(constant(PI).mul(s).unary(Unary::Cos))),
+        MotionLaw::Cycloidal => s.sub(sine(constant(TAU).mul(s)).div(constant(TAU))),
+        MotionLaw::ModifiedSine => {
             let k = constant(1.0 / (4.0 + PI));
             let angle = constant(PI).mul(s);
             let ripple = constant(0.25).mul(sine(constant(4.0).mul(angle)));
@@ -411,12 +411,12 @@ fn trees() -> impl Strategy<Value = Tree> {
         let any_unary = prop_oneof![total.clone(), bounded.clone(), upper.clone()];
         let binary = prop::sample::select(vec![Binary::Atan2, Binary::Hypot, Binary::Min, Binary::Max]);
         let motion = prop::sample::select(vec![
-            Motion::Step,
-            Motion::Step5,
-            Motion::Step7,
-            Motion::Harmonic,
-            Motion::Cycloidal,
-            Motion::ModifiedSine,
+            MotionLaw::Step,
+            MotionLaw::Step5,
+            MotionLaw::Step7,
+            MotionLaw::Harmonic,
+            MotionLaw::Cycloidal,
+            MotionLaw::ModifiedSine,
         ]);
         prop_oneof![
             3 => pair.clone().prop_map(Tree::Add),
@@ -438,7 +438,7 @@ fn trees() -> impl Strategy<Value = Tree> {
             2 => (binary, pair.clone()).prop_map(|(f, p)| Tree::Binary(f, p)),
             1 => (conditions(inner.clone()), pair).prop_map(|(c, p)| Tree::Select(Box::new(c), p)),
             1 => (motion, one, -2.0..1.0, 0.5..3.0, -2.0..2.0, -2.0..2.0)
-                .prop_map(|(m, u, u0, length, v0, v1)| Tree::Motion(m, u, [u0, length, v0, v1])),
+                .prop_map(|(m, u, u0, length, v0, v1)| Tree::MotionLaw(m, u, [u0, length, v0, v1])),
         ]
     })
 }

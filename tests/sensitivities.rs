@@ -160,7 +160,7 @@ struct Varied<'t> {
     mechanism: &'t str,
     name: &'t str,
     value: f64,
-    unit: &'t str,
+    unit: String,
     is_input: bool,
 }
 
@@ -175,7 +175,7 @@ impl Varied<'_> {
         let size = if self.unit == "1" { self.value.abs().max(0.1) } else { self.value.abs().max(1e-3) };
         let difference = |h: f64| {
             let side = |value: f64| {
-                let told = vec![setting(self.name, value, self.unit)];
+                let told = vec![setting(self.name, value, &self.unit)];
                 let (inputs, set) = if self.is_input { (told, Vec::new()) } else { (Vec::new(), told) };
                 let choice = Choice { inputs, set, ..self.choice(&[]) };
                 rows(&compile(self.path, self.text, &choice)?, times)
@@ -271,8 +271,8 @@ fn first_order(path: &Path) {
 }
 
 fn varied_param<'t>(path: &'t Path, (text, mechanism): (&'t str, &'t str), param: &'t Param) -> Varied<'t> {
-    let Param { name, value, unit, .. } = param;
-    Varied { path, text, mechanism, name, value: *value, unit, is_input: false }
+    let Param { name, value, .. } = param;
+    Varied { path, text, mechanism, name, value: *value, unit: param.unit(), is_input: false }
 }
 
 /// The text with measures that are places and angles of its bodies, differentiated by a name.
@@ -344,7 +344,15 @@ fn inputs(path: &Path) {
                 let is_there = text.split("mechanism ").any(|one| one.starts_with(&mechanism) && one.contains(input));
                 if is_there && compile(path, &text, &choice).is_some() {
                     let (mechanism, name) = (&mechanism, "zin");
-                    seen.take(&Varied { path, text: &text, mechanism, name, value: 0.0, unit, is_input: true });
+                    seen.take(&Varied {
+                        path,
+                        text: &text,
+                        mechanism,
+                        name,
+                        value: 0.0,
+                        unit: unit.to_owned(),
+                        is_input: true,
+                    });
                 }
             }
         }

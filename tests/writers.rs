@@ -96,7 +96,7 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ),
     ("declarations", &[("name", "text"), ("kind", "text"), ("joint", "text?"), ("rows", "count"), ("line", "count")]),
     ("terms", &[("name", "text"), ("value", "text")]),
-    ("rows", &[("name", "text"), ("declaration", "count"), ("phi", "text")]),
+    ("rows", &[("name", "text"), ("declaration", "count"), ("unit", "text"), ("phi", "text")]),
     ("phi_q", &[("row", "count"), ("column", "count"), ("value", "text")]),
     (
         "measures",
@@ -111,7 +111,7 @@ const LAYOUT: &[(&str, &[(&str, &str)])] = &[
     ),
     ("conditions", &[("owner", "text"), ("kind", "text"), ("table", "text?"), ("positive", "text")]),
     ("watches", &[("declaration", "count"), ("kind", "text"), ("value", "text")]),
-    ("left_out", &[("declaration", "count"), ("phi", "text")]),
+    ("left_out", &[("declaration", "count"), ("unit", "text"), ("phi", "text")]),
 ];
 
 const FIELDS: [&str; 20] = [

@@ -102,25 +102,25 @@ pub mod coordinate {
     pub const ROCKER_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 9
+    /// joint `main 1` (m), line 9
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 9
+    /// joint `main 2` (m), line 9
     pub const MAIN_2: usize = 1;
-    /// joint `pin 1`, line 10
+    /// joint `pin 1` (m), line 10
     pub const PIN_1: usize = 2;
-    /// joint `pin 2`, line 10
+    /// joint `pin 2` (m), line 10
     pub const PIN_2: usize = 3;
-    /// joint `knee 1`, line 11
+    /// joint `knee 1` (m), line 11
     pub const KNEE_1: usize = 4;
-    /// joint `knee 2`, line 11
+    /// joint `knee 2` (m), line 11
     pub const KNEE_2: usize = 5;
-    /// joint `pivot 1`, line 12
+    /// joint `pivot 1` (m), line 12
     pub const PIVOT_1: usize = 6;
-    /// joint `pivot 2`, line 12
+    /// joint `pivot 2` (m), line 12
     pub const PIVOT_2: usize = 7;
-    /// driver `motor`, line 13
+    /// driver `motor` (rad), line 13
     pub const MOTOR: usize = 8;
 }
 
@@ -233,7 +233,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 32 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -1994,16 +1994,16 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; a last one that is not a number wins.
+/// The largest value beside its scale; not a number if one is not.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; a second one that is not a number wins.
+/// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// What leads from some numbers to others.
@@ -2381,10 +2381,20 @@ impl<M: Solved> Solution<M> {
 }
 }
 
+pub mod so_far {
+//! What is the largest, found one by one.
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
+}
+}
+
 pub mod pivots {
 //! What pivots tell of a position.
 
-use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -2393,7 +2403,7 @@ impl<M: Solved> Solution<M> {
         if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
             *is_negative ^= inverse < 0.0;
         }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
+        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
     }
 }
 }
@@ -2414,6 +2424,7 @@ pub mod newton {
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
 use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -2436,7 +2447,7 @@ impl Newton {
     pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger(self.first, size / scale);
+            self.first = larger_so_far(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;

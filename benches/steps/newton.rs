@@ -154,11 +154,11 @@ impl<'p, L: Linear> Newton<'p, L> {
     fn derivatives(&mut self) -> Vec<f64> {
         let (outputs, [_, qd, ..]) = (&self.program.outputs, self.program.inputs.coordinates);
         self.program.run(Stage::Velocity, &mut self.registers);
-        self.qd = outputs.nu.iter().map(|&register| self.registers.get(register)).collect();
+        self.qd = outputs.nu().iter().map(|&register| self.registers.get(register)).collect();
         self.linear.solve(&mut self.qd);
         self.registers.set_all(qd, &self.qd);
         self.program.run(Stage::Acceleration, &mut self.registers);
-        self.qdd = outputs.gamma.iter().map(|&register| self.registers.get(register)).collect();
+        self.qdd = outputs.gamma().iter().map(|&register| self.registers.get(register)).collect();
         self.linear.solve(&mut self.qdd);
         [&self.q, &self.qd, &self.qdd].into_iter().flatten().copied().collect()
     }

@@ -65,7 +65,7 @@ fn opened(path: &Arc<Path>, text: &str) -> Snapshot {
     Snapshot::new(Arc::new(Memory::default())).with_text(path, Some(text.into()))
 }
 
-fn parsed(text: &str) -> syntax::Parsed {
+fn parsed(text: &str) -> syntax::ParsedText {
     let mut sources = Sources::default();
     let file = sources.add("text.mech", text);
     syntax::parse(&sources, file)

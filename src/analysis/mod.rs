@@ -28,6 +28,6 @@ pub use crate::tolerances::TOLERANCE;
 pub use assemble::{Moved, Request, Started, assemble_from, nearest, start, start_from, with_parts};
 pub use explain::errors::length as length_in_words;
 pub use explain::{FreeMotion, determine, free_motions};
-pub use follow::{LeadOptions, Motion, Way, lead};
+pub use follow::{Follower, LeadOptions, Way, lead};
 pub use results::{Answers, Asked, refused_results};
 pub use state::{Horizon, Times};

@@ -2,7 +2,7 @@
 
 use super::formula::{Context, Dim, Value};
 use super::{Checker, errors};
-use crate::expr::{Binary, ExprId, Motion, Unary};
+use crate::expr::{Binary, ExprId, MotionLaw, Unary};
 use crate::model::{Condition, ConditionKind, Dimension};
 use crate::source::Span;
 use crate::syntax::ast::{Expr, Name};
@@ -66,7 +66,7 @@ impl Checker<'_> {
                 let id = self.model.graph.unary(Unary::named(name)?, value.id);
                 Some(Value { id, dim: Dim::PURE })
             }
-            Group::Motion => self.motion(name, Motion::named(name)?, arguments, context),
+            Group::Motion => self.motion(name, MotionLaw::named(name)?, arguments, context),
             Group::Polynomial => self.polynomial(arguments, context),
             // a derivative is taken of a formula, not of its value; points are no numbers
             Group::Alike | Group::Derivative | Group::Points => self.apply_to_alike(name, arguments, context),
@@ -107,7 +107,13 @@ impl Checker<'_> {
         Some(dim)
     }
 
-    fn motion(&mut self, name: &str, motion: Motion, arguments: &[Argument], context: &Context<'_>) -> Option<Value> {
+    fn motion(
+        &mut self,
+        name: &str,
+        motion: MotionLaw,
+        arguments: &[Argument],
+        context: &Context<'_>,
+    ) -> Option<Value> {
         let &[u, u0, v0, u1, v1] = arguments else {
             return None;
         };

@@ -121,10 +121,11 @@ impl Checker<'_> {
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
-                    if let Some(form) = self.equation(*driver, name, [left, right]) {
+                    if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
-                        self.model.equations.push(Equation { declared, driver, form, written });
+                        let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
+                        self.model.equations.push(Equation { declared, driver, form, dimension, is_angle, written });
                     }
                 }
                 ItemKind::Part(_) => {
@@ -148,7 +149,8 @@ impl Checker<'_> {
         !has_bound_inputs || sides.into_iter().any(on_time) || self.quantities_in(sides).len() <= 1
     }
 
-    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<EquationForm> {
+    /// What an equation says, and the dimension of its sides.
+    fn equation(&mut self, driver: bool, name: &Name, sides: [&Expr; 2]) -> Option<(EquationForm, Dimension)> {
         let [left, right] = sides;
         if !sides.iter().any(|side| self.holds_quantity(side)) {
             // a name that is wrong explains more than the want of a quantity
@@ -187,7 +189,7 @@ impl Checker<'_> {
             (None, None) => return None,
         };
         let what = format!("the two sides of {} `{}` are", if driver { "driver" } else { "constraint" }, name.text);
-        self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
+        let alike = self.alike(&what, (left.span, a.dim), (right.span, b.dim), &context)?;
         for (side, value, other) in [(left, a, right), (right, b, left)] {
             if is_a_length(other) {
                 self.remember_any_length(side, value.id, context.judged);
@@ -214,9 +216,20 @@ impl Checker<'_> {
                     owner: format!("{}{}", self.path, name.text),
                 });
             }
-            return Some(EquationForm::Distance(p, q, b.id));
+            return Some((EquationForm::Distance(p, q, b.id), Dimension::LENGTH));
         }
-        Some(EquationForm::Equality(a.id, b.id))
+        let dim = if context.judged { alike } else { self.plain_dimension([(left, a), (right, b)], &context) };
+        Some((EquationForm::Equality(a.id, b.id), dim.settled()))
+    }
+
+    /// What a plain equation is about: a side with quantities tells it, be it of lengths or angles; one of numbers and time stands for
+    /// whatever is wanted.
+    fn plain_dimension(&mut self, sides: [(&Expr, Value); 2], context: &Context<'_>) -> Dim {
+        let telling: Vec<(&Expr, Value)> = sides.into_iter().filter(|(side, _)| self.holds_quantity(side)).collect();
+        let known = telling.iter().find_map(|&(side, value)| self.known_dimension(side, value, context));
+        // where numbers hide it in both, what is read as more than a number
+        let read = || telling.iter().map(|(_, value)| value.dim).find(|&dim| dim != Dim::PURE).unwrap_or(Dim::PURE);
+        known.map_or_else(read, Dim::Of)
     }
 
     /// Says where a side of an equation cannot be like the other one, a quantity and nothing else, whatever that is of.

@@ -15,7 +15,7 @@ use super::rates::{Part, polar, rate_mended};
 use crate::diag::{Applies, Code, Diagnostic, Edit, Fix, nearest, readable};
 use crate::model::Dimension;
 use crate::source::Span;
-use crate::syntax::ast::{Column, ColumnKind, Name, Segment};
+use crate::syntax::ast::{ColumnName, ColumnWord, Name, PathSegment};
 use crate::syntax::format::expression;
 use crate::vocabulary::{Constant, FUNCTIONS, JOINTS, JointWord, Place, QUANTITIES, QuantityWord, Synonym, Unit, Word};
 
@@ -656,10 +656,10 @@ pub fn turning_in_hertz(at: Span, formula: Span) -> Diagnostic {
 }
 
 /// A column that a file does not have.
-pub fn no_column(path: &Name, column: &Column, header: &[&str]) -> Diagnostic {
+pub fn no_column(path: &Name, column: &ColumnName, header: &[&str]) -> Diagnostic {
     let (message, wanted) = match &column.kind {
-        ColumnKind::Number(number) => (format!("`{}` has no column {number}", path.text), None),
-        ColumnKind::Named(name) => (format!("`{}` has no column `{name}`", path.text), Some(name)),
+        ColumnWord::Number(number) => (format!("`{}` has no column {number}", path.text), None),
+        ColumnWord::Named(name) => (format!("`{}` has no column `{name}`", path.text), Some(name)),
     };
     let diagnostic = Diagnostic::new(Code::E0201, message).at(column.span, "not in its first line");
     let Some(name) = wanted else {
@@ -910,7 +910,7 @@ pub fn not_repeated(name: &Name) -> Diagnostic {
 }
 
 /// `arm.tip.x`, or a number behind what is not repeated.
-pub fn path_of_nothing(span: Span, segments: &[Segment]) -> Diagnostic {
+pub fn path_of_nothing(span: Span, segments: &[PathSegment]) -> Diagnostic {
     match segments {
         [owner, point, coordinate] if ["x", "y"].contains(&coordinate.name.text.as_str()) => {
             let indices: Vec<String> = owner.indices.iter().map(expression).collect();

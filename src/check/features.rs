@@ -9,7 +9,7 @@ use super::{Checker, errors};
 use crate::expr::ExprId;
 use crate::model::{Axis, AxisId, Body, CircleId, CurveId, Dimension, Frame, Point, PointId};
 use crate::source::Span;
-use crate::syntax::ast::{self, Expr, ExprKind, FeatureKind, Item, ItemKind, Name, Pose};
+use crate::syntax::ast::{self, DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Name};
 use crate::vocabulary::Keyword;
 use rustc_hash::FxHashMap;
 
@@ -108,7 +108,7 @@ impl<'a> Checker<'a> {
     fn add_body(&mut self, item: &Item, name: &Name) -> Frame {
         let zero = self.model.graph.constant(0.0);
         let pose_span = match &item.kind {
-            ItemKind::Body { pose, .. } => pose.as_ref().map(Pose::span),
+            ItemKind::Body { pose, .. } => pose.as_ref().map(DrawnPose::span),
             _ => None,
         };
         let (declared, part) = (self.declared(name), self.part);

@@ -9,10 +9,10 @@ use super::errors;
 use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use super::rates::Part;
-use crate::expr::{Comparison as Relation, Dependence, ExprId, Symbol};
+use crate::expr::{Comparison, Dependence, ExprId, Symbol};
 use crate::model::{Dimension, Named};
 use crate::source::Span;
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, ItemKind, Name, Segment, Sign};
+use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, ItemKind, Name, PathSegment, Sign};
 use crate::vocabulary::{Constant, QuantityWord, StandsFor, Unit, is_called};
 
 /// The dimension of a formula.
@@ -382,7 +382,7 @@ impl Checker<'_> {
     }
 
     /// Says of a longer path that it is no number.
-    fn path_as_number(&mut self, span: Span, segments: &[Segment]) {
+    fn path_as_number(&mut self, span: Span, segments: &[PathSegment]) {
         let text: String = self.sources.text(span).chars().filter(|c| !c.is_whitespace()).collect();
         // those of the text have been written out; this one comes from outside
         let owner = text.split_once("].").map_or(text.clone(), |(owner, _)| format!("{owner}]"));
@@ -612,13 +612,13 @@ impl Checker<'_> {
                 self.alike("this compares", (a.span, left.dim), (b.span, right.dim), context)?;
                 let (x, y, graph) = (left.id, right.id, &mut self.model.graph);
                 Some(match comparison {
-                    Comparison::Less => graph.compare(Relation::Less, x, y),
-                    Comparison::LessEqual => graph.compare(Relation::LessEqual, x, y),
-                    Comparison::Greater => graph.compare(Relation::Less, y, x),
-                    Comparison::GreaterEqual => graph.compare(Relation::LessEqual, y, x),
-                    Comparison::Equal => graph.compare(Relation::Equal, x, y),
-                    Comparison::NotEqual => {
-                        let equal = graph.compare(Relation::Equal, x, y);
+                    ComparisonSign::Less => graph.compare(Comparison::Less, x, y),
+                    ComparisonSign::LessEqual => graph.compare(Comparison::LessEqual, x, y),
+                    ComparisonSign::Greater => graph.compare(Comparison::Less, y, x),
+                    ComparisonSign::GreaterEqual => graph.compare(Comparison::LessEqual, y, x),
+                    ComparisonSign::Equal => graph.compare(Comparison::Equal, x, y),
+                    ComparisonSign::NotEqual => {
+                        let equal = graph.compare(Comparison::Equal, x, y);
                         graph.not(equal)
                     }
                 })

@@ -10,7 +10,7 @@ use super::{Checker, Surroundings};
 use crate::expr::{ExprId, Printer, Symbol};
 use crate::model::{CompoundUnit, Named};
 use crate::source::{Sources, Span};
-use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Mechanism, Range};
+use crate::syntax::ast::{Expr, ExprKind, IndexRange, Item, ItemKind, Mechanism};
 use crate::syntax::keywords_in;
 use crate::vocabulary::{Dimension, JointWord, Unit};
 use rustc_hash::FxHashMap;
@@ -192,7 +192,7 @@ fn indices(item: &Item, instance: &Instance<'_>) -> Vec<Index> {
     let Some(copies) = copies.filter(|copies| !copies.is_empty() && !item.ranges.is_empty()) else {
         return Vec::new();
     };
-    let of_range = |(k, range): (usize, &Range)| {
+    let of_range = |(k, range): (usize, &IndexRange)| {
         let numbers = || copies.iter().filter_map(|numbers| numbers.get(k));
         let ends = [*numbers().min()?, *numbers().max()?];
         let range_span = range.from.span.to(range.to.span);

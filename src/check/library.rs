@@ -5,7 +5,7 @@
 use super::errors::library as errors;
 use crate::diag::{Diagnostic, Diagnostics, nearest};
 use crate::source::{FileId, Sources, Span};
-use crate::syntax::ast::{Mechanism, Name, Use};
+use crate::syntax::ast::{Mechanism, Name, UsedFile};
 use crate::syntax::{self, is_name};
 use rustc_hash::FxHashMap;
 use std::path::{Component, Path, PathBuf};
@@ -25,7 +25,7 @@ pub struct KnownFile {
     /// Beside which the files are that it names; empty for standard input.
     pub path: PathBuf,
     /// What was read of it.
-    pub read: Arc<syntax::Parsed>,
+    pub read: Arc<syntax::ParsedText>,
     /// For each of its `use`s the number of that file in the library; nothing where it cannot be read, which has been said.
     pub uses: Vec<Option<usize>>,
 }
@@ -92,7 +92,7 @@ impl Library {
         if let Some(number) = own {
             return Ok(KnownMechanism { file: at, number });
         }
-        let wanted = |used: &Use| used.prefix.as_ref().map(|own| &own.text) == prefix.map(|wanted| &wanted.text);
+        let wanted = |used: &UsedFile| used.prefix.as_ref().map(|own| &own.text) == prefix.map(|wanted| &wanted.text);
         let uses = || file.read.tree.uses.iter().zip(&file.uses).filter(|(used, _)| wanted(used));
         for &number in uses().filter_map(|(_, number)| number.as_ref()) {
             if let Some(found) = mechanism_of(&self.files[number], &name.text) {
@@ -158,7 +158,7 @@ impl Library {
     }
 
     /// What a file uses, as far as it could be read.
-    fn uses_of(&self, at: usize) -> impl Iterator<Item = (&Use, usize)> {
+    fn uses_of(&self, at: usize) -> impl Iterator<Item = (&UsedFile, usize)> {
         let file = &self.files[at];
         file.read.tree.uses.iter().zip(&file.uses).filter_map(|(used, number)| Some((used, (*number)?)))
     }

@@ -2,7 +2,7 @@
 
 use super::kinds::coordinate;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, TableRows};
+use crate::syntax::ast::{DrawnPose, Expr, ExprKind, FeatureKind, Item, ItemKind, Mechanism, Name, TableRows};
 use crate::vocabulary::{Constant, StandsFor, Unit, gives_way, is_called};
 
 /// Where the argument of a function or curve stands in its formula.
@@ -105,7 +105,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         ItemKind::Table { .. } | ItemKind::Broken { .. } => Vec::new(),
         ItemKind::Ground { features } => features.iter().flat_map(|feature| parts(&feature.kind)).collect(),
         ItemKind::Body { pose, features, .. } => {
-            let pose = pose.iter().flat_map(Pose::parts);
+            let pose = pose.iter().flat_map(DrawnPose::parts);
             pose.chain(features.iter().flat_map(|feature| parts(&feature.kind))).collect()
         }
         ItemKind::Joint { arguments, .. } => arguments.iter().collect(),

@@ -7,7 +7,7 @@ use super::{Checker, errors, mends};
 use crate::expr::ExprId;
 use crate::model::Frame;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Item, ItemKind, Name, Pose};
+use crate::syntax::ast::{DrawnPose, Expr, ExprKind, Item, ItemKind, Name};
 use crate::syntax::keywords_in;
 use crate::vocabulary::Keyword;
 use rustc_hash::FxHashMap;
@@ -53,7 +53,10 @@ impl<'a> Checker<'a> {
     }
 
     /// Which bodies the pose of each one names.
-    fn uses_of_poses(&self, poses: &[(&'a Item, &'a Name, Option<&'a Pose>)]) -> Vec<(&'a Name, Vec<(usize, Span)>)> {
+    fn uses_of_poses(
+        &self,
+        poses: &[(&'a Item, &'a Name, Option<&'a DrawnPose>)],
+    ) -> Vec<(&'a Name, Vec<(usize, Span)>)> {
         let mut positions = FxHashMap::default();
         for (k, (_, name, _)) in poses.iter().enumerate() {
             positions.entry(name.text.as_str()).or_insert(k);
@@ -63,9 +66,9 @@ impl<'a> Checker<'a> {
         }
         // what is in a part stands where the part does
         let position = |name: &Name| positions.get(name.text.split('.').next().unwrap_or_default()).copied();
-        let uses = poses
-            .iter()
-            .map(|&(_, name, pose)| (name, self.owners_in(pose.into_iter().flat_map(Pose::parts).collect(), position)));
+        let uses = poses.iter().map(|&(_, name, pose)| {
+            (name, self.owners_in(pose.into_iter().flat_map(DrawnPose::parts).collect(), position))
+        });
         let mut uses: Vec<_> = uses.collect();
         for (part, child) in self.bindings.iter().zip(&self.parts) {
             // of one whose mount is refused that is said
@@ -109,7 +112,7 @@ impl<'a> Checker<'a> {
         keywords_in(head).any(|(_, keyword)| keyword.word.name == "at")
     }
 
-    fn pose(&mut self, body: usize, pose: &Pose) -> Option<()> {
+    fn pose(&mut self, body: usize, pose: &DrawnPose) -> Option<()> {
         let (place, phi) = match &pose.toward {
             Some(toward) => self.pose_toward(&pose.at, toward),
             None => self.place_and_angle(&pose.at)?,

@@ -8,7 +8,7 @@ use crate::diag::{Diagnostic, Diagnostics};
 use crate::model::Dimension;
 use crate::source::Span;
 use crate::syntax::ast::{
-    self, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Sign, TableRows,
+    self, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Sign, TableRows,
 };
 use crate::vocabulary::is_taken;
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -193,7 +193,7 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// Whether an index has a name of its own.
-    fn is_free(&mut self, range: &ast::Range, all: &[ast::Range]) -> bool {
+    fn is_free(&mut self, range: &ast::IndexRange, all: &[ast::IndexRange]) -> bool {
         let name = &range.index;
         let before = all.iter().take_while(|other| other.index.span != name.span);
         let is_again = before.into_iter().any(|other| other.index.text == name.text);
@@ -205,7 +205,7 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// The first number, and the one behind the last.
-    fn bounds(&mut self, range: &ast::Range, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
+    fn bounds(&mut self, range: &ast::IndexRange, numbers: &Numbers<'_>) -> Option<[i64; 2]> {
         let from = self.whole_number(&range.from, numbers, "a bound of a range").ok()?;
         let to = self.whole_number(&range.to, numbers, "a bound of a range").ok()?;
         Some([from, if range.is_closed { to.saturating_add(1) } else { to }])
@@ -343,9 +343,9 @@ impl<'t, 'c> Writer<'t, 'c> {
         features.iter().map(copy).collect()
     }
 
-    fn pose(&mut self, pose: &Pose, numbers: &Numbers<'_>) -> Written<Pose> {
+    fn pose(&mut self, pose: &DrawnPose, numbers: &Numbers<'_>) -> Written<DrawnPose> {
         let toward = pose.toward.as_ref().map(|toward| self.formula(toward, numbers)).transpose()?;
-        Ok(Pose { at: self.formula(&pose.at, numbers)?, toward })
+        Ok(DrawnPose { at: self.formula(&pose.at, numbers)?, toward })
     }
 
     /// The formula of a function: its argument hides what is repeated.
@@ -377,7 +377,7 @@ impl<'t, 'c> Writer<'t, 'c> {
                 self.must_not_be_repeated(owner)?;
                 match self.parts.get(&owner.text).cloned() {
                     Some(part) => {
-                        let segment = ast::Segment { name: feature.clone(), indices: Vec::new() };
+                        let segment = ast::PathSegment { name: feature.clone(), indices: Vec::new() };
                         self.inside(e.span, &owner.text, part, &[segment], numbers)?
                     }
                     None => e.kind.clone(),
@@ -424,7 +424,7 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// `link[2].pin`
-    fn path(&mut self, span: Span, segments: &[ast::Segment], numbers: &Numbers<'_>) -> Written<ExprKind> {
+    fn path(&mut self, span: Span, segments: &[ast::PathSegment], numbers: &Numbers<'_>) -> Written<ExprKind> {
         let [first, rest @ ..] = segments else { return Err(Unwritten) };
         let owner = self.copy_named(first, numbers)?;
         if let Some(part) = self.parts.get(&owner.text).cloned()
@@ -453,7 +453,7 @@ impl<'t, 'c> Writer<'t, 'c> {
         span: Span,
         path: &str,
         part: Option<Rc<Instance<'t>>>,
-        segments: &[ast::Segment],
+        segments: &[ast::PathSegment],
         numbers: &Numbers<'_>,
     ) -> Written<ExprKind> {
         // of a part that cannot be, that has been said
@@ -490,10 +490,10 @@ impl<'t, 'c> Writer<'t, 'c> {
         &mut self,
         part: &Instance<'t>,
         path: &str,
-        segment: &ast::Segment,
+        segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
     ) -> Written<String> {
-        let ast::Segment { name, indices } = segment;
+        let ast::PathSegment { name, indices } = segment;
         let copies = part.copies.get(name.text.as_str());
         let diagnostic = match (copies, indices.is_empty()) {
             _ if !part.declares(&name.text) => {
@@ -516,8 +516,8 @@ impl<'t, 'c> Writer<'t, 'c> {
     }
 
     /// The name that a copy has.
-    fn copy_named(&mut self, segment: &ast::Segment, numbers: &Numbers<'_>) -> Written<Name> {
-        let ast::Segment { name, indices } = segment;
+    fn copy_named(&mut self, segment: &ast::PathSegment, numbers: &Numbers<'_>) -> Written<Name> {
+        let ast::PathSegment { name, indices } = segment;
         if indices.is_empty() {
             self.must_not_be_repeated(name)?;
             return Ok(name.clone());
@@ -551,10 +551,10 @@ impl<'t, 'c> Writer<'t, 'c> {
     fn one_of(
         &mut self,
         copies: &FxHashSet<Vec<i64>>,
-        segment: &ast::Segment,
+        segment: &ast::PathSegment,
         numbers: &Numbers<'_>,
     ) -> Written<String> {
-        let ast::Segment { name, indices } = segment;
+        let ast::PathSegment { name, indices } = segment;
         let values = self.values(indices, numbers)?;
         let copy = indexed(&name.text, &values);
         if copies.contains(&values) {

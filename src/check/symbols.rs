@@ -7,7 +7,7 @@ use super::kinds::{self, Wanted, coordinate};
 use super::meaning::{Alone, alone};
 use crate::source::{FileId, Span};
 use crate::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, Pose, Segment, TableRows, Use as UsedFile,
+    DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, Name, PathSegment, TableRows, UsedFile,
     WrittenUnit,
 };
 use crate::syntax::keywords_in;
@@ -322,7 +322,7 @@ impl Walk<'_> {
             }
             ItemKind::Ground { features } => self.uses_in_features(features, self.ground, plain),
             ItemKind::Body { pose, features, .. } => {
-                for part in pose.iter().flat_map(Pose::parts) {
+                for part in pose.iter().flat_map(DrawnPose::parts) {
                     self.read(part, plain, Wanted::Either);
                 }
                 self.uses_in_features(features, id, plain);
@@ -486,7 +486,7 @@ impl Walk<'_> {
     }
 
     /// `link[2].pin`; the numbers are formulas of their own.
-    fn path(&mut self, segments: &[Segment], scope: Scope<'_>, wanted: Wanted) {
+    fn path(&mut self, segments: &[PathSegment], scope: Scope<'_>, wanted: Wanted) {
         match segments {
             [owner, feature, ..] => self.member(&owner.name, &feature.name, scope, wanted),
             [alone] => {

@@ -7,7 +7,7 @@ use crate::diag::Diagnostic;
 use crate::expr::{ExprId, TableId};
 use crate::model::{Condition, ConditionKind, Dimension};
 use crate::source::{FileId, Span};
-use crate::syntax::ast::{Column, ColumnKind, Expr, ExprKind, Name, TableRows, WrittenUnit};
+use crate::syntax::ast::{ColumnName, ColumnWord, Expr, ExprKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
 use crate::vocabulary::CompoundUnit;
 use rustc_hash::FxHashMap;
@@ -134,7 +134,7 @@ impl<'a> Checker<'a> {
     fn file_rows(
         &mut self,
         path: &Name,
-        columns: Option<&[Column; 2]>,
+        columns: Option<&[ColumnName; 2]>,
         units: Option<&[WrittenUnit; 2]>,
     ) -> Option<(Vec<Row>, [Dim; 2])> {
         let units = match units {
@@ -177,7 +177,7 @@ impl<'a> Checker<'a> {
     }
 
     /// Where the two columns are that a text names.
-    fn picked(&mut self, path: &Name, columns: &[Column; 2], file: FileId) -> Option<Picked> {
+    fn picked(&mut self, path: &Name, columns: &[ColumnName; 2], file: FileId) -> Option<Picked> {
         let header = table_file::first_line(self.sources.get(file));
         let cells = columns.each_ref().map(|column| match position_of(path, column, &header) {
             Ok(at) => Some(at),
@@ -186,7 +186,7 @@ impl<'a> Checker<'a> {
                 None
             }
         });
-        let by_name = columns.iter().any(|column| matches!(column.kind, ColumnKind::Named(_)));
+        let by_name = columns.iter().any(|column| matches!(column.kind, ColumnWord::Named(_)));
         Some(Picked::Two { cells: [cells[0]?, cells[1]?], by_name })
     }
 
@@ -298,10 +298,10 @@ impl<'a> Checker<'a> {
 }
 
 /// The number of a column in a file's first line, from 0.
-fn position_of(path: &Name, column: &Column, header: &[&str]) -> Result<usize, Box<Diagnostic>> {
+fn position_of(path: &Name, column: &ColumnName, header: &[&str]) -> Result<usize, Box<Diagnostic>> {
     let at = match &column.kind {
-        ColumnKind::Number(number) => Some(*number as usize - 1).filter(|at| *at < header.len()),
-        ColumnKind::Named(name) => {
+        ColumnWord::Number(number) => Some(*number as usize - 1).filter(|at| *at < header.len()),
+        ColumnWord::Named(name) => {
             let mut found = (0..header.len()).filter(|&at| normalized(header[at]) == normalized(name));
             let first = found.next();
             if let (Some(first), Some(second)) = (first, found.next()) {

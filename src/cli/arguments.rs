@@ -280,6 +280,10 @@ pub(super) struct EmitArguments {
     #[arg(long = "crate", value_name = "DIR", conflicts_with = "output")]
     pub folder: Option<String>,
 
+    /// With --crate: a C header and the functions behind it too, for firmware and programs in C or C++
+    #[arg(long)]
+    pub ffi: bool,
+
     /// What to write; by the ending of OUT (.tex, .json) if not given, else rust
     #[arg(long, value_enum, value_name = "FORMAT")]
     pub format: Option<EmitFormat>,

@@ -19,6 +19,10 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
     let format = endings::form(arguments.format, &arguments.output, &FORMS, EmitFormat::Rust)?;
     if arguments.folder.is_some() {
         can_be_a_crate(arguments)?;
+    } else if arguments.ffi {
+        return Err(unusable("functions for C are a part of a crate")
+            .help("name a folder for it with `--crate DIR`, or leave `--ffi` out")
+            .into());
     }
     if arguments.lanes.is_some() {
         can_have_lanes(arguments, format)?;
@@ -35,6 +39,7 @@ pub(super) fn emit(arguments: &EmitArguments, reporter: &mut Reporter) -> Result
         with_motion: arguments.with != Content::Equations,
         with_sensitivities: arguments.with == Content::Sensitivities,
         lanes: arguments.lanes,
+        for_c: arguments.ffi,
         ..RustOptions::of(&*file)
     };
     if let Some(folder) = &arguments.folder {
@@ -58,7 +63,7 @@ fn package(compiled: &Compiled, folder: &str, options: &RustOptions, reporter: &
     let Some(crate_files) = crate_files else {
         return Err(said.into());
     };
-    let texts = crate_files.iter().map(|file| (file.path, file.text.as_str()));
+    let texts = crate_files.iter().map(|file| (file.path.as_str(), file.text.as_str()));
     files::write_all(folder, texts, MARK, &reporter.spared())?;
     if said.has_errors() {
         return Err(said.into());

@@ -3,11 +3,13 @@
 //! Every register is written by one operation. What one function computes and a later one needs is handed on in an array of
 //! terms, `w`.
 
+use super::operand::{Arguments, Operand};
 use super::operations::Expression;
-use super::text::{LONGEST_LINE, contains_word, documented, lines, literal, signature};
+use super::text::{LONGEST_LINE, documented, lines, literal, signature};
 use crate::program::{Column, Op, Register};
 use crate::solver::{Instruction, Segment, Tear, from_bits};
 use rustc_hash::{FxHashMap, FxHashSet};
+use std::fmt::{self, Display, Formatter};
 use std::ops::Range;
 
 /// Operations of a function at most: rustc takes more than proportionally longer for longer ones.
@@ -28,21 +30,25 @@ pub(super) trait Scene {
     /// The name and the value of a register that no operation writes.
     fn input(&self, register: Register) -> Input;
     /// What stands in a register of the program.
-    fn load(&self, register: Register) -> String;
+    fn load(&self, register: Register) -> Operand;
     /// A column of a result.
-    fn place(&self, column: u32) -> String;
+    fn place(&self, column: u32) -> Operand;
     /// The name of a value that is left in a column, `rod_phi`; none where it is no name of its own.
     fn name(&self, column: u32) -> Option<String>;
     /// What a column of a table is called.
-    fn table(&self, table: u32, column: Column) -> String;
+    fn table(&self, table: u32, column: Column) -> Operand;
     /// The registers that a function has to build a column from; none where it is known by its name.
     fn cells(&self, table: u32, column: Column) -> Vec<Register>;
-    /// The line that leaves a value in a column; none where that holds it already.
-    fn store(&self, column: u32, value: &str) -> Option<String>;
-    /// The line that is written for an operation without a result.
-    fn act(&self, instruction: Instruction, value: &str) -> String;
-    /// The line that watches a multiplier.
-    fn watch(&self, weight: u32, value: &str) -> String;
+    /// Whether values are left in a column at all.
+    fn stores(&self, _column: u32) -> bool {
+        true
+    }
+    /// The line that leaves a value in a column, with what it names; none where that holds it already.
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)>;
+    /// The line that is written for an operation without a result, with what it names.
+    fn act(&self, instruction: Instruction, value: &Operand) -> (String, Arguments);
+    /// The line that watches a multiplier, with what it names.
+    fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments);
     /// Whether every number stands for several lanes, which loops go over.
     fn has_lanes(&self) -> bool {
         false
@@ -52,9 +58,9 @@ pub(super) trait Scene {
 /// A value that a function is given.
 pub(super) enum Input {
     /// A number, or what is as short as a name.
-    Text(String),
+    Is(Operand),
     /// What is bound to a name first.
-    Bound { name: String, value: String },
+    Bound { name: String, value: Operand },
 }
 
 /// A function, or several that follow one another.
@@ -64,7 +70,7 @@ pub(super) struct Function<'f> {
     pub docs: String,
     pub is_public: bool,
     /// Names and types.
-    pub arguments: Vec<(&'f str, String)>,
+    pub arguments: Vec<(&'static str, String)>,
     /// What is written and returned.
     pub out: Out<'f>,
     /// Columns that it will be indented by.
@@ -75,8 +81,8 @@ pub(super) struct Function<'f> {
 pub(super) enum Out<'f> {
     /// In a list, by its type and its first value, that it returns as `out`.
     List { of: &'f str, first: &'f str },
-    /// In what it is given; the line that makes that ready.
-    Given { begin: &'f str },
+    /// In what it is given; the line that makes that ready, with what it names.
+    Given { begin: &'f str, names: Arguments },
 }
 
 /// What is to be printed.
@@ -195,6 +201,43 @@ fn is_work(instruction: Instruction) -> bool {
     }
 }
 
+/// Arguments that the printer names itself.
+const OUT: &str = "out";
+const TERMS: &str = "w";
+const AT: &str = "at";
+const GUESS: &str = "guess";
+const T: &str = "t";
+
+/// What a value is assigned to.
+enum Target {
+    /// A variable of its own.
+    Let(Operand),
+    /// What is there already.
+    Set(Operand),
+    /// Nobody asks for it.
+    Nobody,
+}
+
+impl Target {
+    /// What it is called in a pattern.
+    fn name(&self) -> String {
+        match self {
+            Target::Let(name) | Target::Set(name) => name.to_string(),
+            Target::Nobody => "_".to_owned(),
+        }
+    }
+}
+
+impl Display for Target {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Target::Let(name) => write!(f, "let {name}"),
+            Target::Set(name) => write!(f, "{name}"),
+            Target::Nobody => f.write_str("let _"),
+        }
+    }
+}
+
 /// Where a value lives.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Home {
@@ -217,13 +260,17 @@ struct Printer<'p, S> {
     homes: Vec<Home>,
     is_read: Vec<bool>,
     terms: u32,
-    names: Vec<Option<String>>,
+    names: Vec<Option<Operand>>,
     /// Names that values shall have.
     wanted: Vec<Option<String>>,
     taken: FxHashSet<String>,
     /// Inputs that the function being written has bound.
     bound: FxHashSet<Register>,
     bindings: String,
+    /// The arguments that it names.
+    used: FxHashSet<&'static str>,
+    /// Whether a blank line comes before the first result.
+    is_set_off: bool,
     /// Columns of tables that it has built.
     built: FxHashSet<(u32, Column)>,
     count: usize,
@@ -244,6 +291,8 @@ impl<'p, S: Scene> Printer<'p, S> {
             taken: FxHashSet::default(),
             bound: FxHashSet::default(),
             bindings: String::new(),
+            used: FxHashSet::default(),
+            is_set_off: false,
             built: FxHashSet::default(),
             count: 0,
             guessed: FxHashMap::default(),
@@ -317,36 +366,58 @@ impl<'p, S: Scene> Printer<'p, S> {
         }
     }
 
-    /// The text of a register's value.
-    fn value(&mut self, register: Register) -> String {
-        if let Some(name) = &self.names[register as usize] {
-            return name.clone();
+    /// A register's value, for a line that holds it.
+    fn value(&mut self, register: Register) -> Operand {
+        let operand = self.known(register);
+        self.used.extend(operand.arguments());
+        operand
+    }
+
+    /// The same, for nobody yet.
+    fn known(&mut self, register: Register) -> Operand {
+        if let Some(operand) = &self.names[register as usize] {
+            return operand.clone();
         }
         match self.scene.input(register) {
-            Input::Text(text) => text,
+            Input::Is(operand) => operand,
             Input::Bound { name, value } => {
                 if self.bound.insert(register) {
+                    self.used.extend(value.arguments());
                     self.bindings += &format!("    let {name} = {value};\n");
                 }
-                name
+                Operand::own(name)
             }
         }
     }
 
-    /// What an assignment to a register begins with, `let v3` or `w[5]`, the register being named so from now on.
-    fn target(&mut self, register: Register, prefix: char) -> String {
-        let (name, is_declared) = match self.homes[register as usize] {
-            Home::Term(place) => (self.term(place), true),
-            Home::BeyondLoop { .. } => (self.fresh(register, prefix), true),
-            Home::Given | Home::Local { .. } => (self.fresh(register, prefix), false),
+    /// What an operation writes to, the register being named so from now on.
+    fn target(&mut self, register: Register, prefix: char) -> Target {
+        let (operand, target) = match self.homes[register as usize] {
+            Home::Term(place) => {
+                let term = self.term(place);
+                self.used.insert(TERMS);
+                (term.clone(), Target::Set(term))
+            }
+            home => {
+                let name = Operand::own(self.fresh(register, prefix));
+                let is_declared = matches!(home, Home::BeyondLoop { .. });
+                (name.clone(), if is_declared { Target::Set(name) } else { Target::Let(name) })
+            }
         };
-        self.names[register as usize] = Some(name.clone());
-        if is_declared { name } else { format!("let {name}") }
+        self.names[register as usize] = Some(operand);
+        target
     }
 
     /// A place among the terms.
-    fn term(&self, place: u32) -> String {
-        if self.scene.has_lanes() { format!("w[{place}][k]") } else { format!("w[{place}]") }
+    fn term(&self, place: u32) -> Operand {
+        let lane = if self.scene.has_lanes() { "[k]" } else { "" };
+        Operand::of(format!("{TERMS}[{place}]{lane}"), &[TERMS])
+    }
+
+    /// A line, with what it names.
+    fn line(&mut self, indent: &str, (line, names): (String, Arguments), text: &mut String) {
+        self.used.extend(names);
+        *text += &format!("{indent}{line}\n");
     }
 
     fn fresh(&mut self, register: Register, prefix: char) -> String {
@@ -358,17 +429,22 @@ impl<'p, S: Scene> Printer<'p, S> {
 
     /// A function that is not cut.
     fn alone(&mut self, function: &Function<'_>, pieces: &[Piece<'_>]) -> String {
-        let body = self.body(pieces);
+        self.is_set_off = matches!(function.out, Out::List { .. });
+        let (body, mut used) = self.body(pieces);
         let (body, result) = match function.out {
-            Out::Given { begin } => (format!("    {begin}\n{body}"), ""),
-            Out::List { of, first } if contains_word(&body, "out") => {
-                // and what comes of it
-                let body = body.replacen("\n    out[", "\n\n    out[", 1).replace("\n\n\n", "\n\n");
+            Out::Given { begin, names } => {
+                used.extend(names);
+                (format!("    {begin}\n{body}"), "")
+            }
+            Out::List { of, first } if used.contains(OUT) => {
                 (format!("    let mut out = {first};\n{body}    out\n"), of)
             }
-            Out::List { of, first } => (format!("    {first}\n"), of),
+            Out::List { of, first } => {
+                debug_assert!(body.is_empty(), "nothing of it is left anywhere");
+                (format!("    {first}\n"), of)
+            }
         };
-        head(function, result, &body) + &body + "}\n\n"
+        head(function, result, &|name| used.contains(name)) + &body + "}\n\n"
     }
 
     /// A function that calls others in turn, and these.
@@ -376,44 +452,50 @@ impl<'p, S: Scene> Printer<'p, S> {
         let mut arguments = function.arguments.clone();
         let mut given = names(&function.arguments) + ", ";
         if let Out::List { of, .. } = function.out {
-            arguments.push(("out", format!("&mut {of}")));
+            arguments.push((OUT, format!("&mut {of}")));
             given += "&mut out, ";
         }
         let (of, zero) = if self.scene.has_lanes() { ("Each", "[0.0; LANES]") } else { ("f64", "0.0") };
-        arguments.push(("w", format!("&mut [{of}; {}]", self.terms)));
+        arguments.push((TERMS, format!("&mut [{of}; {}]", self.terms)));
         let attribute = if self.scene.has_lanes() { APART } else { "" };
         let (name, margin) = (function.name, function.margin);
         let mut written = Parts { name, arguments: &arguments, margin, attribute, text: String::new(), count: 0 };
         let mut calls = String::new();
         for part in parts {
-            let body = match part {
+            let (body, used) = match part {
                 Part::Straight(pieces) => self.body(pieces),
                 Part::Loop { bodies, tears } => {
                     let mut inner = String::new();
                     for range in bodies {
-                        let body = self.body(&[Piece { range: range.clone(), tears: None }]);
-                        inner += &format!("        {}({}, w);\n", written.add(&body), names(&function.arguments));
+                        let (body, used) = self.body(&[Piece { range: range.clone(), tears: None }]);
+                        let name = written.add(&body, &used);
+                        inner += &format!("        {name}({}, {TERMS});\n", names(&function.arguments));
                     }
-                    self.around(tears, &inner)
+                    let body = self.around(tears, &inner);
+                    self.used.extend(arguments.iter().map(|(name, _)| *name));
+                    (body, std::mem::take(&mut self.used))
                 }
             };
             if !body.is_empty() {
-                calls += &format!("    {}({given}&mut w);\n", written.add(&body));
+                calls += &format!("    {}({given}&mut {TERMS});\n", written.add(&body, &used));
             }
         }
-        let terms = format!("    let mut w = [{zero}; {}];\n", self.terms);
+        let terms = format!("    let mut {TERMS} = [{zero}; {}];\n", self.terms);
         let (body, result) = match function.out {
-            Out::Given { begin } => (format!("    {begin}\n{terms}{calls}"), ""),
+            Out::Given { begin, .. } => (format!("    {begin}\n{terms}{calls}"), ""),
             Out::List { of, first } => (format!("    let mut out = {first};\n{terms}{calls}    out\n"), of),
         };
-        head(function, result, &body) + &body + "}\n\n" + &written.text
+        // it hands all on
+        let head = head(function, result, &|_| !calls.is_empty());
+        head + &body + "}\n\n" + &written.text
     }
 
-    /// The body of a function: what it is given, and then its lines.
-    fn body(&mut self, pieces: &[Piece<'_>]) -> String {
+    /// The body of a function: what it is given, and then its lines; with the arguments that it names.
+    fn body(&mut self, pieces: &[Piece<'_>]) -> (String, FxHashSet<&'static str>) {
         self.bound.clear();
         self.bindings.clear();
         self.built.clear();
+        self.used.clear();
         let mut text = String::new();
         for piece in pieces {
             match piece.tears {
@@ -440,7 +522,7 @@ impl<'p, S: Scene> Printer<'p, S> {
             // what is given, and what is made of it
             bindings.push('\n');
         }
-        bindings + &text
+        (bindings + &text, std::mem::take(&mut self.used))
     }
 
     fn newton(&mut self, range: Range<usize>, tears: &[Tear], text: &mut String) {
@@ -469,7 +551,7 @@ impl<'p, S: Scene> Printer<'p, S> {
             let name = format!("x{}", number + 1);
             before += &format!("            let mut {name} = on_grid({place}, {cell});\n");
             places.push(place);
-            self.names[tear.x as usize] = Some(name);
+            self.names[tear.x as usize] = Some(Operand::own(name));
         }
         let mut body = String::new();
         for at in range {
@@ -481,8 +563,10 @@ impl<'p, S: Scene> Printer<'p, S> {
             let sizes = format!("TEAR_CELLS[{number}], TEAR_SCALES[{number}]");
             after += &format!("            newton.correct(k, &mut {x}, {delta}, {sizes});\n");
             after += &format!("            {place} = {x};\n");
+            self.used.extend(place.arguments());
             self.names[tear.x as usize] = Some(place);
         }
+        self.used.insert(AT);
         *text += &format!(
             "    let mut newton = Settling::new();\n    for _ in 0..ITERATIONS {{\n        newton.begin();\n        \
              for k in 0..LANES {{\n{before}{body}{after}        }}\n        \
@@ -499,6 +583,7 @@ impl<'p, S: Scene> Printer<'p, S> {
             before += &format!("        {x} = on_grid({x}, {cell});\n");
             after += &format!("        {x} = newton.corrected({x}, {delta}, {cell}, {scale});\n");
         }
+        self.used.insert(AT);
         format!(
             "    let mut newton = Newton::new();\n    for _ in 0..ITERATIONS {{\n{before}{body}{after}        \
              if newton.is_done() {{\n            break;\n        }}\n    }}\n    at.note(&newton);\n"
@@ -508,11 +593,12 @@ impl<'p, S: Scene> Printer<'p, S> {
     /// What a column of a table is called, after it has been built where that is needed.
     fn column(&mut self, table: u32, column: Column, indent: &str, text: &mut String) -> String {
         let (name, cells) = (self.scene.table(table, column), self.scene.cells(table, column));
+        self.used.extend(name.arguments());
         if cells.is_empty() {
             return format!("&{name}");
         }
         if self.built.insert((table, column)) {
-            let values: Vec<String> = cells.into_iter().map(|cell| self.value(cell)).collect();
+            let values: Vec<String> = cells.into_iter().map(|cell| self.value(cell).to_string()).collect();
             *text +=
                 &format!("{indent}#[rustfmt::skip]\n{indent}let {name} = [\n{}{indent}];\n", lines(&values, indent));
         }
@@ -525,25 +611,36 @@ impl<'p, S: Scene> Printer<'p, S> {
             Instruction::Multiplier { to, a, b, weight } => {
                 self.operation(Op::Mul { to, a, b }, indent, text);
                 let value = self.value(to);
-                *text += &format!("{indent}{}\n", self.scene.watch(weight, &value));
+                self.line(indent, self.scene.watch(weight, &value), text);
             }
-            Instruction::Number { to, bits } => self.names[to as usize] = Some(literal(from_bits(bits))),
+            Instruction::Number { to, bits } => self.names[to as usize] = Some(Operand::Number(from_bits(bits))),
             Instruction::Load { to, from } => self.load(to, from, indent, text),
             Instruction::Time { to } => {
-                self.names[to as usize] = Some(if self.scene.has_lanes() { "t[k]" } else { "t" }.to_owned());
+                let lane = if self.scene.has_lanes() { "[k]" } else { "" };
+                self.names[to as usize] = Some(Operand::of(format!("{T}{lane}"), &[T]));
             }
             Instruction::Column { to, column } => self.names[to as usize] = Some(self.scene.place(column)),
             Instruction::Curve { to, tear } => self.guess(to, tear, indent, text),
             Instruction::Residual { a, .. } | Instruction::Pivot { a, .. } => {
                 let value = self.value(a);
-                *text += &format!("{indent}{}\n", self.scene.act(instruction, &value));
+                self.line(indent, self.scene.act(instruction, &value), text);
             }
-            Instruction::Store { column, a } => {
-                let value = self.value(a);
-                if let Some(line) = self.scene.store(column, &value) {
-                    *text += &format!("{indent}{line}\n");
-                }
+            Instruction::Store { column, a } => self.store(column, a, indent, text),
+        }
+    }
+
+    fn store(&mut self, column: u32, a: Register, indent: &str, text: &mut String) {
+        if !self.scene.stores(column) {
+            return;
+        }
+        let value = self.known(a);
+        if let Some(line) = self.scene.store(column, &value) {
+            self.used.extend(value.arguments());
+            // what is worked out, and what comes of it
+            if std::mem::take(&mut self.is_set_off) && !text.is_empty() {
+                text.push('\n');
             }
+            self.line(indent, line, text);
         }
     }
 
@@ -551,25 +648,26 @@ impl<'p, S: Scene> Printer<'p, S> {
         if let Op::SinCos { sin, cos, a } = op {
             return self.pair(sin, cos, a, indent, text);
         }
+        if let Op::Copy { to, a } = op {
+            return self.copy(to, a, indent, text);
+        }
         let column = op.column().map(|(table, column)| self.column(table, column, indent, text)).unwrap_or_default();
-        let mut expression = Expression { value: |register| self.value(register), column, result: None };
+        let mut expression = Expression { value: |register| self.value(register).to_string(), column, result: None };
         op.run(&mut expression);
         let Some((to, expression)) = expression.result else {
             return;
         };
-        if let Op::Copy { .. } = op {
-            return self.copy(to, expression, indent, text);
-        }
         self.count += 1;
         let target = self.target(to, 'v');
-        *text += &self.assigned(indent, &target, &expression);
+        *text += &self.assigned(indent, &target.to_string(), &expression);
     }
 
     /// A value of the program, by a name of its own if it is long.
     fn load(&mut self, to: Register, from: Register, indent: &str, text: &mut String) {
         let value = self.scene.load(from);
-        if value.len() > LONGEST_OPERAND {
+        if value.to_string().len() > LONGEST_OPERAND {
             self.count += 1;
+            self.used.extend(value.arguments());
             let target = self.target(to, 'v');
             *text += &format!("{indent}{target} = {value};\n");
         } else {
@@ -588,27 +686,30 @@ impl<'p, S: Scene> Printer<'p, S> {
     }
 
     /// Another name for the same value; where a later function needs it, a place among the terms.
-    fn copy(&mut self, to: Register, value: String, indent: &str, text: &mut String) {
+    fn copy(&mut self, to: Register, a: Register, indent: &str, text: &mut String) {
         if let Home::Term(_) = self.homes[to as usize] {
+            let value = self.value(a);
             let target = self.target(to, 'v');
             *text += &format!("{indent}{target} = {value};\n");
         } else {
-            self.names[to as usize] = Some(value);
+            self.names[to as usize] = Some(self.known(a));
         }
     }
 
     /// Where Newton begins with a coordinate.
     fn guess(&mut self, to: Register, tear: u32, indent: &str, text: &mut String) {
         self.guessed.insert(to, tear);
+        self.used.insert(GUESS);
         let lane = if self.scene.has_lanes() { "[k]" } else { "" };
         if let Home::Term(place) = self.homes[to as usize] {
             let term = self.term(place);
-            *text += &format!("{indent}{term} = guess[{tear}]{lane};\n");
+            self.used.insert(TERMS);
+            *text += &format!("{indent}{term} = {GUESS}[{tear}]{lane};\n");
             self.names[to as usize] = Some(term);
         } else {
             let name = format!("x{}", self.guessed.len());
-            *text += &format!("{indent}let mut {name} = guess[{tear}];\n");
-            self.names[to as usize] = Some(name);
+            *text += &format!("{indent}let mut {name} = {GUESS}[{tear}];\n");
+            self.names[to as usize] = Some(Operand::own(name));
         }
     }
 
@@ -616,48 +717,42 @@ impl<'p, S: Scene> Printer<'p, S> {
         let a = self.value(a);
         self.count += 1;
         if self.scene.has_lanes() {
+            self.used.insert(AT);
             *text += &format!("{indent}at.watch(k, {a}, 1e-6);\n");
         }
         let sin_cos = if self.scene.has_lanes() { "sin_cos_below_a_million" } else { "sin_cos" };
         let target = |printer: &mut Self, register: Register, prefix: char| {
-            if printer.is_read[register as usize] { printer.target(register, prefix) } else { "let _".to_owned() }
+            if printer.is_read[register as usize] { printer.target(register, prefix) } else { Target::Nobody }
         };
         let targets = [target(self, sin, 's'), target(self, cos, 'c')];
-        *text += &match targets.each_ref().map(|target| target.strip_prefix("let ")) {
-            [Some(sin), Some(cos)] => format!("{indent}let ({sin}, {cos}) = {sin_cos}({a});\n"),
-            [None, None] => format!("{indent}({}, {}) = {sin_cos}({a});\n", targets[0], targets[1]),
-            _ => {
+        *text += &match &targets {
+            [Target::Set(sin), Target::Set(cos)] => format!("{indent}({sin}, {cos}) = {sin_cos}({a});\n"),
+            [Target::Set(_), _] | [_, Target::Set(_)] => {
                 let name = format!("pair{}", self.count);
-                format!(
-                    "{indent}let {name} = {sin_cos}({a});\n{indent}{} = {name}.0;\n{indent}{} = {name}.1;\n",
-                    targets[0], targets[1]
-                )
+                let [sin, cos] = &targets;
+                format!("{indent}let {name} = {sin_cos}({a});\n{indent}{sin} = {name}.0;\n{indent}{cos} = {name}.1;\n")
             }
+            [sin, cos] => format!("{indent}let ({}, {}) = {sin_cos}({a});\n", sin.name(), cos.name()),
         };
     }
 }
 
-/// The size of a value.
-pub(super) fn absolute(value: &str) -> String {
-    if value.starts_with('-') { format!("({value}).abs()") } else { format!("{value}.abs()") }
-}
-
 /// The names of arguments, as they are handed on.
-fn names(arguments: &[(&str, String)]) -> String {
+fn names(arguments: &[(&'static str, String)]) -> String {
     arguments.iter().map(|(name, _)| *name).collect::<Vec<&str>>().join(", ")
 }
 
-/// Documentation and head of a function with this body.
-fn head(function: &Function<'_>, result: &str, body: &str) -> String {
+/// Documentation and head of a function; an argument that is not used is marked.
+fn head(function: &Function<'_>, result: &str, is_used: &dyn Fn(&str) -> bool) -> String {
     let arguments: Vec<(&str, &str)> = function.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
     let visibility = if function.is_public { "pub " } else { "" };
-    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, body, function.margin)
+    documented(&function.docs, "") + &signature(visibility, function.name, &arguments, result, is_used, function.margin)
 }
 
 /// The functions that a long one is cut into.
 struct Parts<'p> {
     name: &'p str,
-    arguments: &'p [(&'p str, String)],
+    arguments: &'p [(&'static str, String)],
     margin: usize,
     attribute: &'p str,
     text: String,
@@ -665,13 +760,13 @@ struct Parts<'p> {
 }
 
 impl Parts<'_> {
-    /// Adds one, and gives its name.
-    fn add(&mut self, body: &str) -> String {
+    /// Adds one, which uses some of the arguments, and gives its name.
+    fn add(&mut self, body: &str, used: &FxHashSet<&str>) -> String {
         self.count += 1;
         let name = format!("{}_{}", self.name, self.count);
         let types: Vec<(&str, &str)> = self.arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
         self.text += &format!("/// Part {} of [`{}`].\n{}", self.count, self.name, self.attribute);
-        self.text += &(signature("", &name, &types, "", body, self.margin) + body + "}\n\n");
+        self.text += &(signature("", &name, &types, "", &|name| used.contains(name), self.margin) + body + "}\n\n");
         name
     }
 }

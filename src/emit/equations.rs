@@ -3,10 +3,11 @@
 use super::code::{Code, Function, Input, Out, Scene};
 use super::goods::Uses;
 use super::names::{Names, VARIED};
+use super::operand::{Arguments, Operand};
 use super::operations::slice;
+use super::print::{Head, Page};
 use super::tables::{self, Tables};
-use super::tape::{self, Book, Notes};
-use super::text::{documented, literal, signature};
+use super::tape::{self, Book, Loaded, Notes};
 use crate::program::{Column, Program, Register};
 use crate::solver::{Instruction, Segment};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -26,16 +27,6 @@ pub(super) struct Equations<'e> {
     pub book: Option<RefCell<Book>>,
     /// What the functions use.
     pub uses: RefCell<Uses>,
-}
-
-/// Where a register of the program gets its value that no operation of a function writes.
-pub(super) enum Loaded {
-    Number(f64),
-    /// An array of those that operations read, and the place there.
-    Input {
-        array: u32,
-        index: u32,
-    },
 }
 
 /// A function to write.
@@ -67,10 +58,23 @@ pub(super) enum Given {
 
 /// The arrays of the coordinates and their derivatives.
 pub(super) const ARRAYS: [&str; 4] = ["q", "qd", "qdd", "qddd"];
+const OF_ARRAYS: [Arguments; 4] = [&["q"], &["qd"], &["qdd"], &["qddd"]];
+
+/// How a function reaches what it is given.
+pub(super) struct Reached {
+    /// The parameters, or the way: `p`, `m.params`.
+    pub given: String,
+    /// The argument that this names.
+    pub names: Arguments,
+    /// The same and the time.
+    pub names_with_time: Arguments,
+    /// What picks a lane.
+    pub lane: &'static str,
+}
 
 impl Equations<'_> {
     /// A function with its documentation.
-    pub fn function(&self, wanted: &Wanted<'_>) -> String {
+    pub fn function(&self, wanted: &Wanted<'_>, page: &mut Page) {
         let given: FxHashSet<Register> = match wanted.given {
             Given::None => FxHashSet::default(),
             Given::All => self.sides.keys().copied().collect(),
@@ -80,7 +84,7 @@ impl Equations<'_> {
             }
         };
         let instructions = slice(self.program, wanted.outputs, &given);
-        let mut arguments: Vec<(&str, String)> =
+        let mut arguments: Vec<(&'static str, String)> =
             ARRAYS[..wanted.orders].iter().map(|name| (*name, "&[f64; N]".to_owned())).collect();
         if wanted.varied && self.has_varied() {
             arguments.push((VARIED, "&[f64; VARIED]".to_owned()));
@@ -93,7 +97,7 @@ impl Equations<'_> {
             arguments.push(("sides", "&Sides".to_owned()));
         }
         if let Some(book) = &self.book {
-            return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut());
+            return self.as_numbers(wanted, &instructions, &arguments, &mut book.borrow_mut(), page);
         }
         self.uses.borrow_mut().instructions(&instructions, false);
         let segments = [Segment::Once(0..instructions.len())];
@@ -107,7 +111,7 @@ impl Equations<'_> {
             out: Out::List { of: &result, first: &first },
             margin: 0,
         };
-        code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function)
+        page.text(&code.print(&EquationScene { equations: self, negated: wanted.negated, given }, &function));
     }
 
     /// A function that reads its operations from a list of numbers.
@@ -115,15 +119,17 @@ impl Equations<'_> {
         &self,
         wanted: &Wanted<'_>,
         instructions: &[Instruction],
-        arguments: &[(&str, String)],
+        arguments: &[(&'static str, String)],
         book: &mut Book,
-    ) -> String {
+        page: &mut Page,
+    ) {
         let count = instructions.iter().filter(|each| !matches!(each, Instruction::Store { .. })).count();
         let instructions = tape::with_loads(instructions, self.program.registers());
         let segments = [Segment::Once(0..instructions.len())];
         let shared = tape::share(&instructions, &segments, self.program.registers());
-        let notes = Notes { pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
-        let words = book.encode(&shared.instructions, self, &FxHashMap::default(), &notes).words;
+        let loaded = |register| self.loaded(register, &FxHashMap::default());
+        let notes = Notes { loaded: &loaded, pivot: &|_| (0, 0.0), weight: &|_| 0.0, bound: &|_| 0.0 };
+        let words = book.encode(&shared.instructions, &notes).words;
         let name = wanted.name.to_uppercase();
         let params = match (self.names.params.is_empty(), self.is_led) {
             (true, _) => "&[]",
@@ -144,22 +150,24 @@ impl Equations<'_> {
         if self.is_led {
             uses.file("way_list");
         }
-        let turned = if wanted.negated { "    out = out.map(|value| -value);\n" } else { "" };
-        let body = format!(
-            "    let inputs: Arrays<'_> = [{}];\n    let mut out = [0.0; {}];\n    let mut v = [0.0; {}];\n    \
-             run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);\n{turned}    out\n",
-            lists.join(", "),
-            wanted.length,
-            shared.registers,
-        );
-        let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (*name, of.as_str())).collect();
-        let visibility = if wanted.is_public { "pub " } else { "" };
-        let docs = format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs);
-        documented(&docs, "")
-            + &signature(visibility, wanted.name, &types, &format!("[f64; {}]", wanted.length), &body, 0)
-            + &body
-            + "}\n\n"
-            + &tape::list(&format!("The operations of [`{}`].", wanted.name), &format!("{name}_CODE"), &words)
+        // it hands all on, and parameters where there are any
+        let reads_params = !self.names.params.is_empty() || (self.is_led && wanted.has_time);
+        let marked = |name: &'static str| if name == "p" && !reads_params { "_p" } else { name };
+        let types: Vec<(&str, &str)> = arguments.iter().map(|(name, of)| (marked(name), of.as_str())).collect();
+        let kind = if wanted.is_public { "pub fn" } else { "fn" };
+        let result = format!("[f64; {}]", wanted.length);
+        page.docs(&format!("{}\n\n{count} operations, in [`{name}_CODE`].", wanted.docs));
+        page.function(&Head { kind, name: wanted.name, arguments: &types, result: &result }, |page| {
+            page.line(&format!("let inputs: Arrays<'_> = [{}];", lists.join(", ")));
+            page.line(&format!("let mut out = [0.0; {}];", wanted.length));
+            page.line(&format!("let mut v = [0.0; {}];", shared.registers));
+            page.line(&format!("run::<Numbers>(&{name}_CODE, &[], &inputs, &mut v, &mut out);"));
+            if wanted.negated {
+                page.line("out = out.map(|value| -value);");
+            }
+            page.line("out");
+        });
+        tape::list(&format!("The operations of [`{}`].", wanted.name), &format!("{name}_CODE"), &words, page);
     }
 
     /// Where a register of the program gets its value.
@@ -194,48 +202,49 @@ impl Equations<'_> {
         })
     }
 
-    /// A register of the program that no operation of a function writes; what it is given, the parameters or a way, is reached as
-    /// `given`, and of sides those of a lane are picked.
-    pub fn input(&self, register: Register, given: &str, lane: &str) -> Input {
+    /// A register of the program that no operation of a function writes.
+    pub fn input(&self, register: Register, reached: &Reached) -> Input {
         let inputs = &self.program.inputs;
         if let Some(&value) = self.constants.get(&register) {
-            return Input::Text(literal(value));
+            return Input::Is(Operand::Number(value));
         }
         if let Some(side) = self.sides.get(&register) {
-            return Input::Text(format!("sides{lane}[{side}]"));
+            return Input::Is(Operand::of(format!("sides{}[{side}]", reached.lane), &["sides"]));
         }
         if register == inputs.time {
-            return Input::Text("t".to_owned());
+            return Input::Is(Operand::of("t".to_owned(), &["t"]));
         }
+        let given = &reached.given;
         if let Some(k) = register.checked_sub(inputs.params).filter(|&k| register < inputs.time && k < inputs.time) {
             let name = &self.names.params[k as usize];
             let of = if self.is_led { ".params" } else { "" };
             return Input::Bound {
                 name: self.names.param_variables[k as usize].clone(),
-                value: format!("{given}{of}.{name}"),
+                value: Operand::of(format!("{given}{of}.{name}"), reached.names),
             };
         }
         if inputs.all_signals().contains(&register) {
             let place = register - inputs.signals;
             let (signal, order) = ((place / 3) as usize, (place % 3) as usize);
             let value = match order {
-                0 => format!("{given}.value({signal}, t)"),
-                1 => format!("{given}.rates[{signal}]"),
-                _ => format!("{given}.accelerations[{signal}]"),
+                0 => Operand::of(format!("{given}.value({signal}, t)"), reached.names_with_time),
+                1 => Operand::of(format!("{given}.rates[{signal}]"), reached.names),
+                _ => Operand::of(format!("{given}.accelerations[{signal}]"), reached.names),
             };
             return Input::Bound { name: self.names.signal(signal, order).to_owned(), value };
         }
         if let Some(place) = self.varied(register) {
-            return Input::Text(format!("{VARIED}[{place}]"));
+            return Input::Is(Operand::of(format!("{VARIED}[{place}]"), &[VARIED]));
         }
-        for (order, array) in ARRAYS.iter().enumerate() {
+        for (order, (array, of)) in ARRAYS.iter().zip(OF_ARRAYS).enumerate() {
             let first = inputs.coordinates[order];
             if (first..first + inputs.n).contains(&register) {
                 let k = (register - first) as usize;
-                return Input::Bound { name: self.names.coordinate(order, k), value: format!("{array}[{k}]") };
+                let value = Operand::of(format!("{array}[{k}]"), of);
+                return Input::Bound { name: self.names.coordinate(order, k), value };
             }
         }
-        Input::Text("f64::NAN".to_owned())
+        Input::Is(Operand::Number(f64::NAN))
     }
 
     /// Whether measures hold derivatives by inputs or parameters.
@@ -256,6 +265,14 @@ impl Equations<'_> {
         if self.is_constant(table, column) { name.to_owned() } else { name.to_lowercase() }
     }
 
+    /// What lists of operations share, if there are any.
+    pub fn print_book(&self, page: &mut Page) {
+        if let Some(book) = &self.book {
+            let called = |table, column| self.table(table, column);
+            book.borrow().print(self.program.tables().len(), called, &mut self.uses.borrow_mut(), page);
+        }
+    }
+
     /// Whether a column of a table holds numbers alone.
     pub fn is_constant(&self, table: u32, column: Column) -> bool {
         tables::numbers(self.program, &self.constants, table, column).is_some()
@@ -271,23 +288,25 @@ struct EquationScene<'s, 'e> {
 impl Scene for EquationScene<'_, '_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(!self.equations.sides.contains_key(&register) || self.given.contains(&register));
-        self.equations.input(register, "p", "")
+        let reached = Reached { given: "p".to_owned(), names: &["p"], names_with_time: &["p", "t"], lane: "" };
+        self.equations.input(register, &reached)
     }
 
-    fn load(&self, _: Register) -> String {
-        String::new()
+    fn load(&self, register: Register) -> Operand {
+        debug_assert!(false, "register {register} is loaded by solvers alone");
+        Operand::Number(f64::NAN)
     }
 
-    fn place(&self, column: u32) -> String {
-        format!("out[{column}]")
+    fn place(&self, column: u32) -> Operand {
+        Operand::of(format!("out[{column}]"), &["out"])
     }
 
     fn name(&self, _: u32) -> Option<String> {
         None
     }
 
-    fn table(&self, table: u32, column: Column) -> String {
-        self.equations.table(table, column)
+    fn table(&self, table: u32, column: Column) -> Operand {
+        Operand::own(self.equations.table(table, column))
     }
 
     fn cells(&self, table: u32, column: Column) -> Vec<Register> {
@@ -297,25 +316,19 @@ impl Scene for EquationScene<'_, '_> {
         self.equations.program.tables()[table as usize].column(column).collect()
     }
 
-    fn store(&self, column: u32, value: &str) -> Option<String> {
-        let value = if self.negated { negated(value) } else { value.to_owned() };
-        (value != "0.0" && value != "-0.0").then(|| format!("out[{column}] = {value};"))
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)> {
+        let value = if self.negated { value.negated() } else { value.clone() };
+        let is_zero = matches!(value, Operand::Number(value) if value == 0.0);
+        (!is_zero).then(|| (format!("out[{column}] = {value};"), &["out"][..]))
     }
 
-    fn act(&self, _: Instruction, _: &str) -> String {
-        String::new()
+    fn act(&self, instruction: Instruction, _: &Operand) -> (String, Arguments) {
+        debug_assert!(false, "{instruction:?} is of solvers alone");
+        (String::new(), &[])
     }
 
-    fn watch(&self, _: u32, _: &str) -> String {
-        String::new()
-    }
-}
-
-/// The opposite of a value.
-fn negated(value: &str) -> String {
-    match value.strip_prefix('-') {
-        Some(value) => value.to_owned(),
-        None if value == "0.0" => value.to_owned(),
-        None => format!("-{value}"),
+    fn watch(&self, weight: u32, _: &Operand) -> (String, Arguments) {
+        debug_assert!(false, "weight {weight} is of solvers alone");
+        (String::new(), &[])
     }
 }

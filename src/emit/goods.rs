@@ -35,9 +35,10 @@ files! {
     "equations" at "runtime/equations.rs": ["numbers"], [];
     "measured" at "runtime/measured.rs": [], [];
     "solution" at "runtime/solution.rs": ["numbers", "error", "equations", "measured"], [];
-    "pivots" at "runtime/pivots.rs": ["numbers", "solution"], [];
+    "so_far" at "runtime/so_far.rs": [], [];
+    "pivots" at "runtime/pivots.rs": ["so_far", "solution"], [];
     "grid" at "runtime/grid.rs": [], [];
-    "newton" at "runtime/newton.rs": ["numbers", "solution"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "newton" at "runtime/newton.rs": ["numbers", "so_far", "solution"], [HALF_A_CELL, LARGEST_CORRECTION];
     "branches" at "runtime/branches.rs": ["equations", "solution"], [MOST_HALVINGS, SLACK];
     "watched" at "runtime/watched.rs": ["numbers"], [];
     "left_out" at "runtime/left_out.rs": [], [LARGEST_OPENING];
@@ -62,9 +63,9 @@ files! {
     "sensitivity" at "runtime/sensitivity.rs": ["numbers", "error", "solution", "state"], [];
     "sensitivity_led" at "runtime/sensitivity_led.rs": ["error", "state", "way", "follow", "sensitivity"], [];
     "lane_solutions" at "runtime/lane_solutions.rs": ["measured", "solution", "state"], [];
-    "lane_strain" at "runtime/lane_strain.rs": ["numbers", "lane_solutions"], [];
-    "lane_pivots" at "runtime/lane_pivots.rs": ["numbers", "lane_solutions"], [];
-    "lane_newton" at "runtime/lane_newton.rs": ["numbers", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
+    "lane_strain" at "runtime/lane_strain.rs": ["so_far", "lane_solutions"], [];
+    "lane_pivots" at "runtime/lane_pivots.rs": ["so_far", "lane_solutions"], [];
+    "lane_newton" at "runtime/lane_newton.rs": ["numbers", "so_far", "lane_solutions"], [HALF_A_CELL, LARGEST_CORRECTION];
     "lanes" at "runtime/lanes.rs": ["numbers", "error", "branches", "state", "assemble", "step", "lane_solutions"],
         [FARTHEST_BEND, HALF_A_CELL, LARGEST_CORRECTION, LARGEST_GAP, LARGEST_MOTION, MOST_STEPS, STEEP];
     "lane_follow" at "runtime/lane_follow.rs": ["error", "way", "follow", "lane_solutions", "lanes"], [MOST_STEPS];

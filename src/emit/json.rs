@@ -95,7 +95,7 @@ impl Writer<'_> {
 
     fn params(&self) -> Vec<Value> {
         let params = self.system.params.iter();
-        params.map(|param| json!({ "name": param.name, "value": param.value, "unit": param.unit })).collect()
+        params.map(|param| json!({ "name": param.name, "value": param.value, "unit": param.unit() })).collect()
     }
 
     fn inputs(&self) -> Vec<Value> {
@@ -174,7 +174,14 @@ impl Writer<'_> {
 
     fn left_out(&self) -> Vec<Value> {
         let checks = self.system.checks.iter();
-        checks.map(|check| json!({ "declaration": check.declaration.index(), "phi": (self.text)(check.phi) })).collect()
+        let left_out = checks.map(|check| {
+            json!({
+                "declaration": check.declaration.index(),
+                "unit": check.unit.to_string(),
+                "phi": (self.text)(check.phi),
+            })
+        });
+        left_out.collect()
     }
 
     fn rows(&self) -> Vec<Value> {
@@ -182,6 +189,7 @@ impl Writer<'_> {
             json!({
                 "name": self.system.row_name(k),
                 "declaration": row.declaration.index(),
+                "unit": row.unit.to_string(),
                 "phi": (self.text)(row.phi),
             })
         });

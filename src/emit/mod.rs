@@ -1,15 +1,18 @@
-//! A constraint system for others: as Rust, a module or a whole crate, as LaTeX for a report, as JSON for other programs.
+//! A constraint system for others: as Rust, a module or a whole crate, with functions for C, as LaTeX for a report, as JSON for other programs.
 //!
 //! What is emitted as Rust are the operations that the interpreter runs, those of the program and those of the solver, one by one, so
 //! that both give the same bits (the sign of a zero in `phi_t`, which is `-nu`, aside).
 
+mod c;
 mod code;
 mod equations;
+mod errors;
 mod goods;
 mod json;
 mod latex;
 mod limits;
 mod names;
+mod operand;
 mod operations;
 mod package;
 mod params;
@@ -49,6 +52,8 @@ pub struct Unit<'u> {
     pub lanes: Option<usize>,
     /// Beyond so many operations they are written as numbers instead of lines; mostly [`LARGEST_STRAIGHT`].
     pub largest_straight: usize,
+    /// Whether C is to read its parameters and inputs.
+    pub for_c: bool,
     /// The same with its inputs as signals, where it has any and is to be solved.
     pub following: Option<Following<'u>>,
 }

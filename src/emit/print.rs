@@ -73,7 +73,8 @@ impl Page {
         self.blank();
     }
 
-    fn indented(&mut self, body: impl FnOnce(&mut Page)) {
+    /// The same without a head.
+    pub fn indented(&mut self, body: impl FnOnce(&mut Page)) {
         self.indent += INDENT;
         body(self);
         self.indent -= INDENT;

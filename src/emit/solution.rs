@@ -1,13 +1,14 @@
 //! The solver's operations as a function that solves for position, velocity and acceleration at a time.
 
-use super::code::{Code, Function, Input, MODULE, Out, Scene, absolute};
-use super::equations::Equations;
+use super::code::{Code, Function, Input, MODULE, Out, Scene};
+use super::equations::{ARRAYS, Equations, Reached};
 use super::names::Names;
+use super::operand::{Arguments, Operand};
 use super::print::Page;
 use super::tape::{self, Book, Notes, Shared, Tape};
 use super::text::literal;
 use super::{Motion, Unit};
-use crate::layout::RowLayout;
+use crate::layout::{Holds, row_holds};
 use crate::program::{Column, Register};
 use crate::solver::{Instruction, Segment, Solver};
 use crate::tolerances::solving::solver::LARGEST_MULTIPLIER;
@@ -22,12 +23,15 @@ pub(super) struct Solution<'s> {
     pub known: FxHashMap<Register, usize>,
     /// Columns of what measures join that is no result, in order.
     pub joined: Vec<u32>,
+    /// What the columns hold that operations leave values in.
+    holds: Vec<Holds>,
 }
 
 impl<'s> Solution<'s> {
     pub fn new(unit: &'s Unit<'s>, motion: &'s Motion, equations: &'s Equations<'s>) -> Solution<'s> {
         let joined = joined(&motion.solver);
-        let mut solution = Solution { unit, motion, equations, known: FxHashMap::default(), joined };
+        let mut solution =
+            Solution { unit, motion, equations, known: FxHashMap::default(), joined, holds: row_holds(unit.system) };
         let instructions = || {
             let sensitive = motion.sensitive.iter().flat_map(Solver::instructions);
             motion.solver.instructions().iter().chain(sensitive)
@@ -59,13 +63,13 @@ impl<'s> Solution<'s> {
     }
 
     /// What a column of a table is called, in a lane or alone.
-    fn column(&self, table: u32, column: Column, lane: &str) -> String {
+    fn column(&self, table: u32, column: Column, lane: &str) -> Operand {
         if self.equations.is_constant(table, column) {
-            return self.equations.table(table, column);
+            return Operand::own(self.equations.table(table, column));
         }
         let cells = self.unit.program.tables()[table as usize].column(column);
         let first = self.known.get(&cells.start).copied().unwrap_or(0);
-        format!("m{lane}.known[{first}..{}]", first + cells.len())
+        Operand::of(format!("m{lane}.known[{first}..{}]", first + cells.len()), &["m"])
     }
 
     /// Whether anything is left to iterate for.
@@ -117,12 +121,11 @@ impl<'s> Solution<'s> {
             )),
             is_public: false,
             arguments,
-            out: Out::Given { begin: "at.begin(t);" },
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
             margin: if has_lanes { MODULE.len() } else { 0 },
         };
         self.note(solver, has_lanes);
-        let layout = *solver.layout();
-        code.print(&SolverScene { solution: self, solver, layout, has_lanes }, &function)
+        code.print(&SolverScene { solution: self, solver, has_lanes }, &function)
     }
 
     /// Notes what a solver's operations use as lines.
@@ -160,12 +163,11 @@ impl<'s> Solution<'s> {
             ),
             is_public: false,
             arguments: arguments.map(|(name, of)| (name, of.to_owned())).collect(),
-            out: Out::Given { begin: "at.begin(t);" },
+            out: Out::Given { begin: "at.begin(t);", names: &["at", "t"] },
             margin: 0,
         };
         self.note(solver, false);
-        let layout = *solver.layout();
-        Some(code.print(&SolverScene { solution: self, solver, layout, has_lanes: false }, &function))
+        Some(code.print(&SolverScene { solution: self, solver, has_lanes: false }, &function))
     }
 
     /// A solver's operations as numbers: the listing, the registers that it takes, by names with an ending.
@@ -173,6 +175,7 @@ impl<'s> Solution<'s> {
         let Shared { instructions, segments, registers } =
             tape::share(solver.instructions(), solver.segments(), solver.registers());
         let notes = Notes {
+            loaded: &|register| self.equations.loaded(register, &self.known),
             pivot: &|number| {
                 let pivot = solver.pivots()[number as usize];
                 (pivot.turn, pivot.weight)
@@ -181,7 +184,7 @@ impl<'s> Solution<'s> {
             bound: &|row| self.motion.bounds[row as usize],
         };
         let instructions: Vec<Instruction> = instructions.into_iter().map(|each| self.listed(each)).collect();
-        let Tape { words, starts } = book.encode(&instructions, self.equations, &self.known, &notes);
+        let Tape { words, starts } = book.encode(&instructions, &notes);
         let (mut list, mut settling) = (Vec::new(), Vec::new());
         for segment in &segments {
             let (range, tears) = match segment {
@@ -220,7 +223,18 @@ impl<'s> Solution<'s> {
             page.line(&format!("code: &SOLVE{ending},"));
         });
         page.end_statement();
-        page.text(&tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words));
+        tape::list(&format!("The operations of [`{solve}`]."), &format!("SOLVE{ending}"), &words, page);
+    }
+
+    /// What a column holds.
+    fn holds(&self, column: u32) -> Holds {
+        debug_assert!((column as usize) < self.holds.len(), "column {column} is none of a row's");
+        self.holds.get(column as usize).copied().unwrap_or(Holds::Time)
+    }
+
+    /// The place of a column among those that are joined.
+    fn joined(&self, column: u32) -> Option<usize> {
+        self.joined.binary_search(&column).ok()
     }
 
     /// The column of the first derivative by parameters.
@@ -237,14 +251,17 @@ impl<'s> Solution<'s> {
     /// An operation whose column is the place in the lists of a solution, one behind the other: what is joined behind the results, and
     /// behind that the derivatives by parameters.
     fn listed(&self, op: Instruction) -> Instruction {
-        let (layout, results) = (self.motion.solver.layout(), self.results());
-        let place = |column: u32| match self.joined.binary_search(&column) {
-            Ok(place) => results + place as u32,
-            Err(_) if column >= layout.by_signal => {
-                let place = column - layout.by_signal + layout.printed as u32;
-                if place < results { place } else { place + self.joined.len() as u32 }
+        let inputs = &self.unit.program.inputs;
+        let place = |column: u32| match (self.joined(column), self.holds(column)) {
+            (Some(place), _) => self.results() + place as u32,
+            (None, Holds::Slope { of, by }) => {
+                let (of, by) = (of as u32, by as u32);
+                match by.checked_sub(inputs.count) {
+                    None => self.motion.solver.layout().printed as u32 + by * inputs.n + of,
+                    Some(param) => self.first_by_params() + param * inputs.n + of,
+                }
             }
-            Err(_) => column,
+            (None, _) => column,
         };
         match op {
             Instruction::Column { to, column } => Instruction::Column { to, column: place(column) },
@@ -307,7 +324,6 @@ pub(super) fn wrapped(text: &str) -> String {
 struct SolverScene<'s> {
     solution: &'s Solution<'s>,
     solver: &'s Solver,
-    layout: RowLayout,
     has_lanes: bool,
 }
 
@@ -316,76 +332,62 @@ impl SolverScene<'_> {
     fn lane(&self) -> &'static str {
         if self.has_lanes { "[k]" } else { "" }
     }
-
-    /// The place of a column among those that are joined.
-    fn joined(&self, column: u32) -> Option<usize> {
-        self.solution.joined.binary_search(&column).ok()
-    }
-
-    /// The kind of a column, its order and its number there.
-    fn kind(&self, column: u32) -> (bool, usize, usize) {
-        let n = self.solution.unit.program.inputs.n;
-        for order in (0..4).rev() {
-            let first = self.layout.coordinates[order];
-            if column >= first && column < first + n {
-                return (true, order, (column - first) as usize);
-            }
-            if order < 3 && column >= self.layout.measures[order] {
-                return (false, order, (column - self.layout.measures[order]) as usize);
-            }
-        }
-        (true, 0, 0)
-    }
 }
 
 impl Scene for SolverScene<'_> {
     fn input(&self, register: Register) -> Input {
         debug_assert!(false, "register {register} has no operation");
-        Input::Text("f64::NAN".to_owned())
+        Input::Is(Operand::Number(f64::NAN))
     }
 
-    fn load(&self, register: Register) -> String {
+    fn load(&self, register: Register) -> Operand {
         let lane = self.lane();
         if let Some(place) = self.solution.known.get(&register) {
-            return format!("m{lane}.known[{place}]");
+            return Operand::of(format!("m{lane}.known[{place}]"), &["m"]);
         }
         let of = if self.solution.equations.is_led { "way" } else { "params" };
-        match self.solution.equations.input(register, &format!("m{lane}.{of}"), lane) {
-            Input::Bound { value, .. } | Input::Text(value) => value,
+        let given = format!("m{lane}.{of}");
+        let reached = Reached { given, names: &["m"], names_with_time: &["m", "t"], lane };
+        match self.solution.equations.input(register, &reached) {
+            Input::Bound { value, .. } | Input::Is(value) => value,
         }
     }
 
-    fn place(&self, column: u32) -> String {
-        if let Some(place) = self.joined(column) {
-            return format!("at.joined[{place}]{}", self.lane());
+    fn place(&self, column: u32) -> Operand {
+        let at = |text: String| Operand::of(text, &["at"]);
+        if let Some(place) = self.solution.joined(column) {
+            return at(format!("at.joined[{place}]{}", self.lane()));
         }
-        if let Some(k) = column.checked_sub(self.layout.by_signal) {
-            let inputs = &self.solution.unit.program.inputs;
-            let (number, k) = (k / inputs.n, k % inputs.n);
-            return match number.checked_sub(inputs.count) {
-                None => format!("at.along.by_signal[{number}][{k}]"),
-                Some(param) => format!("by[{param}][{k}]"),
-            };
-        }
-        match self.kind(column) {
-            (true, order, k) => format!("at.{}[{k}]{}", super::equations::ARRAYS[order], self.lane()),
-            (false, order, k) => {
+        let held = self.solution.holds(column);
+        match held {
+            Holds::Coordinate { index, order } => at(format!("at.{}[{index}]{}", ARRAYS[order], self.lane())),
+            Holds::Measure { order, .. } => {
                 let of = if self.has_lanes { "" } else { "measures." };
-                format!("at.{of}{}[{k}]{}", ["values", "rates", "accelerations"][order], self.lane())
+                let place = column - self.solver.layout().measures[order];
+                at(format!("at.{of}{}[{place}]{}", ["values", "rates", "accelerations"][order], self.lane()))
+            }
+            Holds::Slope { of, by } => match by.checked_sub(self.solution.unit.program.inputs.count as usize) {
+                None => at(format!("at.along.by_signal[{by}][{of}]")),
+                Some(param) => Operand::of(format!("by[{param}][{of}]"), &["by"]),
+            },
+            Holds::Time | Holds::Appended(_) | Holds::Varied => {
+                debug_assert!(false, "no code has a place for {held:?}");
+                Operand::Number(f64::NAN)
             }
         }
     }
 
     fn name(&self, column: u32) -> Option<String> {
         let names: &Names = self.solution.equations.names;
-        match self.kind(column) {
-            _ if column >= self.layout.by_signal || self.joined(column).is_some() => None,
-            (true, order, k) if order < 3 => Some(names.coordinate(order, k)).filter(|name| Names::is_telling(name)),
+        match self.solution.holds(column) {
+            Holds::Coordinate { index, order } if order < 3 => {
+                Some(names.coordinate(order, index)).filter(|name| Names::is_telling(name))
+            }
             _ => None,
         }
     }
 
-    fn table(&self, table: u32, column: Column) -> String {
+    fn table(&self, table: u32, column: Column) -> Operand {
         self.solution.column(table, column, self.lane())
     }
 
@@ -393,41 +395,48 @@ impl Scene for SolverScene<'_> {
         Vec::new()
     }
 
-    fn store(&self, column: u32, value: &str) -> Option<String> {
-        match self.kind(column) {
-            (true, 3, _) if column < self.layout.by_signal && self.joined(column).is_none() => None,
-            _ => match value.parse::<f64>() {
-                // +0 where it is −0
-                Ok(number) => Some(number + 0.0)
-                    .filter(|number| number.to_bits() != 0)
-                    .map(|number| format!("{} = {};", self.place(column), literal(number))),
-                Err(_) => Some(format!("{} = {value} + 0.0;", self.place(column))),
-            },
-        }
+    fn stores(&self, column: u32) -> bool {
+        // third derivatives are no results
+        let is_third = matches!(self.solution.holds(column), Holds::Coordinate { order: 3, .. });
+        !is_third || self.solution.joined(column).is_some()
     }
 
-    fn act(&self, op: Instruction, value: &str) -> String {
+    fn store(&self, column: u32, value: &Operand) -> Option<(String, Arguments)> {
+        let place = self.place(column);
+        let line = match value {
+            // +0 where it is −0
+            Operand::Number(value) if value.to_bits() << 1 == 0 => return None,
+            Operand::Number(_) => format!("{place} = {value};"),
+            Operand::Held { .. } => format!("{place} = {value} + 0.0;"),
+        };
+        Some((line, place.arguments()))
+    }
+
+    fn act(&self, op: Instruction, value: &Operand) -> (String, Arguments) {
         let (solver, bounds) = (self.solver, &self.solution.motion.bounds);
-        match (op, self.has_lanes) {
+        let line = match (op, self.has_lanes) {
             (Instruction::Pivot { pivot, .. }, has_lanes) => {
                 let pivot = solver.pivots()[pivot as usize];
                 let lane = if has_lanes { "k, " } else { "" };
                 format!("at.pivot({lane}{}, {value}, {});", pivot.turn, literal(pivot.weight))
             }
             (Instruction::Residual { row, .. }, false) => {
-                format!("at.holds &= {} <= {};", absolute(value), literal(bounds[row as usize]))
+                format!("at.holds &= {} <= {};", value.absolute(), literal(bounds[row as usize]))
             }
             (Instruction::Residual { row, .. }, true) => strain(value, 1.0 / bounds[row as usize]),
             _ => String::new(),
-        }
+        };
+        (line, &["at"])
     }
 
-    fn watch(&self, weight: u32, value: &str) -> String {
+    fn watch(&self, weight: u32, value: &Operand) -> (String, Arguments) {
         let weight = self.solver.weight(weight);
-        if self.has_lanes {
-            return strain(value, weight / LARGEST_MULTIPLIER);
-        }
-        format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+        let line = if self.has_lanes {
+            strain(value, weight / LARGEST_MULTIPLIER)
+        } else {
+            format!("at.holds &= {value}.abs() * {} <= LARGEST_MULTIPLIER;", literal(weight))
+        };
+        (line, &["at"])
     }
 
     fn has_lanes(&self) -> bool {
@@ -436,6 +445,6 @@ impl Scene for SolverScene<'_> {
 }
 
 /// The line that watches a value of a lane, which must not be above 1 when it is multiplied by a factor.
-fn strain(value: &str, factor: f64) -> String {
+fn strain(value: &Operand, factor: f64) -> String {
     format!("at.watch(k, {value}, {});", literal(factor))
 }

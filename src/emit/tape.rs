@@ -3,7 +3,7 @@
 //! A short loop in the emitted code reads them (`runtime/tables.rs`). Registers are shared, so that a large mechanism does not ask
 //! for a large stack.
 
-use super::equations::{Equations, Loaded};
+use super::goods::Uses;
 use super::operations::{binary, callee, callee_of_two, unary};
 use super::print::{Head, Page};
 use super::text::literal;
@@ -124,8 +124,19 @@ impl Numbers {
     }
 }
 
-/// What notes of the solver are about.
+/// Where a register of the program gets its value that no operation of a list writes.
+pub(super) enum Loaded {
+    Number(f64),
+    /// An array of those that operations read, and the place there.
+    Input {
+        array: u32,
+        index: u32,
+    },
+}
+
+/// What operations name that is not among them: registers of the program, and what notes of the solver are about.
 pub(super) struct Notes<'n> {
+    pub loaded: &'n dyn Fn(Register) -> Loaded,
     /// By number: the turn of a pivot, and its weight.
     pub pivot: &'n dyn Fn(u32) -> (u32, f64),
     /// By number: the weight of a multiplier.
@@ -145,36 +156,23 @@ pub(super) struct Book {
 
 impl Book {
     /// Writes operations down.
-    pub fn encode(
-        &mut self,
-        instructions: &[Instruction],
-        equations: &Equations<'_>,
-        known: &FxHashMap<Register, usize>,
-        notes: &Notes<'_>,
-    ) -> Tape {
+    pub fn encode(&mut self, instructions: &[Instruction], notes: &Notes<'_>) -> Tape {
         let mut tape = Tape::default();
         for &instruction in instructions {
             tape.starts.push(tape.words.len() as u32);
-            self.write(instruction, &mut tape.words, equations, known, notes);
+            self.write(instruction, &mut tape.words, notes);
         }
         tape.starts.push(tape.words.len() as u32);
         tape
     }
 
     /// Writes one instruction down.
-    fn write(
-        &mut self,
-        instruction: Instruction,
-        words: &mut Vec<u32>,
-        equations: &Equations<'_>,
-        known: &FxHashMap<Register, usize>,
-        notes: &Notes<'_>,
-    ) {
+    fn write(&mut self, instruction: Instruction, words: &mut Vec<u32>, notes: &Notes<'_>) {
         let numbers = &mut self.numbers;
         match instruction {
             Instruction::Compute(op) => self.write_operation(op, words),
             Instruction::Number { to, bits } => words.extend([codes::NUMBER, to, numbers.of(from_bits(bits))]),
-            Instruction::Load { to, from } => match equations.loaded(from, known) {
+            Instruction::Load { to, from } => match (notes.loaded)(from) {
                 Loaded::Number(value) => words.extend([codes::NUMBER, to, numbers.of(value)]),
                 Loaded::Input { array, index } => words.extend([codes::INPUT, to, array, index]),
             },
@@ -208,9 +206,8 @@ impl Book {
         words.extend(about);
     }
 
-    /// The numbers, the functions and the columns of tables by their numbers.
-    pub fn print(&self, equations: &Equations<'_>, page: &mut Page) {
-        let mut uses = equations.uses.borrow_mut();
+    /// The numbers, the functions and the columns of so many tables, by their numbers; a column is called by its name.
+    pub fn print(&self, tables: usize, called: impl Fn(u32, Column) -> String, uses: &mut Uses, page: &mut Page) {
         uses.name("tables", "Book");
         let values: Vec<String> = self.numbers.values.iter().copied().map(literal).collect();
         page.docs("The numbers among the operations.");
@@ -230,10 +227,10 @@ impl Book {
             binary_arms.push((*number, binary(*of, "a", "b")));
         }
         let mut column_arms = Vec::new();
-        for table in 0..equations.program.tables().len() as u32 {
+        for table in 0..tables as u32 {
             for column in Column::ALL {
                 let number = table * Column::ALL.len() as u32 + column.number();
-                column_arms.push((number, format!("&{}", equations.table(table, column))));
+                column_arms.push((number, format!("&{}", called(table, column))));
             }
         }
         page.line("#[rustfmt::skip]");
@@ -268,15 +265,16 @@ fn choice(page: &mut Page, name: &str, arguments: &[&str], result: &str, arms: &
 }
 
 /// A list of words.
-pub(super) fn list(docs: &str, name: &str, words: &[u32]) -> String {
-    let mut text = format!("/// {docs}\n#[rustfmt::skip]\nstatic {name}: [u32; {}] = [\n", words.len());
-    for line in words.chunks(WORDS_ON_A_LINE) {
-        text += "    ";
-        for word in line {
-            text += &word.to_string();
-            text += ",";
+pub(super) fn list(docs: &str, name: &str, words: &[u32], page: &mut Page) {
+    page.docs(docs);
+    page.line("#[rustfmt::skip]");
+    page.line(&format!("static {name}: [u32; {}] = [", words.len()));
+    page.indented(|page| {
+        for line in words.chunks(WORDS_ON_A_LINE) {
+            let words: Vec<String> = line.iter().map(u32::to_string).collect();
+            page.line(&format!("{},", words.join(",")));
         }
-        text += "\n";
-    }
-    text + "];\n\n"
+    });
+    page.line("];");
+    page.blank();
 }

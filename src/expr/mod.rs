@@ -15,7 +15,7 @@ mod tidy;
 mod vary;
 
 pub use evaluate::{binary_value, compare, unary_value};
-pub use motion::Motion;
+pub use motion::MotionLaw;
 pub use print::{Printer, number};
 pub use table::{Table, TableId, piece};
 pub use vary::VARIED_TABLE;

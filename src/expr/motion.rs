@@ -8,7 +8,7 @@ use std::f64::consts::PI;
 
 /// Which law `f(s)` the motion follows.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Motion {
+pub enum MotionLaw {
     /// Cubic, `3s² − 2s³`.
     Step,
     /// Quintic, `10s³ − 15s⁴ + 6s⁵`.
@@ -23,54 +23,60 @@ pub enum Motion {
     ModifiedSine,
 }
 
-impl Motion {
-    const ALL: [Motion; 6] =
-        [Motion::Step, Motion::Step5, Motion::Step7, Motion::Harmonic, Motion::Cycloidal, Motion::ModifiedSine];
+impl MotionLaw {
+    const ALL: [MotionLaw; 6] = [
+        MotionLaw::Step,
+        MotionLaw::Step5,
+        MotionLaw::Step7,
+        MotionLaw::Harmonic,
+        MotionLaw::Cycloidal,
+        MotionLaw::ModifiedSine,
+    ];
 
     /// As in the language.
     #[must_use]
     pub fn word(self) -> &'static str {
         match self {
-            Motion::Step => "step",
-            Motion::Step5 => "step5",
-            Motion::Step7 => "step7",
-            Motion::Harmonic => "harmonic",
-            Motion::Cycloidal => "cycloidal",
-            Motion::ModifiedSine => "modsine",
+            MotionLaw::Step => "step",
+            MotionLaw::Step5 => "step5",
+            MotionLaw::Step7 => "step7",
+            MotionLaw::Harmonic => "harmonic",
+            MotionLaw::Cycloidal => "cycloidal",
+            MotionLaw::ModifiedSine => "modsine",
         }
     }
 
     /// The law of a word.
     #[must_use]
-    pub fn named(word: &str) -> Option<Motion> {
+    pub fn named(word: &str) -> Option<MotionLaw> {
         Self::ALL.into_iter().find(|motion| motion.word() == word)
     }
 }
 
 impl Graph {
     /// A motion from `v0` at `u0` to `v1` at `u1`.
-    pub fn motion(&mut self, motion: Motion, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {
+    pub fn motion(&mut self, motion: MotionLaw, u: ExprId, from: [ExprId; 2], to: [ExprId; 2]) -> ExprId {
         let ([u0, v0], [u1, v1]) = (from, to);
         let way = self.sub(u, u0);
         let length = self.sub(u1, u0);
         let s = self.div(way, length);
         let f = match motion {
-            Motion::Step => self.polynomial(s, &[0.0, 0.0, 3.0, -2.0]),
-            Motion::Step5 => self.polynomial(s, &[0.0, 0.0, 0.0, 10.0, -15.0, 6.0]),
-            Motion::Step7 => self.polynomial(s, &[0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]),
-            Motion::Harmonic => {
+            MotionLaw::Step => self.polynomial(s, &[0.0, 0.0, 3.0, -2.0]),
+            MotionLaw::Step5 => self.polynomial(s, &[0.0, 0.0, 0.0, 10.0, -15.0, 6.0]),
+            MotionLaw::Step7 => self.polynomial(s, &[0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]),
+            MotionLaw::Harmonic => {
                 let (one, half) = (self.constant(1.0), self.constant(0.5));
                 let cosine = self.wave(Unary::Cos, PI, s);
                 let double = self.sub(one, cosine);
                 self.mul(half, double)
             }
-            Motion::Cycloidal => {
+            MotionLaw::Cycloidal => {
                 let scale = self.constant(1.0 / (2.0 * PI));
                 let sine = self.wave(Unary::Sin, 2.0 * PI, s);
                 let dip = self.mul(scale, sine);
                 self.sub(s, dip)
             }
-            Motion::ModifiedSine => self.modified_sine(s),
+            MotionLaw::ModifiedSine => self.modified_sine(s),
         };
         let rise = self.sub(v1, v0);
         let risen = self.mul(rise, f);

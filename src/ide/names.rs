@@ -9,7 +9,7 @@ use crate::check::{KnownMechanism, Library, Meaning, NameKind};
 use crate::source::{FileId, Span};
 use crate::stages::Checked;
 use crate::syntax::ast::{
-    Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName, Name, Part, Pose, TableRows,
+    DrawnPose, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, Mechanism, MechanismName, Name, Part, TableRows,
 };
 use crate::world::{World, beside};
 use std::collections::BTreeSet;
@@ -307,7 +307,7 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         }
         ItemKind::Ground { features } => all.extend(features.iter().flat_map(of_feature)),
         ItemKind::Body { pose, features, .. } => {
-            all.extend(pose.iter().flat_map(Pose::parts).chain(features.iter().flat_map(of_feature)));
+            all.extend(pose.iter().flat_map(DrawnPose::parts).chain(features.iter().flat_map(of_feature)));
         }
         ItemKind::Joint { arguments, .. } => all.extend(arguments),
         ItemKind::Equation { left, right, .. } => all.extend([left, right]),

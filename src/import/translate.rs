@@ -12,7 +12,7 @@ use super::matlab::Formula;
 use super::names::{self, Names, Wanted};
 use crate::diag::Diagnostics;
 use crate::source::Span;
-use crate::syntax::ast::{Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Pose, Sign};
+use crate::syntax::ast::{DrawnPose, Expr, ExprKind, Factor, Item, ItemKind, Mechanism, Sign};
 use std::f64::consts::PI;
 
 /// How long a number may be to stand for the formula that it is the value of.
@@ -167,7 +167,7 @@ impl Translator<'_> {
         let pose = vec![build::length(x, span), build::length(y, span), build::angle(phi, span)];
         let features = self.features.get(k).map_or(Vec::new(), Features::declarations);
         let name = build::name(name, body.name.map_or(body.place, |name| name.span));
-        let pose = Some(Pose { at: build::tuple(pose, span), toward: None });
+        let pose = Some(DrawnPose { at: build::tuple(pose, span), toward: None });
         Item { docs: Vec::new(), span: body.place, ranges: Vec::new(), kind: ItemKind::Body { name, pose, features } }
     }
 

@@ -39,6 +39,10 @@ ids! {
     BodyId
     /// A point of a body or of the ground.
     PointId
+    /// An axis of a body or of the ground.
+    AxisId
+    /// A circle of a body or of the ground.
+    CircleId
     /// A joint, constraint or driver.
     DeclarationId
 }

@@ -17,17 +17,19 @@
 //! # What must hold
 //!
 //! - Every expression is in the one graph; `Φ_q` holds exactly the entries that do not vanish identically.
-//! - Every row knows the declaration that wrote it, with its place in the text.
+//! - Every row knows the declaration that wrote it, with its place in the text, and what it is measured in.
 //! - The estimates, and all that depends on parameters alone, hold no other symbol.
 //!
 //! [`ConstraintSystem::validate`] looks at these and more.
 
 mod equations_of;
+mod features;
 mod ids;
 mod print;
 mod results;
 mod right_sides;
 mod rims;
+mod rows;
 mod scopes;
 mod signals;
 mod sparse;
@@ -35,10 +37,12 @@ mod validate;
 mod variations;
 
 pub use crate::vocabulary::JointKind;
-pub use ids::{BodyId, DeclarationId, IdVec, PointId};
+pub use features::{Axis, Circle, Point};
+pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
 pub use rims::Rim;
+pub use rows::{Row, RowUnit};
 pub use scopes::{AskingPart, LEAF_ORDERS, Leaf, Scope, leaf};
 pub use signals::CheckSlopes;
 pub use sparse::SparseRows;
@@ -46,6 +50,7 @@ pub use variations::{Appended, Variable, Variation, Variations};
 
 use crate::expr::{Dependence, ExprId, Graph, Symbol, TIME_SIGNAL, TableId};
 use crate::source::Span;
+use crate::vocabulary::Dimension;
 use std::ops::Range;
 
 /// A mechanism as equations.
@@ -69,6 +74,10 @@ pub struct ConstraintSystem {
     pub bodies: IdVec<BodyId, Body>,
     /// Their points and the ground's: the equations know of none, but what is said of them does.
     pub points: IdVec<PointId, Point>,
+    /// Their axes, and the ground's.
+    pub axes: IdVec<AxisId, Axis>,
+    /// Their circles, and the ground's.
+    pub circles: IdVec<CircleId, Circle>,
     /// The generalized coordinates, by their number.
     pub coordinates: Vec<Coordinate>,
     /// The joints, constraints and drivers that wrote the rows.
@@ -116,10 +125,18 @@ pub struct Param {
     pub part: usize,
     /// Its value in SI.
     pub value: f64,
-    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
-    pub unit: String,
+    /// Of its value; that of a plain number is pure, whatever it stands for.
+    pub dimension: Dimension,
     /// The name's place.
     pub span: Span,
+}
+
+impl Param {
+    /// Its SI unit: `m`, `1/s`, or `1` for a pure number.
+    #[must_use]
+    pub fn unit(&self) -> String {
+        self.dimension.unit()
+    }
 }
 
 /// A signal that comes from outside.
@@ -162,17 +179,6 @@ pub struct Body {
     pub pose_span: Option<Span>,
     /// Its coordinates: x, y, phi.
     pub pose: [usize; 3],
-}
-
-/// A point fixed in a body or in the ground.
-#[derive(Clone, Debug)]
-pub struct Point {
-    /// Its body; none for the ground.
-    pub body: Option<BodyId>,
-    /// Its name; a literal point has none.
-    pub name: Option<String>,
-    /// In the frame of its body (m); holds parameters only.
-    pub at: [ExprId; 2],
 }
 
 /// What a coordinate measures.
@@ -260,21 +266,17 @@ pub struct Declaration {
     pub points: Vec<PointId>,
     /// All points that its equations speak of.
     pub features: Vec<PointId>,
-    /// The axes that it joins, as they are written.
-    pub axes: Vec<String>,
+    /// The axes that it joins.
+    pub axes: Vec<AxisId>,
+    /// The circles that it joins.
+    pub circles: Vec<CircleId>,
+    /// Where a joint takes hold (m), in the ground's frame, as a formula of the coordinates: at its second point, the point of its second
+    /// axis, the centre of its second circle, or the contact.
+    pub at: Option<[ExprId; 2]>,
     /// Where the two sides of an equation are written.
     pub written: Option<Span>,
     /// Whether formulas speak of this joint: of its rotation or displacement.
     pub is_spoken_of: bool,
-}
-
-/// An equation.
-#[derive(Clone, Debug)]
-pub struct Row {
-    /// The declaration that wrote it.
-    pub declaration: DeclarationId,
-    /// The entry of `Φ` [m, m² or rad].
-    pub phi: ExprId,
 }
 
 /// A number to tabulate, with the time derivatives that can be had.
@@ -335,8 +337,10 @@ pub struct Condition {
 /// An equation that follows from the others.
 #[derive(Clone, Debug)]
 pub struct Check {
-    /// The entry of `Φ` [m, m² or rad].
+    /// The entry of `Φ`.
     pub phi: ExprId,
+    /// What that is measured in.
+    pub unit: RowUnit,
     /// The declaration that wrote it.
     pub declaration: DeclarationId,
     /// Its norm in the scaled `Φ_q` at the start.
@@ -443,6 +447,8 @@ impl ConstraintSystem {
             check_slopes: CheckSlopes::default(),
             bodies: IdVec::default(),
             points: IdVec::default(),
+            axes: IdVec::default(),
+            circles: IdVec::default(),
             coordinates: Vec::new(),
             declarations: IdVec::default(),
             rows: Vec::new(),
@@ -522,7 +528,7 @@ impl ConstraintSystem {
     pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
-        self.rows = kept.iter().map(|&row| self.rows[row].clone()).collect();
+        self.rows = kept.iter().map(|&row| self.rows[row]).collect();
         self.phi_q = self.phi_q.of_rows(&kept);
         self.right_sides.iter_mut().for_each(|side| side.keep(&kept));
         for check in &checks {

@@ -76,8 +76,11 @@ impl ConstraintSystem {
         let of_rows = |list: &[ExprId]| -> Vec<(String, String)> {
             list.iter().enumerate().map(|(k, &id)| (self.row_name(k), format!("= {}", text(id)))).collect()
         };
-        let phi = self.rows.iter().enumerate().map(|(k, row)| (self.row_name(k), format!("0 = {}", text(row.phi))));
-        section(f, "equations Φ = 0", phi)?;
+        let phi = self.rows.iter().enumerate().map(|(k, row)| {
+            let name = format!("{} [{}]", self.row_name(k), row.unit);
+            (name, format!("0 = {}", text(row.phi)))
+        });
+        section(f, "equations Φ = 0, with what each is measured in", phi)?;
         writeln!(f, "\nwritten by")?;
         for declaration in &self.declarations {
             let kind = match declaration.kind {

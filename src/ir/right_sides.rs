@@ -5,7 +5,7 @@ use super::{ConstraintSystem, Input};
 use crate::expr::{ExprId, Graph, Symbol};
 
 /// What `Φ = 0` is differentiated with.
-#[derive(Clone, Copy, PartialEq, Eq, Debug)]
+#[derive(Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Debug)]
 pub enum With {
     /// Time, so many times: once is `ν`, twice `γ`, three times the right side of the jerk equation.
     Time(u8),
@@ -60,6 +60,12 @@ impl ConstraintSystem {
     #[must_use]
     pub fn by_params(&self) -> impl ExactSizeIterator<Item = &[ExprId]> {
         self.all_with(|with| matches!(with, With::Param(_)))
+    }
+
+    /// All right sides that there are.
+    #[must_use]
+    pub fn right_sides(&self) -> &[RightSide] {
+        &self.right_sides
     }
 
     fn right_side(&self, with: With) -> Option<&[ExprId]> {

@@ -1,6 +1,8 @@
 //! What must hold of a constraint system, put to the test. What passes here, the rooms behind take without asking.
 
-use super::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, Owner, With};
+use super::{
+    BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, Owner, Row, RowUnit, With,
+};
 use crate::expr::{ExprId, Symbol};
 
 impl ConstraintSystem {
@@ -12,7 +14,8 @@ impl ConstraintSystem {
         self.rows_are_counted()?;
         self.phi_q_is_sparse()?;
         self.right_sides_are_whole()?;
-        self.formulas_hold_what_they_may()
+        self.formulas_hold_what_they_may()?;
+        self.rows_are_measured_in_their_units()
     }
 
     fn every_id_is_of_something(&self) -> Result<(), String> {
@@ -30,6 +33,16 @@ impl ConstraintSystem {
         for point in points {
             holds(point.index() < self.points.len(), || "a declaration at no point".to_owned())?;
         }
+        let axes = self.declarations.iter().flat_map(|of| &of.axes);
+        holds(axes.into_iter().all(|id| id.index() < self.axes.len()), || "a declaration at no axis".to_owned())?;
+        let circles = self.declarations.iter().flat_map(|of| &of.circles);
+        holds(circles.into_iter().all(|id| id.index() < self.circles.len()), || {
+            "a declaration at no circle".to_owned()
+        })?;
+        let through = self.axes.iter().map(|axis| axis.origin).chain(self.circles.iter().map(|circle| circle.center));
+        holds(through.into_iter().all(|id| id.index() < self.points.len()), || {
+            "an axis or circle at no point".to_owned()
+        })?;
         let bodies = self.points.iter().filter_map(|point| point.body);
         for body in bodies.chain(self.parts.iter().flat_map(|part| part.bodies.iter().copied())) {
             holds(body.index() < self.bodies.len(), || "a point or part of no body".to_owned())?;
@@ -78,6 +91,20 @@ impl ConstraintSystem {
         holds(next.next().is_none(), || "rows out of the order of their declarations".to_owned())
     }
 
+    /// The rows of a joint are measured in what its kind has, those that are left of them.
+    fn rows_are_measured_in_their_units(&self) -> Result<(), String> {
+        let mut coming = self.declarations.map(|declaration| match declaration.kind {
+            DeclarationKind::Joint(kind) => Some(units_of(kind).iter()),
+            DeclarationKind::Constraint | DeclarationKind::Driver => None,
+        });
+        for (k, Row { declaration, unit, .. }) in self.rows.iter().enumerate() {
+            holds(unit.dimension.is_finite(), || format!("a unit of row {k} that is none"))?;
+            let is_its = coming[*declaration].as_mut().is_none_or(|units| units.any(|wanted| wanted == unit));
+            holds(is_its, || format!("row {k} is in {unit}"))?;
+        }
+        Ok(())
+    }
+
     fn phi_q_is_sparse(&self) -> Result<(), String> {
         holds(self.phi_q.rows() == self.rows.len(), || "`Φ_q` has other rows than `Φ`".to_owned())?;
         for row in 0..self.rows.len() {
@@ -109,9 +136,11 @@ impl ConstraintSystem {
 
     fn formulas_hold_what_they_may(&self) -> Result<(), String> {
         let fixed = self.coordinates.iter().map(|coordinate| coordinate.estimate);
-        for formula in fixed.chain(self.points.iter().flat_map(|point| point.at)) {
+        let fixed = fixed.chain(self.points.iter().flat_map(|point| point.at));
+        let fixed = fixed.chain(self.axes.iter().flat_map(|axis| axis.direction));
+        for formula in fixed.chain(self.circles.iter().map(|circle| circle.radius)) {
             let dependence = self.graph.dependence(formula);
-            holds(dependence.is_constant(), || "an estimate or point that is not of parameters alone".to_owned())?;
+            holds(dependence.is_constant(), || "an estimate or feature that is not of parameters alone".to_owned())?;
         }
         let of_equations: Vec<ExprId> = self.phi().into_iter().chain(self.checks.iter().map(|of| of.phi)).collect();
         for symbol in self.graph.symbols_of_all(&of_equations) {
@@ -134,6 +163,23 @@ impl ConstraintSystem {
     }
 }
 
+/// What the rows of a joint are measured in, in their order.
+fn units_of(kind: JointKind) -> &'static [RowUnit] {
+    const LENGTH: RowUnit = RowUnit::LENGTH;
+    match kind {
+        JointKind::Translational => &[LENGTH, RowUnit::NUMBER],
+        JointKind::Weld => &[LENGTH, LENGTH, RowUnit::ANGLE],
+        JointKind::RevoluteRevolute => &[RowUnit::AREA],
+        JointKind::RevoluteTranslational | JointKind::RackPinion => &[LENGTH],
+        JointKind::Cam => &[LENGTH, LENGTH, RowUnit::AREA],
+        JointKind::Revolute
+        | JointKind::Gear
+        | JointKind::InternalGear
+        | JointKind::PointFollower
+        | JointKind::FlatFollower => &[LENGTH, LENGTH],
+    }
+}
+
 fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
     if it { Ok(()) } else { Err(fault()) }
 }
@@ -142,6 +188,7 @@ fn holds(it: bool, fault: impl Fn() -> String) -> Result<(), String> {
 mod tests {
     use super::{ConstraintSystem, DeclarationId, Owner, With};
     use crate::expr::Symbol;
+    use crate::ir::RowUnit;
     use crate::{Cancel, Choice, Memory, Parsed, Redundant};
 
     fn system() -> ConstraintSystem {
@@ -179,6 +226,12 @@ mod tests {
         let said = broken(|s| s.declarations[0.into()].rows += 1);
         assert!(said.starts_with("2 rows of"), "{said}");
         assert!(broken(|s| s.rows.swap(0, 2)).starts_with("0 rows of"));
+    }
+
+    #[test]
+    fn rows_are_in_their_units() {
+        assert_eq!(broken(|s| s.rows[0].unit = RowUnit::AREA), "row 0 is in m^2");
+        assert_eq!(broken(|s| s.rows[0].unit.dimension.time = f64::NAN), "a unit of row 0 that is none");
     }
 
     #[test]

@@ -69,11 +69,12 @@ const ENDINGS: [(&str, &str); 3] = [("", ""), (".d", "/s"), (".dd", "/s^2")];
 /// The columns of the table, in order.
 #[must_use]
 pub fn columns(system: &ConstraintSystem) -> Vec<Column> {
-    holds(system).into_iter().map(|holds| column(system, holds)).collect()
+    holds(system).into_iter().filter_map(|holds| column(system, holds)).collect()
 }
 
-fn column(system: &ConstraintSystem, holds: Holds) -> Column {
-    match holds {
+/// The column of the table that holds something; none where that is not of the table.
+fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
+    Some(match holds {
         Holds::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
         Holds::Coordinate { index, order } => of_coordinate(&system.coordinates[index], order),
         Holds::Measure { index, order } => {
@@ -87,7 +88,8 @@ fn column(system: &ConstraintSystem, holds: Holds) -> Column {
             let unit = ColumnUnit { text: of.unit.clone(), scale: of.scale };
             Column { name: of.name.clone(), unit, kind: ColumnKind::Variation }
         }
-    }
+        Holds::Slope { .. } | Holds::Varied => return None,
+    })
 }
 
 fn of_coordinate(coordinate: &Coordinate, order: usize) -> Column {

@@ -34,7 +34,7 @@ const PRINTED: [Stretch; 8] = [
 /// What only measures need, behind the table.
 const UNPRINTED: [Stretch; 3] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied];
 
-/// What a column of the table holds.
+/// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 pub enum Holds {
     /// Time.
@@ -55,12 +55,27 @@ pub enum Holds {
     },
     /// A derivative that was asked for as a column of its own, by its number.
     Appended(usize),
+    /// The derivative of a coordinate by a signal, or by a parameter: these are counted behind the signals.
+    Slope {
+        /// The number of the coordinate.
+        of: usize,
+        /// The number of the signal or parameter.
+        by: usize,
+    },
+    /// A part of a variation.
+    Varied,
 }
 
 /// What the columns of the table hold, in order.
 #[must_use]
 pub fn holds(system: &ConstraintSystem) -> Vec<Holds> {
     PRINTED.into_iter().flat_map(|stretch| stretch.holds(system)).collect()
+}
+
+/// What all columns of a row hold, in order: those of the table, and what stands behind it.
+#[must_use]
+pub fn row_holds(system: &ConstraintSystem) -> Vec<Holds> {
+    PRINTED.into_iter().chain(UNPRINTED).flat_map(|stretch| stretch.holds(system)).collect()
 }
 
 /// The measures that have a time derivative of some order.
@@ -86,6 +101,7 @@ impl Stretch {
     fn holds(self, system: &ConstraintSystem) -> Vec<Holds> {
         match self {
             Stretch::Time => vec![Holds::Time],
+            Stretch::Coordinates(3) if system.jerk().is_none() => Vec::new(),
             Stretch::Coordinates(order) => {
                 (0..system.coordinates.len()).map(|index| Holds::Coordinate { index, order }).collect()
             }
@@ -93,8 +109,11 @@ impl Stretch {
                 measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
             }
             Stretch::Appended => (0..system.appended().len()).map(Holds::Appended).collect(),
-            // these are not of the table
-            Stretch::BySignal | Stretch::Varied => Vec::new(),
+            Stretch::BySignal => {
+                let n = system.coordinates.len();
+                (0..self.length(system)).map(|place| Holds::Slope { of: place % n, by: place / n }).collect()
+            }
+            Stretch::Varied => vec![Holds::Varied; self.length(system)],
         }
     }
 }

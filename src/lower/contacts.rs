@@ -1,9 +1,9 @@
 //! Followers and cams (H 3.4): contacts that run along curves, each with the curves' arguments for coordinates.
 
-use super::Lowering;
 use super::frames::Vector;
+use super::{Entry, Lowering, entries};
 use crate::expr::{ExprId, Node, Symbol, Unary};
-use crate::ir::{Coordinate, CoordinateKind, OpenContact, Owner, Watch, WatchKind};
+use crate::ir::{Coordinate, CoordinateKind, OpenContact, Owner, RowUnit, Watch, WatchKind};
 use crate::model::{AxisId, Joint, Named, PointId, Profile};
 use rustc_hash::FxHashMap;
 
@@ -35,18 +35,18 @@ impl Lowering<'_> {
     }
 
     /// `r_j + A_j k(u) − r_i^P`
-    pub(super) fn point_follower(&mut self, joint: &Joint, point: PointId, profile: Profile) -> Vec<ExprId> {
+    pub(super) fn point_follower(&mut self, joint: &Joint, point: PointId, profile: Profile) -> Vec<Entry> {
         let first_condition = self.conditions.len();
         let u = self.argument(joint, 0, profile);
         let local = self.along(profile, u);
         let (on_curve, point) = (self.placed(profile.frame(self.model), local.at), self.global(point));
-        let rows = self.minus(on_curve, point).to_vec();
+        let rows = entries(RowUnit::LENGTH, self.minus(on_curve, point));
         self.leave_open(&[(u, profile)], first_condition);
         rows
     }
 
     /// `[r_i + A_i k(u) − r_j − A_j m(w), (A_i k'(u))^⊥ᵀ (A_j m'(w))]`
-    pub(super) fn cam(&mut self, joint: &Joint, first: Profile, second: Profile) -> Vec<ExprId> {
+    pub(super) fn cam(&mut self, joint: &Joint, first: Profile, second: Profile) -> Vec<Entry> {
         let first_condition = self.conditions.len();
         let (u, w) = (self.argument(joint, 0, first), self.argument(joint, 1, second));
         let (k, m) = (self.along(first, u), self.along(second, w));
@@ -55,7 +55,8 @@ impl Lowering<'_> {
         let [x, y] = self.minus(p, q);
         let (s, t) = (self.turned(frames[0], k.tangent), self.turned(frames[1], m.tangent));
         let parallel = self.left_of(s, t);
-        let rows = vec![x, y, parallel];
+        // arguments are pure numbers, so tangents are lengths
+        let rows = vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (parallel, RowUnit::AREA)];
         let together = self.dot(s, t);
         let scale = self.size(frames[0]) * self.size(frames[1]);
         self.watch(together, WatchKind::Tangents, scale);
@@ -71,7 +72,7 @@ impl Lowering<'_> {
     }
 
     /// `[v_j^⊥ᵀ(r_i + A_i k(u) − r_j^a), v_j^⊥ᵀ A_i k'(u)]`
-    pub(super) fn flat_follower(&mut self, joint: &Joint, profile: Profile, face: AxisId) -> Vec<ExprId> {
+    pub(super) fn flat_follower(&mut self, joint: &Joint, profile: Profile, face: AxisId) -> Vec<Entry> {
         let first_condition = self.conditions.len();
         let u = self.argument(joint, 0, profile);
         let local = self.along(profile, u);
@@ -80,7 +81,7 @@ impl Lowering<'_> {
         let d = self.minus(on_curve, origin);
         let v = self.direction(face);
         let (tangent, bend) = (self.turned(frame, local.tangent), self.turned(frame, local.bend));
-        let rows = vec![self.left_of(v, d), self.left_of(v, tangent)];
+        let rows = entries(RowUnit::LENGTH, [self.left_of(v, d), self.left_of(v, tangent)]);
         let along = self.dot(v, tangent);
         let scale = self.size(frame);
         self.watch(along, WatchKind::Tangents, scale);

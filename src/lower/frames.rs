@@ -3,7 +3,7 @@
 
 use super::{Lowering, carry};
 use crate::expr::{Binary, Comparison, ExprId, Symbol, Unary};
-use crate::model::{AxisId, Frame, Mechanism, PartId, Placement, PointId};
+use crate::model::{Axis, AxisId, Frame, Mechanism, PartId, Placement, PointId};
 
 /// A vector of two expressions.
 pub(super) type Vector = [ExprId; 2];
@@ -172,16 +172,17 @@ impl Lowering<'_> {
     }
 
     /// An axis' unit direction in its frame.
-    fn local_direction(&mut self, axis: AxisId) -> Vector {
-        let [x, y] = self.model[axis].direction.map(|id| self.formula(id));
+    pub(super) fn unit_direction(&mut self, axis: &Axis) -> Vector {
+        let [x, y] = axis.direction.map(|id| self.formula(id));
         let length = self.graph.binary(Binary::Hypot, x, y);
         [self.graph.div(x, length), self.graph.div(y, length)]
     }
 
     /// An axis' unit direction in the frame that it is seen from.
     pub(super) fn direction(&mut self, axis: AxisId) -> Vector {
-        let local = self.local_direction(axis);
-        self.turned(self.model[axis].frame, local)
+        let axis = &self.model[axis];
+        let local = self.unit_direction(axis);
+        self.turned(axis.frame, local)
     }
 
     /// The angle θ of an axis in its frame (rad), in (−π, π]; of one that is seen in a mirror, that of its image.

@@ -1,9 +1,9 @@
 //! Gears and racks (H 3.4): circles that roll, without holding their centres apart.
 
-use super::Lowering;
 use super::frames::Vector;
+use super::{Entry, Lowering, entries};
 use crate::expr::{Binary, ExprId, Unary};
-use crate::ir::{CoordinateKind, Fit, WatchKind};
+use crate::ir::{CoordinateKind, Fit, RowUnit, WatchKind};
 use crate::model::{AxisId, CircleId, Joint, Side};
 
 impl Lowering<'_> {
@@ -14,7 +14,7 @@ impl Lowering<'_> {
         circles: [CircleId; 2],
         internal: bool,
         phase: Option<ExprId>,
-    ) -> Vec<ExprId> {
+    ) -> Vec<Entry> {
         let drawn = self.as_drawn(|l| l.line_of_centers(circles));
         let drawn_theta = self.graph.binary(Binary::Atan2, drawn[1], drawn[0]);
         let phase = match phase {
@@ -42,7 +42,7 @@ impl Lowering<'_> {
         let distance = self.graph.binary(Binary::Hypot, dx, dy);
         let radius = self.graph.binary(Binary::Max, radii[0], radii[1]);
         self.fits.push(Fit { distance, wanted, radius, declaration: self.declarations.next_id() });
-        vec![across, mesh]
+        entries(RowUnit::LENGTH, [across, mesh])
     }
 
     fn radius(&mut self, circle: CircleId) -> ExprId {
@@ -73,7 +73,7 @@ impl Lowering<'_> {
         rack: AxisId,
         phase: Option<ExprId>,
         side: Option<Side>,
-    ) -> Vec<ExprId> {
+    ) -> Vec<Entry> {
         let sigma = match side {
             Some(Side::Left) => self.graph.constant(1.0),
             Some(Side::Right) => self.graph.constant(-1.0),
@@ -92,7 +92,7 @@ impl Lowering<'_> {
         let distance = self.graph.mul(sigma, height);
         let radius = self.radius(pinion);
         self.fits.push(Fit { distance, wanted: radius, radius, declaration: self.declarations.next_id() });
-        vec![self.graph.sub(rolled, phase)]
+        entries(RowUnit::LENGTH, [self.graph.sub(rolled, phase)])
     }
 
     /// From the rack's point to the pinion's centre (m).

@@ -1,23 +1,24 @@
 //! The joints' rows of `Φ` (H 3.3).
 
-use super::Lowering;
+use super::{Entry, Lowering, entries};
 use crate::expr::ExprId;
+use crate::ir::RowUnit;
 use crate::model::{Joint, JointKind, PointId};
 
 impl Lowering<'_> {
-    pub(super) fn joint(&mut self, joint: &Joint) -> Vec<ExprId> {
+    pub(super) fn joint(&mut self, joint: &Joint) -> Vec<Entry> {
         match joint.kind {
             // r_i^P − r_j^Q
             JointKind::Revolute(p, q) => {
                 let (p, q) = (self.global(p), self.global(q));
-                self.minus(p, q).to_vec()
+                entries(RowUnit::LENGTH, self.minus(p, q))
             }
             // [v_i^⊥ᵀ d, v_i^⊥ᵀ v_j]
             JointKind::Translational(a, b) => {
                 let (origin, other) = (self.global(self.model[a].origin), self.global(self.model[b].origin));
                 let d = self.minus(other, origin);
                 let (v, w) = (self.direction(a), self.direction(b));
-                vec![self.left_of(v, d), self.left_of(v, w)]
+                vec![(self.left_of(v, d), RowUnit::LENGTH), (self.left_of(v, w), RowUnit::NUMBER)]
             }
             // [r_i^P − r_j^Q, φ_j − φ_i − φ_0]
             JointKind::Weld(p, q, angle) => {
@@ -29,12 +30,12 @@ impl Lowering<'_> {
                 let turn = self.graph.sub(turn, angle);
                 let (p, q) = (self.global(p), self.global(q));
                 let [x, y] = self.minus(p, q);
-                vec![x, y, turn]
+                vec![(x, RowUnit::LENGTH), (y, RowUnit::LENGTH), (turn, RowUnit::ANGLE)]
             }
             // dᵀd − L²
             JointKind::RevoluteRevolute(p, q, length) => {
                 let length = self.formula(length);
-                vec![self.squared_distance_row(p, q, length)]
+                entries(RowUnit::AREA, [self.squared_distance_row(p, q, length)])
             }
             // v_j^⊥ᵀ (r_i^P − r_j^a) − c
             JointKind::RevoluteTranslational(p, a, offset) => {
@@ -44,7 +45,7 @@ impl Lowering<'_> {
                 let offset = self.formula(offset);
                 let left = self.left_of(v, d);
                 let left = self.handed(joint.part, left);
-                vec![self.graph.sub(left, offset)]
+                entries(RowUnit::LENGTH, [self.graph.sub(left, offset)])
             }
             // their angles and phases are those of the text that declares them
             JointKind::Gear { circles, internal, phase } => {

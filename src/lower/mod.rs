@@ -3,6 +3,7 @@
 //! 1989).
 
 mod contacts;
+mod features;
 mod frames;
 mod gears;
 mod inputs;
@@ -21,11 +22,10 @@ mod velocities;
 use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
-    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, Units, Variations, Watch,
+    Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
 };
 use crate::model::{
-    self, AxisId, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId,
-    Quantity,
+    self, BodyId, ConditionKind, EquationForm, Frame, JointId, Mechanism, Named, PartId, Placement, PointId, Quantity,
 };
 use crate::tolerances::scales::size::FAR_FRAME;
 use numbering::Numbering;
@@ -49,6 +49,7 @@ pub fn lower(model: &Mechanism) -> ConstraintSystem {
     if !model.outcomes.is_empty() {
         lowering.ask_of_the_whole(&mut system);
     }
+    lowering.add_features(&mut system);
     debug_assert_eq!(system.validate(), Ok(()));
     system
 }
@@ -73,7 +74,7 @@ fn params(model: &Mechanism) -> Vec<Param> {
         name: param.declared.name.clone(),
         part: path(&param.declared.name),
         value: param.value,
-        unit: param.dimension.unit(),
+        dimension: param.dimension,
         span: param.declared.span,
     };
     model.params.iter().map(param).collect()
@@ -144,6 +145,22 @@ fn carry(
 fn units(of: &model::Units) -> Units {
     let model::Units { si, printed, scale } = of.clone();
     Units { si, printed, scale }
+}
+
+/// An entry of `Φ`, and what it is measured in.
+type Entry = (ExprId, RowUnit);
+
+/// Some that are measured in the same.
+fn entries<const N: usize>(unit: RowUnit, phi: [ExprId; N]) -> Vec<Entry> {
+    phi.map(|phi| (phi, unit)).to_vec()
+}
+
+/// What the row of an equation is measured in: as its sides, but of a distance the squares.
+fn unit_of(equation: &model::Equation) -> RowUnit {
+    match equation.form {
+        EquationForm::Equality(..) => RowUnit { dimension: equation.dimension, is_angle: equation.is_angle },
+        EquationForm::Distance(..) => RowUnit::AREA,
+    }
 }
 
 impl<'m> Lowering<'m> {
@@ -332,22 +349,10 @@ impl Lowering<'_> {
         result
     }
 
-    fn declare(
-        &mut self,
-        declared: &crate::model::Declared,
-        kind: DeclarationKind,
-        phi: &[ExprId],
-        points: &[PointId],
-        axes: &[AxisId],
-    ) {
+    fn declare(&mut self, declared: &crate::model::Declared, kind: DeclarationKind, phi: &[Entry], points: &[PointId]) {
         let declaration = self.declarations.next_id();
         let (name, span) = (declared.name.clone(), declared.span);
         let points: Vec<ir::PointId> = points.iter().copied().map(same_point).collect();
-        let written = |&axis: &AxisId| {
-            let axis = &self.model[axis];
-            format!("{}.{}", self.model.frame_name(axis.frame), axis.name)
-        };
-        let axes = axes.iter().map(written).collect();
         self.declarations.push(Declaration {
             name,
             span,
@@ -355,11 +360,13 @@ impl Lowering<'_> {
             rows: phi.len(),
             features: points.clone(),
             points,
-            axes,
+            axes: Vec::new(),
+            circles: Vec::new(),
+            at: None,
             written: None,
             is_spoken_of: false,
         });
-        self.rows.extend(phi.iter().map(|&phi| Row { declaration, phi }));
+        self.rows.extend(phi.iter().map(|&(phi, unit)| Row { declaration, phi, unit }));
     }
 
     fn joint_rows(&mut self) {
@@ -367,7 +374,12 @@ impl Lowering<'_> {
         for joint in &model.joints {
             let phi = self.joint(joint);
             let kind = DeclarationKind::Joint(joint.kind.plain());
-            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model), &joint.kind.axes());
+            self.declare(&joint.declared, kind, &phi, &joint.kind.points(model));
+            if let Some(declaration) = self.declarations.last_mut() {
+                // both have the same, in the same order
+                declaration.axes = joint.kind.axes().into_iter().map(|axis| axis.index().into()).collect();
+                declaration.circles = joint.kind.circles().into_iter().map(|circle| circle.index().into()).collect();
+            }
         }
         for named in &model.named[..model.named_before_results] {
             if let Named::Quantity(_, Quantity::Rotation(joint, _) | Quantity::Displacement(joint, ..)) = named {
@@ -385,8 +397,8 @@ impl Lowering<'_> {
                     EquationForm::Equality(..) => Vec::new(),
                     EquationForm::Distance(p, q, _) => vec![p, q],
                 };
-                let phi = self.equation_row(equation.form);
-                self.declare(&equation.declared, kind, &[phi], &points, &[]);
+                let entry = (self.equation_row(equation.form), unit_of(equation));
+                self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
                     declaration.features = uses::of_equation(model, number).into_iter().map(same_point).collect();

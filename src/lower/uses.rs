@@ -1,7 +1,7 @@
 //! The features that equations use: what else a body has is drawn, measured or forgotten, and weighs nothing.
 
 use crate::expr::{ExprId, Symbol};
-use crate::model::{AxisId, EquationForm, JointKind, Mechanism, Named, PointId, Profile, Quantity};
+use crate::model::{AxisId, EquationForm, Mechanism, Named, PointId, Quantity};
 
 /// What joints and equations take hold of.
 pub(super) struct Uses {
@@ -22,13 +22,8 @@ impl Uses {
         };
         for joint in &model.joints {
             joint.kind.points(model).into_iter().for_each(|point| uses.points[point.index()] = true);
-            match joint.kind {
-                JointKind::Gear { circles, .. } => circles.into_iter().for_each(|c| uses.circles[c.index()] = true),
-                JointKind::RackPinion { pinion, .. } => uses.circles[pinion.index()] = true,
-                JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => uses.profile(profile),
-                JointKind::Cam(first, second) => [first, second].into_iter().for_each(|profile| uses.profile(profile)),
-                _ => {}
-            }
+            joint.kind.circles().into_iter().for_each(|circle| uses.circles[circle.index()] = true);
+            joint.kind.curves().into_iter().for_each(|curve| uses.curves[curve.index()] = true);
         }
         for k in 0..model.equations.len() {
             for point in of_equation(model, k) {
@@ -36,13 +31,6 @@ impl Uses {
             }
         }
         uses
-    }
-
-    fn profile(&mut self, profile: Profile) {
-        match profile {
-            Profile::Circle(circle) => self.circles[circle.index()] = true,
-            Profile::Curve(curve) => self.curves[curve.index()] = true,
-        }
     }
 }
 

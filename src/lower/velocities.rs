@@ -128,6 +128,11 @@ impl Lowering<'_> {
         }
     }
 
+    /// The place of a contact in the ground's frame (m).
+    pub(super) fn contact_place(&mut self, joint: JointId) -> Option<Vector> {
+        self.contact(joint).map(|contact| contact.at)
+    }
+
     /// The first coordinate that a joint brings along.
     fn contact_argument(&mut self, joint: JointId) -> ExprId {
         let index = self.numbering.own(joint).start;

@@ -25,6 +25,15 @@ pub fn along(curve: &[f64; 6], x: f64) -> f64 {
     curve.iter().rev().fold(0.0, |sum, c| sum * x + c)
 }
 
+/// Value, slope and curvature of a curve at a part of its step.
+#[must_use]
+pub fn value_and_slopes(curve: &[f64; 6], x: f64) -> [f64; 3] {
+    let [_, c1, c2, c3, c4, c5] = *curve;
+    let slope = c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)));
+    let curvature = 2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5));
+    [along(curve, x), slope, curvature]
+}
+
 /// Where value, first and second derivative lead in a time `h`.
 #[must_use]
 pub fn predicted([q, qd, qdd]: [f64; 3], h: f64) -> f64 {

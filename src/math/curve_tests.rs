@@ -1,6 +1,6 @@
 //! Curves between the ends of a step: tests, which stand apart since the file itself may be emitted.
 
-use super::curve::{about, along, farthest, parabola, predicted, quintic};
+use super::curve::{about, along, farthest, parabola, predicted, quintic, value_and_slopes};
 
 #[test]
 fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
@@ -10,6 +10,12 @@ fn a_quintic_has_value_slope_and_curvature_of_both_ends() {
     for x in [0.0, 0.25, 0.5, 1.0] {
         let wanted = end(1.0 + 2.0 * x)[0];
         assert!((along(&curve, x) - wanted).abs() < 1e-11 * wanted, "{x}");
+        let [value, slope, curvature] = value_and_slopes(&curve, x);
+        // by the part of a step of length 2
+        let found = [value, slope / 2.0, curvature / 4.0];
+        let is_met =
+            found.iter().zip(end(1.0 + 2.0 * x)).all(|(found, wanted)| (found - wanted).abs() < 1e-11 * wanted);
+        assert!(is_met, "{found:?} at {x}");
     }
 }
 

@@ -174,6 +174,11 @@ impl Mechanism {
         (0..self.bodies.len() as u32).map(BodyId)
     }
 
+    /// The ids of the joints, in order.
+    pub fn joint_ids(&self) -> impl Iterator<Item = JointId> + use<> {
+        (0..self.joints.len() as u32).map(JointId)
+    }
+
     /// The ids of the parts, in order.
     pub fn part_ids(&self) -> impl Iterator<Item = PartId> + use<> {
         (0..self.parts.len() as u32).map(PartId)
@@ -561,6 +566,39 @@ impl JointKind {
         }
     }
 
+    /// The lines that a contact runs along.
+    fn profiles(self) -> Vec<Profile> {
+        match self {
+            JointKind::PointFollower(_, profile) | JointKind::FlatFollower(profile, _) => vec![profile],
+            JointKind::Cam(first, second) => vec![first, second],
+            _ => Vec::new(),
+        }
+    }
+
+    /// The circles that it joins, those that a contact runs along too.
+    #[must_use]
+    pub fn circles(self) -> Vec<CircleId> {
+        let on_circle = |profile: Profile| match profile {
+            Profile::Circle(circle) => Some(circle),
+            Profile::Curve(_) => None,
+        };
+        match self {
+            JointKind::Gear { circles, .. } => circles.to_vec(),
+            JointKind::RackPinion { pinion, .. } => vec![pinion],
+            _ => self.profiles().into_iter().filter_map(on_circle).collect(),
+        }
+    }
+
+    /// The curves that a contact runs along.
+    #[must_use]
+    pub fn curves(self) -> Vec<CurveId> {
+        let on_curve = |profile: Profile| match profile {
+            Profile::Curve(curve) => Some(curve),
+            Profile::Circle(_) => None,
+        };
+        self.profiles().into_iter().filter_map(on_curve).collect()
+    }
+
     /// The frames of its first and of its second feature.
     #[must_use]
     pub fn frames(self, mechanism: &Mechanism) -> [Frame; 2] {
@@ -682,6 +720,10 @@ pub struct Equation {
     pub driver: bool,
     /// What it demands.
     pub form: EquationForm,
+    /// Of both sides; as far as that is known where plain numbers stand for anything.
+    pub dimension: Dimension,
+    /// Whether an angle is a factor of them, as far as their words tell.
+    pub is_angle: bool,
     /// Where both sides are written.
     pub written: Span,
 }
@@ -736,7 +778,7 @@ impl Units {
     /// SI; angles are told from other pure numbers.
     #[must_use]
     pub fn si(dimension: Dimension, is_angle: bool) -> Units {
-        let printed = [0.0, 1.0, 2.0].map(|times| si(dimension.over(Dimension::TIME.to_the(times)), is_angle));
+        let printed = [0.0, 1.0, 2.0].map(|times| dimension.over(Dimension::TIME.to_the(times)).unit_of(is_angle));
         Units { si: printed[0].clone(), printed, scale: [1.0; 3] }
     }
 
@@ -744,16 +786,7 @@ impl Units {
     #[must_use]
     pub fn of(unit: &CompoundUnit, is_angle: bool) -> Units {
         let printed = [0, 1, 2].map(|times| unit.per_second(times));
-        Units { si: si(unit.dimension(), is_angle), printed, scale: unit.scale() }
-    }
-}
-
-/// `m/s^2`; `rad/s` for a turning speed.
-fn si(dimension: Dimension, is_angle: bool) -> String {
-    let unit = dimension.unit();
-    match unit.strip_prefix('1') {
-        Some(rest) if is_angle => format!("rad{rest}"),
-        _ => unit,
+        Units { si: unit.dimension().unit_of(is_angle), printed, scale: unit.scale() }
     }
 }
 

@@ -1,8 +1,11 @@
 //! Laying a constraint system out as operations.
 
-use super::{CheckSlopes, Inputs, Op, Outputs, Program, Register, Rim, STAGES, Stage, Switch, TableLayout};
+use super::{
+    Inputs, Op, Outputs, PlacedCheckSlopes, PlacedRim, PlacedSide, Program, Register, STAGES, Stage, Switch,
+    TableLayout,
+};
 use crate::expr::{Binary, Comparison, Dependence, ExprId, Graph, Node, Symbol, TIME_SIGNAL, TableId, Unary};
-use crate::ir::{self, ConstraintSystem};
+use crate::ir::{self, ConstraintSystem, RightSide, With};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 const NONE: Register = Register::MAX;
@@ -41,16 +44,10 @@ impl Program {
         outputs.terms =
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
-        outputs.nu = layout.place(Stage::Velocity, system.nu().iter().copied());
-        let velocity = |list: &[ExprId]| layout.place(Stage::Velocity, list.iter().copied());
-        outputs.by_signal = system.by_inputs().map(velocity).collect();
-        outputs.gamma = layout.place(Stage::Acceleration, system.gamma().iter().copied());
-        outputs.jerk = layout.place(Stage::Jerk, system.jerk().into_iter().flatten().copied());
-        // as variations have it: what is differentiated brings no branches of its own
+        outputs.right_sides = layout.right_sides(system);
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
-        outputs.by_param = system.by_params().map(&mut varied).collect();
         let slopes = &system.check_slopes;
-        outputs.check_slopes = CheckSlopes {
+        outputs.check_slopes = PlacedCheckSlopes {
             coordinates: varied(&slopes.by_q),
             signals: slopes.by_inputs().map(&mut varied).collect(),
             params: slopes.by_params().map(&mut varied).collect(),
@@ -71,6 +68,17 @@ impl Program {
         (layout.register_of, layout.comparisons) = (at_position, comparisons);
         outputs.rims = system.rims.iter().map(|rim| layout.rim(rim)).collect();
         layout.finish(outputs)
+    }
+}
+
+/// When a right side can be evaluated.
+fn stage_of(with: With) -> Stage {
+    match with {
+        With::Time(0 | 1) | With::Input(_) => Stage::Velocity,
+        With::Time(2) => Stage::Acceleration,
+        With::Time(_) => Stage::Jerk,
+        // as variations have it: what is differentiated brings no branches of its own
+        With::Param(_) => Stage::Variation,
     }
 }
 
@@ -138,6 +146,19 @@ impl<'s> Layout<'s> {
         }
     }
 
+    /// All right sides, those first that are evaluated first.
+    fn right_sides(&mut self, system: &ConstraintSystem) -> Vec<PlacedSide> {
+        let mut sides: Vec<(Stage, &RightSide)> =
+            system.right_sides().iter().map(|side| (stage_of(side.with), side)).collect();
+        sides.sort_by_key(|(stage, side)| (*stage, side.with));
+        let mut placed: Vec<PlacedSide> = Vec::with_capacity(sides.len());
+        for (stage, RightSide { with, entries }) in sides {
+            placed.push(PlacedSide { with: *with, entries: self.place(stage, entries.iter().copied()) });
+        }
+        placed.sort_by_key(|side| side.with);
+        placed
+    }
+
     /// Emits what the roots need that is not there yet, and gives their registers.
     pub fn place(&mut self, stage: Stage, roots: impl IntoIterator<Item = ExprId>) -> Vec<Register> {
         let roots: Vec<ExprId> = roots.into_iter().collect();
@@ -171,11 +192,11 @@ impl<'s> Layout<'s> {
         }
     }
 
-    fn rim(&mut self, rim: &ir::Rim) -> Rim {
+    fn rim(&mut self, rim: &ir::Rim) -> PlacedRim {
         let moves = self.graph.dependence(rim.gauge).highest_order().is_some();
         let terms = self.place(Stage::Rims, self.graph.terms(rim.gauge));
         let found = self.place(Stage::Rims, [rim.gauge, rim.slope]);
-        Rim { gauge: found[0], slope: found[1], terms, on_time: !moves }
+        PlacedRim { gauge: found[0], slope: found[1], terms, on_time: !moves }
     }
 
     /// The stage in which a node is computed when `wanted` needs it first.

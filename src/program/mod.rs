@@ -27,6 +27,7 @@ pub use op::{Few, Machine, Op};
 pub use ranges::{Range, Ranges};
 pub use signals::Signal;
 
+use crate::ir::With;
 use rustc_hash::FxHashSet;
 
 /// A place for one number.
@@ -152,7 +153,7 @@ pub struct Inputs {
 
 /// How equations that were left out change.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct CheckSlopes {
+pub struct PlacedCheckSlopes {
     /// With the coordinates: by the pattern of [`crate::ir::CheckSlopes`].
     pub coordinates: Vec<Register>,
     /// With each signal, one entry per check.
@@ -195,22 +196,14 @@ pub struct Outputs {
     pub phi: Vec<Register>,
     /// `Φ_q`, in the order of its pattern's entries.
     pub phi_q: Vec<Register>,
-    /// `ν`, `n`.
-    pub nu: Vec<Register>,
-    /// `γ`, `n`.
-    pub gamma: Vec<Register>,
-    /// Right side of the jerk equation, `n`, or none.
-    pub jerk: Vec<Register>,
+    /// The right sides of the equations for the derivatives of `q`, in the order of what these are by.
+    pub right_sides: Vec<PlacedSide>,
     /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
     pub variations: Vec<[Vec<Register>; 3]>,
     /// By part of whose own equations there are variations: the entries of its matrix, row by row.
     pub scopes: Vec<Vec<Register>>,
     /// Derivatives that stand behind all other columns.
     pub appended: Vec<Register>,
-    /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.
-    pub by_signal: Vec<Vec<Register>>,
-    /// Likewise by parameter, where that is asked for.
-    pub by_param: Vec<Vec<Register>>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.
@@ -222,24 +215,70 @@ pub struct Outputs {
     /// Entries of `Φ` that follow from the others.
     pub checks: Vec<Register>,
     /// How they change.
-    pub check_slopes: CheckSlopes,
+    pub check_slopes: PlacedCheckSlopes,
     /// Quantities that keep their signs.
     pub watches: Vec<Register>,
     /// Where formulas come to the end of what their functions take.
-    pub rims: Vec<Rim>,
+    pub rims: Vec<PlacedRim>,
     /// For each row, the terms of its sum, against whose size its rounding is judged.
     pub terms: Vec<Vec<Register>>,
 }
 
+/// Where a right side is.
+#[derive(Clone, PartialEq, Eq, Debug)]
+pub struct PlacedSide {
+    /// What `Φ = 0` was differentiated with.
+    pub with: With,
+    /// Its entries, `n`.
+    pub entries: Vec<Register>,
+}
+
 impl Outputs {
+    /// `ν`, `n`.
+    #[must_use]
+    pub fn nu(&self) -> &[Register] {
+        self.right_side(With::Time(1))
+    }
+
+    /// `γ`, `n`.
+    #[must_use]
+    pub fn gamma(&self) -> &[Register] {
+        self.right_side(With::Time(2))
+    }
+
+    /// Right side of the jerk equation, `n`, or none.
+    #[must_use]
+    pub fn jerk(&self) -> &[Register] {
+        self.right_side(With::Time(3))
+    }
+
+    /// By signal: the right side of the equation for the derivatives of `q` by it, `n`.
+    pub fn by_signals(&self) -> impl Iterator<Item = &[Register]> {
+        self.all_with(|with| matches!(with, With::Input(_)))
+    }
+
+    /// Likewise by parameter, where that is asked for.
+    pub fn by_params(&self) -> impl Iterator<Item = &[Register]> {
+        self.all_with(|with| matches!(with, With::Param(_)))
+    }
+
+    fn right_side(&self, wanted: With) -> &[Register] {
+        self.all_with(|with| with == wanted).next().unwrap_or_default()
+    }
+
+    fn all_with(&self, is_wanted: impl Fn(With) -> bool) -> impl Iterator<Item = &[Register]> {
+        self.right_sides.iter().filter(move |side| is_wanted(side.with)).map(|side| side.entries.as_slice())
+    }
+
     /// Shows every register of a result.
     fn all(&self, mut show: impl FnMut(Register)) {
-        let lists = [&self.estimates, &self.phi, &self.phi_q, &self.nu, &self.gamma, &self.jerk];
+        let lists = [&self.estimates, &self.phi, &self.phi_q];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
         let more = more.into_iter().chain([&self.appended, &self.check_slopes.coordinates]);
         let slopes = self.check_slopes.signals.iter().chain(&self.check_slopes.params);
         let varied = self.variations.iter().flatten();
-        let more_lists = self.by_signal.iter().chain(&self.by_param).chain(&self.terms).chain(varied).chain(slopes);
+        let sides = self.right_sides.iter().map(|side| &side.entries);
+        let more_lists = sides.chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));
         for rim in &self.rims {
             [rim.gauge, rim.slope].iter().chain(&rim.terms).for_each(|&register| show(register));
@@ -249,7 +288,7 @@ impl Outputs {
 
 /// Where a quantity stands at whose zero a formula may have an edge.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub struct Rim {
+pub struct PlacedRim {
     /// The quantity.
     pub gauge: Register,
     /// Its time derivative.
@@ -321,7 +360,7 @@ impl Program {
     #[must_use]
     pub fn without_params(&self) -> Program {
         let mut program = self.clone();
-        program.outputs.by_param.clear();
+        program.outputs.right_sides.retain(|side| !matches!(side.with, With::Param(_)));
         program
     }
 

@@ -1,5 +1,7 @@
 //! Where Newton begins: on the curve through the ends of a step, bent to come from the step before.
 
+use crate::math::{along, value_and_slopes};
+
 /// What the curve through the ends of two steps differs by from the one through the ends of the later step: `(x (1 − x))³` times
 /// a parabola, `x` being the part of the later step.
 ///
@@ -23,12 +25,8 @@ impl Bend {
     pub fn new(curve: &[f64; 6], [value, slope, curvature]: [f64; 3], back: f64) -> Bend {
         let x = -back;
         // what is missing there, and the factor (x (1 − x))³, each with two derivatives
-        let [c0, c1, c2, c3, c4, c5] = *curve;
-        let missing = [
-            value - (c0 + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5))))),
-            slope - (c1 + x * (2.0 * c2 + x * (3.0 * c3 + x * (4.0 * c4 + x * 5.0 * c5)))),
-            curvature - (2.0 * c2 + x * (6.0 * c3 + x * (12.0 * c4 + x * 20.0 * c5))),
-        ];
+        let there = value_and_slopes(curve, x);
+        let missing = [value - there[0], slope - there[1], curvature - there[2]];
         let (u, du) = (x * (1.0 - x), 1.0 - 2.0 * x);
         let factor = [u * u * u, 3.0 * u * u * du, 6.0 * u * (du * du - u)];
         let first = missing[0] / factor[0];
@@ -40,17 +38,17 @@ impl Bend {
     /// The place on the bent curve at a part of the step.
     #[must_use]
     pub fn on_curve(&self, curve: &[f64; 6], x: f64) -> f64 {
-        let [c0, c1, c2, c3, c4, c5] = *curve;
         let u = x * (1.0 - x);
         let s = x + self.back;
         let bend = self.parabola[0] + s * (self.parabola[1] + s * self.parabola[2]);
-        c0 + x * (c1 + x * (c2 + x * (c3 + x * (c4 + x * c5)))) + u * u * u * bend
+        along(curve, x) + u * u * u * bend
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Bend;
+    use crate::math::quintic;
 
     /// A polynomial and its first two derivatives.
     fn polynomial(c: &[f64], x: f64) -> [f64; 3] {
@@ -65,16 +63,7 @@ mod tests {
     fn polynomials_of_degree_eight_are_met() {
         let c = [0.3, -1.2, 0.7, 0.4, -0.9, 1.1, -0.6, 0.2, 0.8];
         let (a, b) = (polynomial(&c, 0.0), polynomial(&c, 1.0));
-        // the quintic through both ends
-        let (value, first, second) = (b[0] - a[0] - a[1] - 0.5 * a[2], b[1] - a[1] - a[2], 0.5 * (b[2] - a[2]));
-        let curve = [
-            a[0],
-            a[1],
-            0.5 * a[2],
-            10.0 * value - 4.0 * first + second,
-            -15.0 * value + 7.0 * first - 2.0 * second,
-            6.0 * value - 3.0 * first + second,
-        ];
+        let curve = quintic(a, b, 1.0);
         for back in [0.5, 1.0, 2.0] {
             let bend = Bend::new(&curve, polynomial(&c, -back), back);
             for k in 0..=10 {

@@ -63,7 +63,7 @@ impl<const W: usize> Lanes<W> {
     /// How far the curve was from the solution in the last run: the largest first correction, scaled; not a number if one is not.
     #[must_use]
     pub fn first_correction(&self) -> f64 {
-        self.first_correction.iter().fold(0.0, |largest, &size| if size <= largest { largest } else { size })
+        self.first_correction.iter().copied().fold(0.0, math::max)
     }
 
     /// Solves at the times of a batch and writes a row for each, one behind the other; says which of them hold: their Newton
@@ -325,10 +325,23 @@ impl<const W: usize> Machine for Numbers<'_, W> {
     }
 }
 
-/// Keeps the larger of what is known and `|value| factor`; what is not a number wins.
+/// Keeps the larger of what is known and `|value| factor`; what is not a number stays.
 fn keep_largest<const W: usize>(largest: &mut [f64; W], values: &[f64; W], factor: f64) {
     for (largest, value) in largest.iter_mut().zip(values) {
-        let size = value.abs() * factor;
-        *largest = if size <= *largest { *largest } else { size };
+        *largest = math::max(*largest, value.abs() * factor);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::keep_largest;
+
+    #[test]
+    fn what_is_not_a_number_stays_the_largest() {
+        let mut largest = [0.0; 2];
+        for values in [[1.0, f64::NAN], [f64::NAN, -3.0], [2.0, 2.0]] {
+            keep_largest(&mut largest, &values, 0.5);
+        }
+        assert!(largest.iter().all(|size| size.is_nan()), "{largest:?}");
     }
 }

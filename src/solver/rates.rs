@@ -5,7 +5,8 @@ use super::Values;
 use super::build::Builder;
 use super::elimination::Factors;
 use super::tape::Value;
-use crate::program::Register;
+use crate::ir::With;
+use crate::program::{PlacedSide, Register};
 use crate::structure::Block;
 
 impl<V: Values> Builder<'_, V> {
@@ -13,17 +14,20 @@ impl<V: Values> Builder<'_, V> {
     pub fn rates(&mut self, block: &Block, factors: &Factors) {
         let program = self.program;
         let (outputs, inputs) = (&program.outputs, &program.inputs);
-        for (order, right) in [(1, &outputs.nu), (2, &outputs.gamma), (3, &outputs.jerk)] {
-            if !right.is_empty() {
-                // code has no use for third derivatives but in its measures
-                let is_of_measures = order == 3 && self.is_for_code();
-                let kept = if is_of_measures { Kept::Joined } else { Kept::All };
-                self.solve(block, factors, right, inputs.coordinates[order], self.layout.coordinates[order], kept);
-            }
-        }
-        for (number, right) in (0..).zip(outputs.by_signal.iter().chain(&outputs.by_param)) {
-            let first = number * inputs.n;
-            self.solve(block, factors, right, inputs.by_signal + first, self.layout.by_signal + first, Kept::All);
+        let mut others = 0;
+        for PlacedSide { with, entries } in &outputs.right_sides {
+            // code has no use for third derivatives but in its measures
+            let is_of_measures = *with == With::Time(3) && self.is_for_code();
+            let kept = if is_of_measures { Kept::Joined } else { Kept::All };
+            let (unknown, column) = if let With::Time(order) = with {
+                let order = usize::from(*order);
+                (inputs.coordinates[order], self.layout.coordinates[order])
+            } else {
+                let first = others * inputs.n;
+                others += 1;
+                (inputs.by_signal + first, self.layout.by_signal + first)
+            };
+            self.solve(block, factors, entries, unknown, column, kept);
         }
         for (variation, rights) in (0..).zip(&outputs.variations) {
             for (order, right) in (0..).zip(rights) {

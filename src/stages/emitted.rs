@@ -24,6 +24,8 @@ pub struct RustOptions {
     pub with_sensitivities: bool,
     /// How many variants or times are solved at once, beside one alone.
     pub lanes: Option<usize>,
+    /// Whether a crate has a header and functions for C too.
+    pub for_c: bool,
     /// Beyond so many operations they are written as tables instead of lines.
     pub largest_straight: usize,
 }
@@ -32,9 +34,9 @@ impl RustOptions {
     /// All of one mechanism, from a file.
     #[must_use]
     pub fn of(file: impl Into<String>) -> RustOptions {
-        let (with_motion, with_sensitivities) = (true, false);
+        let (with_motion, with_sensitivities, for_c) = (true, false, false);
         let (lanes, largest_straight) = (None, LARGEST_STRAIGHT);
-        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, largest_straight }
+        RustOptions { file: file.into(), with_motion, with_sensitivities, lanes, for_c, largest_straight }
     }
 }
 
@@ -115,7 +117,7 @@ impl Compiled {
         let motion = if options.with_motion { Some(self.motion(program, None, options, said)?) } else { None };
         let (system, sources) = (self.system(), self.sources());
         let RustOptions { file, lanes, largest_straight, .. } = options;
-        let (lanes, largest_straight) = (*lanes, *largest_straight);
+        let (lanes, largest_straight, for_c) = (*lanes, *largest_straight, options.for_c);
         let following = match signals {
             None => None,
             Some(Signals { compiled, given: program }) => {
@@ -123,11 +125,12 @@ impl Compiled {
                 let begin = motion.as_ref().map(|motion| motion.q.as_slice());
                 let motion = Some(compiled.motion(program, begin, options, &mut Diagnostics::default())?);
                 let system = compiled.system();
-                let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following: None };
+                let unit =
+                    Unit { system, program, sources, file, motion, lanes, largest_straight, for_c, following: None };
                 Some(Following { unit: Box::new(unit), by_text: compiled.program() })
             }
         };
-        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, following };
+        let unit = Unit { system, program, sources, file, motion, lanes, largest_straight, for_c, following };
         if lanes.is_some() && emit::is_large(&unit) {
             let why = format!("lanes are for mechanisms of up to {largest_straight} operations");
             return Err(Box::new(Diagnostic::new(Code::E0706, why).help("leave `--lanes` out")));

@@ -23,7 +23,7 @@ const TOLD: usize = 8;
 /// What it takes to lead a mechanism to the inputs that it is told, and its parts to theirs.
 #[derive(Debug)]
 pub(super) struct Leading {
-    pub read: Arc<syntax::Parsed>,
+    pub read: Arc<syntax::ParsedText>,
     /// Its number in the file.
     pub number: usize,
     pub surroundings: Surroundings,

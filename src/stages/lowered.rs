@@ -5,8 +5,9 @@ use crate::ir::ConstraintSystem;
 use crate::lower;
 use crate::model::Mechanism;
 
-/// Cannot fail: what could make it fail has been refused by `check`.
-pub(super) fn lowered(model: &Mechanism) -> ConstraintSystem {
+/// The one way to them: what a motion begins from. Cannot fail: what could make it fail has been refused by `check`.
+#[must_use]
+pub fn lowered(model: &Mechanism) -> ConstraintSystem {
     let mut system = lower::lower(model);
     estimates::complete(&mut system);
     system

@@ -37,6 +37,8 @@ pub use formula::{Formula, NAMES};
 pub use imported::imported;
 pub use knobs::{Crank, Jog, Knob};
 pub use known::{Declaration, Interface};
+#[cfg(feature = "rooms")]
+pub use lowered::lowered;
 pub use parsed::Parsed;
 pub use run::{Assembly, Run, RunOptions, Stand};
 pub use seen::Seen;

@@ -20,7 +20,7 @@ pub struct Parsed {
     file: FileId,
     /// Beside which the files are that it names.
     path: Arc<Path>,
-    read: Arc<syntax::Parsed>,
+    read: Arc<syntax::ParsedText>,
 }
 
 impl Parsed {
@@ -121,7 +121,7 @@ impl Parsed {
     }
 
     /// What was read.
-    pub(super) fn shared(&self) -> Arc<syntax::Parsed> {
+    pub(super) fn shared(&self) -> Arc<syntax::ParsedText> {
         Arc::clone(&self.read)
     }
 

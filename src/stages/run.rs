@@ -2,7 +2,7 @@
 
 use super::Compiled;
 use super::used_at::UsedAt;
-use crate::analysis::{self, Answers, Asked, Horizon, LeadOptions, Motion, Started, Times};
+use crate::analysis::{self, Answers, Asked, Follower, Horizon, LeadOptions, Started, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::layout::ColumnUnit;
@@ -73,7 +73,7 @@ pub struct Assembly {
 /// assert!((turned[4] - std::f64::consts::PI).abs() < 1e-12);
 /// ```
 pub struct Run {
-    motion: Motion,
+    motion: Follower,
     columns: Arc<[String]>,
     units: Arc<[ColumnUnit]>,
     assembly: Assembly,

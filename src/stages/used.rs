@@ -81,7 +81,7 @@ impl Reading<'_> {
     fn uses_of(&mut self, at: usize) {
         let read = Arc::clone(&self.files[at].read);
         let beside = self.files[at].path.to_string_lossy().into_owned();
-        let number = |used: &ast::Use| used.path.as_ref().and_then(|path| self.number(&beside, path));
+        let number = |used: &ast::UsedFile| used.path.as_ref().and_then(|path| self.number(&beside, path));
         self.files[at].uses = read.tree.uses.iter().map(number).collect::<Vec<_>>();
     }
 

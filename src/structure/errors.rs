@@ -1,6 +1,6 @@
 //! What is said of a mechanism that is not determined.
 
-use super::Part;
+use super::Subsystem;
 use super::count::table;
 use crate::diag::{Code, Diagnostic};
 use crate::ir::{
@@ -15,7 +15,7 @@ const LISTED: usize = 8;
 /// Drivers that one message suggests at most.
 const MOST_DRIVERS: usize = 3;
 
-pub fn count(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diagnostic {
+pub fn count(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsystem) -> Diagnostic {
     let ndof = system.ndof();
     let message = match ndof {
         1 => "1 degree of freedom is left".to_owned(),
@@ -126,7 +126,7 @@ fn what_to_take_away(system: &ConstraintSystem) -> String {
     }
 }
 
-pub fn structure(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> Diagnostic {
+pub fn structure(system: &ConstraintSystem, too_many: &Subsystem, too_few: &Subsystem) -> Diagnostic {
     let columns = &too_few.columns;
     let competing = competing(system, too_many);
     let mut free: Vec<_> = columns.iter().map(|&column| system.owner_span(column as usize)).collect();
@@ -149,7 +149,7 @@ pub fn structure(system: &ConstraintSystem, too_many: &Part, too_few: &Part) -> 
 }
 
 /// The declarations among whose equations there is one too many.
-fn competing<'s>(system: &'s ConstraintSystem, too_many: &Part) -> Vec<&'s Declaration> {
+fn competing<'s>(system: &'s ConstraintSystem, too_many: &Subsystem) -> Vec<&'s Declaration> {
     let mut declarations: Vec<DeclarationId> =
         too_many.rows.iter().map(|&row| system.rows[row as usize].declaration).collect();
     declarations.dedup();

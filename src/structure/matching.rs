@@ -6,7 +6,7 @@
 //! maximum transversal*, 1981). The blocks are the strongly connected components of the
 //! matched graph (R. Tarjan, 1972), which come out in an order of solution. Neither recurses.
 
-use super::{Block, Part};
+use super::{Block, Subsystem};
 use crate::ir::SparseRows;
 
 const NONE: u32 = u32::MAX;
@@ -178,7 +178,7 @@ impl Matching {
 
     /// The part that has too many rows and the one that has too few (A. Dulmage and N. Mendelsohn, *Coverings of bipartite
     /// graphs*, 1958).
-    pub fn unequal_parts(&self, pattern: &SparseRows) -> [Part; 2] {
+    pub fn unequal_parts(&self, pattern: &SparseRows) -> [Subsystem; 2] {
         let rows = self.overdetermined_rows(pattern);
         let mut columns: Vec<u32> =
             rows.iter().flat_map(|&row| pattern.row(row as usize)).map(|&(column, _)| column).collect();
@@ -188,7 +188,7 @@ impl Matching {
         let mut holding: Vec<u32> = free.iter().map(|&column| self.row_of_column[column as usize]).collect();
         holding.retain(|&row| row != NONE);
         holding.sort_unstable();
-        [Part { rows, columns }, Part { rows: holding, columns: free }]
+        [Subsystem { rows, columns }, Subsystem { rows: holding, columns: free }]
     }
 
     /// Rows among which there is one too many: all that alternating paths reach from the unmatched ones.

@@ -72,14 +72,14 @@ pub struct Refused {
     /// The count's or the structure's diagnostic.
     pub diagnostic: Diagnostic,
     /// The part that has more equations than coordinates: these stand for themselves, and hold no other coordinates.
-    pub too_many: Part,
+    pub too_many: Subsystem,
     /// The part that has fewer equations than coordinates; these may hold coordinates of other parts too.
-    pub too_few: Part,
+    pub too_few: Subsystem,
 }
 
 /// Equations and coordinates of a system.
 #[derive(Clone, PartialEq, Eq, Debug, Default)]
-pub struct Part {
+pub struct Subsystem {
     /// Rows of `Φ`, ascending.
     pub rows: Vec<u32>,
     /// Coordinates, ascending.

@@ -15,14 +15,14 @@ pub struct Name {
 #[derive(Clone, PartialEq, Debug)]
 pub struct File {
     /// The files that it uses, in order.
-    pub uses: Vec<Use>,
+    pub uses: Vec<UsedFile>,
     /// In order.
     pub mechanisms: Vec<Mechanism>,
 }
 
 /// `use "FILE.mech" as PREFIX`
 #[derive(Clone, PartialEq, Debug)]
-pub struct Use {
+pub struct UsedFile {
     /// The text of the `///` lines above.
     pub docs: Vec<String>,
     /// All of it.
@@ -56,14 +56,14 @@ pub struct Item {
     /// The whole declaration.
     pub span: Span,
     /// Behind its name: it stands for one declaration for each of the numbers.
-    pub ranges: Vec<Range>,
+    pub ranges: Vec<IndexRange>,
     /// Which one.
     pub kind: ItemKind,
 }
 
 /// `k in 0..n`: the whole numbers from one to another.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Range {
+pub struct IndexRange {
     /// What the number is called in the declaration.
     pub index: Name,
     /// The first number.
@@ -121,7 +121,7 @@ pub enum ItemKind {
         /// Its name.
         name: Name,
         /// What stands behind `at`.
-        pose: Option<Pose>,
+        pose: Option<DrawnPose>,
         /// Its features.
         features: Vec<Feature>,
     },
@@ -255,7 +255,7 @@ pub enum TableRows {
         /// Path as written, with its place.
         path: Name,
         /// Which two of its columns; the first two if it has no others.
-        columns: Option<[Column; 2]>,
+        columns: Option<[ColumnName; 2]>,
         /// Units of the two columns.
         units: Option<[WrittenUnit; 2]>,
     },
@@ -263,14 +263,14 @@ pub enum TableRows {
 
 /// Where a body is drawn.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Pose {
+pub struct DrawnPose {
     /// `(x, y, phi)`, `(P, phi)`, or before `toward` a point alone.
     pub at: Expr,
     /// The point that the body's x axis goes to.
     pub toward: Option<Expr>,
 }
 
-impl Pose {
+impl DrawnPose {
     /// All that stands behind `at`.
     #[must_use]
     pub fn span(&self) -> Span {
@@ -285,16 +285,16 @@ impl Pose {
 
 /// A column of a file, as it is named in a text.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Column {
+pub struct ColumnName {
     /// Which one.
-    pub kind: ColumnKind,
+    pub kind: ColumnWord,
     /// Where it is named.
     pub span: Span,
 }
 
 /// The ways to name a column.
 #[derive(Clone, PartialEq, Eq, Debug)]
-pub enum ColumnKind {
+pub enum ColumnWord {
     /// By its number, from 1.
     Number(u32),
     /// By its name in the header line.
@@ -407,7 +407,7 @@ pub enum ExprKind {
         feature: Name,
     },
     /// `link[k].pin`, `link[0]`: what is repeated, by its numbers.
-    Path(Vec<Segment>),
+    Path(Vec<PathSegment>),
     /// `x(rod.tip)`
     Call {
         /// What is called.
@@ -430,7 +430,7 @@ pub enum ExprKind {
     /// `a ^ b`
     Power(Box<Expr>, Box<Expr>),
     /// `a < b`
-    Compare(Box<Expr>, Comparison, Box<Expr>),
+    Compare(Box<Expr>, ComparisonSign, Box<Expr>),
     /// `a and b and c`
     And(Vec<Expr>),
     /// `a or b or c`
@@ -446,7 +446,7 @@ pub enum ExprKind {
 
 /// A part of a path.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Segment {
+pub struct PathSegment {
     /// Its name.
     pub name: Name,
     /// The numbers in brackets behind it.
@@ -473,7 +473,7 @@ pub enum Factor {
 
 /// The comparisons.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
-pub enum Comparison {
+pub enum ComparisonSign {
     /// `<`
     Less,
     /// `<=`

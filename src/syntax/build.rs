@@ -1,8 +1,8 @@
 //! From the parser's pairs to the tree of declarations, one declaration at a time.
 
 use super::ast::{
-    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism,
-    MechanismName, Name, Part, Pose, Range as Repetition, TableRows, UnitFactor, Use, WrittenUnit,
+    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
+    ItemKind, Mechanism, MechanismName, Name, Part, TableRows, UnitFactor, UsedFile, WrittenUnit,
 };
 use super::grammar::{Grammar, Rule};
 use super::{depth, errors, formula};
@@ -31,9 +31,9 @@ pub(super) struct Reader<'a> {
 #[derive(Clone)]
 pub(super) struct Head {
     pub name: Name,
-    pub ranges: Vec<Repetition>,
+    pub ranges: Vec<IndexRange>,
     /// What stands behind `at`.
-    pub pose: Option<Pose>,
+    pub pose: Option<DrawnPose>,
 }
 
 /// A stretch of a text.
@@ -143,7 +143,7 @@ impl Reader<'_> {
     }
 
     /// `use "FILE.mech" as PREFIX`
-    pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<Use> {
+    pub(super) fn use_file(&self, pair: Pair<'_, Rule>) -> Built<UsedFile> {
         let span = self.span(&pair);
         let (mut path, mut prefix) = (None, None);
         for part in pair.into_inner() {
@@ -153,7 +153,7 @@ impl Reader<'_> {
                 _ => {}
             }
         }
-        Ok(Use { docs: self.docs_above(span.start), span, path, prefix, is_broken: false })
+        Ok(UsedFile { docs: self.docs_above(span.start), span, path, prefix, is_broken: false })
     }
 
     /// What stands between the quotes of a string, with the place of the string.
@@ -300,22 +300,22 @@ impl Reader<'_> {
         let name = self.next_name(&mut inner)?;
         let at = self.last_expr(&mut inner)?;
         let toward = self.last_expr(&mut inner)?;
-        Ok(Head { name, ranges, pose: at.map(|at| Pose { at, toward }) })
+        Ok(Head { name, ranges, pose: at.map(|at| DrawnPose { at, toward }) })
     }
 
     /// `[k in 0..n]` behind the name of a declaration, if it is there.
-    fn ranges(&self, pair: &Pair<'_, Rule>) -> Built<Vec<Repetition>> {
+    fn ranges(&self, pair: &Pair<'_, Rule>) -> Built<Vec<IndexRange>> {
         let ranges = pair.clone().into_inner().nth(2).filter(|pair| pair.as_rule() == Rule::ranges);
         let Some(ranges) = ranges else { return Ok(Vec::new()) };
         ranges.into_inner().filter(|pair| pair.as_rule() == Rule::range).map(|pair| self.range(pair)).collect()
     }
 
-    fn range(&self, pair: Pair<'_, Rule>) -> Built<Repetition> {
+    fn range(&self, pair: Pair<'_, Rule>) -> Built<IndexRange> {
         let is_closed = pair.clone().into_inner().any(|part| part.as_rule() == Rule::through);
         let mut inner = significant(pair);
         let index = self.next_name(&mut inner)?;
         let (from, to) = (self.next_expr(&mut inner)?, self.next_expr(&mut inner)?);
-        Ok(Repetition { index, from, to, is_closed })
+        Ok(IndexRange { index, from, to, is_closed })
     }
 
     /// A formula that is alone in its text.
@@ -358,22 +358,22 @@ impl Reader<'_> {
         Ok(TableRows::File { path, columns, units: units.try_into().ok() })
     }
 
-    fn columns(&self, pair: Pair<'_, Rule>) -> Built<[Column; 2]> {
+    fn columns(&self, pair: Pair<'_, Rule>) -> Built<[ColumnName; 2]> {
         let columns = pair.into_inner().filter(|pair| pair.as_rule() == Rule::column);
         let columns = columns.map(|pair| self.column(pair)).collect::<Built<Vec<_>>>()?;
         columns.try_into().map_err(|_| self.truncated())
     }
 
-    fn column(&self, pair: Pair<'_, Rule>) -> Built<Column> {
+    fn column(&self, pair: Pair<'_, Rule>) -> Built<ColumnName> {
         let inner = self.only(pair)?;
         let span = self.span(&inner);
         let kind = if inner.as_rule() == Rule::string {
-            ColumnKind::Named(unquoted(inner.as_str()).to_owned())
+            ColumnWord::Named(unquoted(inner.as_str()).to_owned())
         } else {
             let number = inner.as_str().parse().ok().filter(|number| *number > 0);
-            ColumnKind::Number(number.ok_or_else(|| Box::new(errors::column_number(span)))?)
+            ColumnWord::Number(number.ok_or_else(|| Box::new(errors::column_number(span)))?)
         };
-        Ok(Column { kind, span })
+        Ok(ColumnName { kind, span })
     }
 
     /// The unit behind `in`, if there is one.

@@ -24,7 +24,7 @@ mod words;
 mod written;
 
 use super::ast::File;
-use super::parse::{Parsed, parse};
+use super::parse::{ParsedText, parse};
 use crate::diag::Edit;
 use crate::source::{FileId, Sources, Span};
 pub use expression::expression;
@@ -49,21 +49,21 @@ pub fn format(file: &File) -> String {
 
 /// A text as it would be written; what does not follow the grammar stays as it is.
 #[must_use]
-pub fn formatted(parsed: &Parsed, text: &str) -> String {
+pub fn formatted(parsed: &ParsedText, text: &str) -> String {
     Formatted::of(parsed, text).text(text)
 }
 
 /// What to change in a text that was read from a file, so that it is formatted: spaces, line ends, and commas behind the last item of
 /// a list. The edits are in order and do not overlap.
 #[must_use]
-pub fn edits(parsed: &Parsed, text: &str, file: FileId) -> Vec<Edit> {
+pub fn edits(parsed: &ParsedText, text: &str, file: FileId) -> Vec<Edit> {
     Formatted::of(parsed, text).edits(text, file, |_| true)
 }
 
 /// The same, of the lines that have a part in a span, which one that it ends right before has not. Columns are those that the whole
 /// text would have.
 #[must_use]
-pub fn edits_in(parsed: &Parsed, text: &str, span: Span) -> Vec<Edit> {
+pub fn edits_in(parsed: &ParsedText, text: &str, span: Span) -> Vec<Edit> {
     let (start, end) = (span.start as usize, span.end as usize);
     // an empty span is a cursor, which may stand where a line begins
     Formatted::of(parsed, text)
@@ -72,7 +72,7 @@ pub fn edits_in(parsed: &Parsed, text: &str, span: Span) -> Vec<Edit> {
 
 /// The same, of the block that a brace closes which ends at a byte; nothing if there is none.
 #[must_use]
-pub fn edits_at_brace(parsed: &Parsed, text: &str, file: FileId, end: u32) -> Vec<Edit> {
+pub fn edits_at_brace(parsed: &ParsedText, text: &str, file: FileId, end: u32) -> Vec<Edit> {
     let mechanisms = parsed.tree.mechanisms.iter();
     let mut blocks = mechanisms
         .flat_map(|mechanism| std::iter::once(mechanism.span).chain(mechanism.items.iter().map(|item| item.span)));

@@ -3,7 +3,7 @@
 //! Loosest first: `or`, `and`, `not`, comparisons, `+ -`, `* /`, unary `-`, `^` (to the right). A `depth` counts every
 //! level of nesting on the way down, so that no tree is deeper than [`DEEPEST`].
 
-use super::ast::{Comparison, Expr, ExprKind, Factor, Segment, Sign};
+use super::ast::{ComparisonSign, Expr, ExprKind, Factor, PathSegment, Sign};
 use super::build::{Built, Reader};
 use super::grammar::Rule;
 use super::{DEEPEST, errors};
@@ -54,13 +54,13 @@ pub(super) fn build_operand(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: us
 
 /// `a.b`, or a longer one, or one with numbers in brackets.
 fn path(reader: &Reader<'_>, pair: Pair<'_, Rule>, depth: usize) -> Built<ExprKind> {
-    let mut segments: Vec<Segment> = Vec::new();
+    let mut segments: Vec<PathSegment> = Vec::new();
     for part in pair.into_inner() {
         match segments.last_mut() {
             Some(last) if part.as_rule() == Rule::indices => {
                 last.indices = reader.list(part.into_inner(), depth + 1)?;
             }
-            _ => segments.push(Segment { name: reader.name(&part)?, indices: Vec::new() }),
+            _ => segments.push(PathSegment { name: reader.name(&part)?, indices: Vec::new() }),
         }
     }
     let is_plain = segments.len() == 2 && segments.iter().all(|segment| segment.indices.is_empty());
@@ -173,12 +173,12 @@ impl<'i, I: Iterator<Item = Pair<'i, Rule>>> Row<'_, 'i, I> {
             return Ok(left);
         };
         let comparison = match operator.as_str() {
-            "<" => Comparison::Less,
-            "<=" => Comparison::LessEqual,
-            ">" => Comparison::Greater,
-            ">=" => Comparison::GreaterEqual,
-            "==" => Comparison::Equal,
-            _ => Comparison::NotEqual,
+            "<" => ComparisonSign::Less,
+            "<=" => ComparisonSign::LessEqual,
+            ">" => ComparisonSign::Greater,
+            ">=" => ComparisonSign::GreaterEqual,
+            "==" => ComparisonSign::Equal,
+            _ => ComparisonSign::NotEqual,
         };
         let right = self.sum(depth)?;
         if let Some(second) = self.infix(OPERATORS) {

@@ -1,8 +1,8 @@
 //! What was read of a text, where it stands after an edit before it.
 
 use super::ast::{
-    Binding, Column, Expr, ExprKind, Feature, FeatureKind, Item, ItemKind, MechanismName, Name, Part, Pose, Range,
-    Segment, TableRows, UnitFactor, WrittenUnit,
+    Binding, ColumnName, DrawnPose, Expr, ExprKind, Feature, FeatureKind, IndexRange, Item, ItemKind, MechanismName,
+    Name, Part, PathSegment, TableRows, UnitFactor, WrittenUnit,
 };
 use super::build::Head;
 use crate::source::{FileId, Span};
@@ -101,14 +101,14 @@ impl Move {
         }
     }
 
-    fn ranges(self, ranges: &mut [Range]) {
-        for Range { index, from, to, is_closed: _ } in ranges {
+    fn ranges(self, ranges: &mut [IndexRange]) {
+        for IndexRange { index, from, to, is_closed: _ } in ranges {
             self.defined(index, from);
             self.expr(to);
         }
     }
 
-    fn pose(self, pose: &mut Pose) {
+    fn pose(self, pose: &mut DrawnPose) {
         self.expr(&mut pose.at);
         if let Some(toward) = &mut pose.toward {
             self.expr(toward);
@@ -146,7 +146,7 @@ impl Move {
             TableRows::Listed(rows) => self.exprs(rows),
             TableRows::File { path, columns, units } => {
                 self.name(path);
-                for Column { kind: _, span } in columns.iter_mut().flatten() {
+                for ColumnName { kind: _, span } in columns.iter_mut().flatten() {
                     self.span(span);
                 }
                 for unit in units.iter_mut().flatten() {
@@ -207,7 +207,7 @@ impl Move {
                 self.name(feature);
             }
             ExprKind::Path(segments) => {
-                for Segment { name, indices } in segments {
+                for PathSegment { name, indices } in segments {
                     self.name(name);
                     self.exprs(indices);
                 }

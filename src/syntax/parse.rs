@@ -6,7 +6,7 @@
 
 #![allow(clippy::redundant_closure_for_method_calls)] // a method of one reader is not general enough for all
 
-use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Use};
+use super::ast::{Expr, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, UsedFile};
 use super::build::{Built, Head, Piece, Reader, docs_above, normalized};
 use super::errors;
 use super::grammar::Rule;
@@ -29,7 +29,7 @@ const MOST_MENDS: usize = 100;
 
 /// A text as it was read: all of it, whatever its faults.
 #[derive(Clone, PartialEq, Debug)]
-pub struct Parsed {
+pub struct ParsedText {
     /// What follows the grammar, with the places of what does not.
     pub tree: File,
     /// What stands between.
@@ -40,7 +40,7 @@ pub struct Parsed {
 
 /// Reads a file.
 #[must_use]
-pub fn parse(sources: &Sources, file: FileId) -> Parsed {
+pub fn parse(sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
     let whole = Piece { source, file, range: 0..source.text.len() };
     // once for the whole text: a stack of its own takes longer than most declarations
@@ -53,7 +53,7 @@ pub fn parse(sources: &Sources, file: FileId) -> Parsed {
 
 /// Reads a file that was read before it was edited; what comes out is what [`parse`] makes of it.
 #[must_use]
-pub fn reread(old: &Parsed, old_text: &str, sources: &Sources, file: FileId) -> Parsed {
+pub fn reread(old: &ParsedText, old_text: &str, sources: &Sources, file: FileId) -> ParsedText {
     let source = sources.get(file);
     let (tree, faults) = stacker::maybe_grow(STACK, STACK, || {
         by_declarations(source, file, Some(Known::of(&old.tree, [old_text, &source.text], file)))
@@ -62,12 +62,12 @@ pub fn reread(old: &Parsed, old_text: &str, sources: &Sources, file: FileId) -> 
 }
 
 /// With what is to be known of a text beside its tree.
-fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics) -> Parsed {
+fn with_all(sources: &Sources, file: FileId, tree: File, mut faults: Diagnostics) -> ParsedText {
     if tree.mechanisms.is_empty() && faults.is_empty() {
         faults.push(errors::no_mechanism(sources.end_of(file)));
     }
     faults.sort_by_place();
-    Parsed { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
+    ParsedText { tree, trivia: trivia::of(&sources.get(file).text, file), faults }
 }
 
 /// The tree of a text that may have faults, with those; what is known of it is not read again.
@@ -118,7 +118,7 @@ struct Reading<'a> {
 
 impl Reading<'_> {
     fn file(&mut self) -> File {
-        let (mut uses, mut mechanisms): (Vec<Use>, Vec<Mechanism>) = (Vec::new(), Vec::new());
+        let (mut uses, mut mechanisms): (Vec<UsedFile>, Vec<Mechanism>) = (Vec::new(), Vec::new());
         let mut is_outside_told = false;
         while !self.outline.is_behind_the_last(self.at) {
             if self.outline.begins_use(self.at) {
@@ -153,7 +153,7 @@ impl Reading<'_> {
     }
 
     /// `use "FILE.mech" as PREFIX`; one at fault keeps what can be read of it.
-    fn used_file(&mut self) -> Use {
+    fn used_file(&mut self) -> UsedFile {
         let first = self.at;
         let (start, next) = (self.outline.start(first), self.outline.end_of_use(first));
         let make = |reader: &Reader<'_>, pair: Pair<'_, Rule>| reader.use_file(reader.only(pair)?);
@@ -179,7 +179,7 @@ impl Reading<'_> {
             span: self.span(token.start..token.end()),
         });
         let span = self.span(start..self.outline.end_before(next));
-        Use { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
+        UsedFile { docs: docs_above(&self.source.text, start), span, path, prefix: None, is_broken: true }
     }
 
     /// `mechanism NAME { … }`, if it is more than a word.
@@ -551,7 +551,7 @@ mod tests {
     use crate::syntax::tokens::tokens;
     use pest::Parser;
 
-    fn parsed(text: &str) -> super::Parsed {
+    fn parsed(text: &str) -> super::ParsedText {
         let mut sources = Sources::default();
         let file = sources.add("text.mech", text);
         parse(&sources, file)

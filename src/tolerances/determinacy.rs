@@ -18,7 +18,7 @@ pub mod redundancy {
     pub const NEARBY: [f64; 3] = [1.3e-3, 3.1e-3, 7.7e-3];
 }
 
-/// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`).
+/// Free motions, and what is proposed to take them (`analysis/explain/freedom.rs`, `analysis/explain/proposals.rs`).
 pub mod freedom {
     /// A residual above this is not assembled: motions would be told of no position.
     pub const ASSEMBLED: f64 = 1e-8;

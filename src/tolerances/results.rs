@@ -71,7 +71,7 @@ pub mod reduced {
     pub const MOST_LOOKS: usize = 1000;
 }
 
-/// Stretches (`analysis/results/mod.rs`).
+/// Stretches (`analysis/results`).
 pub mod stretches {
     /// So many stretches are looked at together.
     pub const CHUNK: usize = 4096;

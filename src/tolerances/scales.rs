@@ -12,7 +12,7 @@ pub mod size {
     pub const PLACES_ON_CURVE: u32 = 16;
 }
 
-/// Nearness to a singular position, and orders of elimination (`analysis/state/linear/mod.rs`).
+/// Nearness to a singular position, and orders of elimination (`analysis/state/linear`).
 pub mod linear {
     /// A block whose smallest pivot is so many times a limit has no singular value below it: pivots of rows of unit norm
     /// overestimate it by little.
@@ -42,7 +42,7 @@ pub mod yardstick {
     pub const ROUNDING: f64 = 1e-10;
 }
 
-/// Residuals, and rows that are bent (`analysis/state/kinematics/mod.rs`).
+/// Residuals, and rows that are bent (`analysis/state/kinematics`).
 pub mod kinematics {
     /// What rounding makes of a term.
     pub const ROUNDING: f64 = 8.0 * f64::EPSILON;

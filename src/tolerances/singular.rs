@@ -16,7 +16,7 @@ pub mod reasons {
     pub const TAKES_PART: f64 = 1e-3;
 }
 
-/// The way over a singular position (`analysis/follow/crossing/mod.rs`).
+/// The way over a singular position (`analysis/follow/crossing`).
 pub mod bridge {
     /// A state nearer than this to a singular position is not clear of it.
     ///

@@ -24,7 +24,7 @@ pub mod build {
     pub const WIDEST_CELL: f64 = 8.0 * CELL;
 }
 
-/// Multipliers, and how large a solver may be (`solver/mod.rs`).
+/// Multipliers, and how large a solver may be (`solver`).
 pub mod solver {
     /// A scaled multiplier of an elimination beyond this loses digits.
     pub const LARGEST_MULTIPLIER: f64 = 16.0;

@@ -1,6 +1,6 @@
 //! Steps, and what happens between their ends.
 
-/// Steps (`analysis/follow/step/mod.rs`).
+/// Steps (`analysis/follow/step`).
 pub mod march {
     /// Largest first correction of a step, scaled. As all sizes that a step is judged by it is not that of a place which follows
     /// from other coordinates: the upper end of a tall lift goes far.
@@ -56,7 +56,7 @@ pub mod touch {
     pub const SECTIONS: usize = 60;
 }
 
-/// Edges of formulas (`analysis/follow/edges/mod.rs`).
+/// Edges of formulas (`analysis/follow/edges`).
 pub mod edges {
     /// So many units in the last place of an output time it may be off from the edge that it is meant to be.
     pub const SLACK: f64 = 4.0;

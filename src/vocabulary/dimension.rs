@@ -14,6 +14,8 @@ impl Dimension {
     pub const PURE: Dimension = Dimension { length: 0.0, time: 0.0 };
     /// A length.
     pub const LENGTH: Dimension = Dimension { length: 1.0, time: 0.0 };
+    /// An area.
+    pub const AREA: Dimension = Dimension { length: 2.0, time: 0.0 };
     /// A time.
     pub const TIME: Dimension = Dimension { length: 0.0, time: 1.0 };
     /// One over a time.
@@ -23,6 +25,12 @@ impl Dimension {
     #[must_use]
     pub fn is(self, other: Dimension) -> bool {
         (self.length - other.length).abs() < 1e-9 && (self.time - other.time).abs() < 1e-9
+    }
+
+    /// Whether it is one.
+    #[must_use]
+    pub fn is_finite(self) -> bool {
+        self.length.is_finite() && self.time.is_finite()
     }
 
     /// Of a product.
@@ -60,6 +68,16 @@ impl Dimension {
             .iter()
             .find(|&&(length, time, _)| self.is(Dimension { length, time }))
             .map_or_else(|| format!("a quantity in {}", self.unit()), |(.., words)| (*words).to_owned())
+    }
+
+    /// As [`Dimension::unit`], angles told from other pure numbers: `rad/s` for a turning speed.
+    #[must_use]
+    pub fn unit_of(self, is_angle: bool) -> String {
+        let unit = self.unit();
+        match unit.strip_prefix('1') {
+            Some(rest) if is_angle => format!("rad{rest}"),
+            _ => unit,
+        }
     }
 
     /// As a product of SI units: `m^2/s`; `1` for a pure number.

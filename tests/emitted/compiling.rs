@@ -140,9 +140,9 @@ pub fn interpreted(compiled: &Compiled, seed: u64) -> Vec<u64> {
     [
         bits(&outputs.phi, 1.0),
         bits(&outputs.phi_q, 1.0),
-        bits(&outputs.nu, -1.0),
-        bits(&outputs.nu, 1.0),
-        bits(&outputs.gamma, 1.0),
+        bits(outputs.nu(), -1.0),
+        bits(outputs.nu(), 1.0),
+        bits(outputs.gamma(), 1.0),
     ]
     .concat()
 }

@@ -108,25 +108,25 @@ pub mod coordinate {
     pub const PISTON_PHI: usize = 8;
 }
 
-/// Which equation each joint, constraint or driver wrote.
+/// Which equation each joint, constraint or driver wrote, and its unit.
 pub mod row {
-    /// joint `main 1`, line 30
+    /// joint `main 1` (m), line 30
     pub const MAIN_1: usize = 0;
-    /// joint `main 2`, line 30
+    /// joint `main 2` (m), line 30
     pub const MAIN_2: usize = 1;
-    /// joint `big 1`, line 31
+    /// joint `big 1` (m), line 31
     pub const BIG_1: usize = 2;
-    /// joint `big 2`, line 31
+    /// joint `big 2` (m), line 31
     pub const BIG_2: usize = 3;
-    /// joint `small 1`, line 32
+    /// joint `small 1` (m), line 32
     pub const SMALL_1: usize = 4;
-    /// joint `small 2`, line 32
+    /// joint `small 2` (m), line 32
     pub const SMALL_2: usize = 5;
-    /// joint `barrel 1`, line 33
+    /// joint `barrel 1` (m), line 33
     pub const BARREL_1: usize = 6;
-    /// joint `barrel 2`, line 33
+    /// joint `barrel 2` (a pure number), line 33
     pub const BARREL_2: usize = 7;
-    /// driver `motor`, line 36
+    /// driver `motor` (rad), line 36
     pub const MOTOR: usize = 8;
 }
 
@@ -231,7 +231,7 @@ pub struct Measures {
     pub accelerations: [f64; ACCELERATIONS],
 }
 
-/// The residual of the equations (m, m^2 or rad).
+/// The residual of the equations, each in its unit: see [`row`].
 ///
 /// 20 operations.
 pub fn phi(q: &[f64; N], t: f64, p: &Params) -> [f64; N] {
@@ -1193,16 +1193,16 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; a last one that is not a number wins.
+/// The largest value beside its scale; not a number if one is not.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; a second one that is not a number wins.
+/// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// What leads from some numbers to others.
@@ -1580,10 +1580,20 @@ impl<M: Solved> Solution<M> {
 }
 }
 
+pub mod so_far {
+//! What is the largest, found one by one.
+
+/// What is the largest so far, in the loops that solve, which have time for one comparison: a value that is not a number wins, but only
+/// until the next. What it comes from is not a number either, and is asked for that.
+pub fn larger_so_far(largest: f64, value: f64) -> f64 {
+    if value <= largest { largest } else { value }
+}
+}
+
 pub mod pivots {
 //! What pivots tell of a position.
 
-use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -1592,7 +1602,7 @@ impl<M: Solved> Solution<M> {
         if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
             *is_negative ^= inverse < 0.0;
         }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
+        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
     }
 }
 }
@@ -1613,6 +1623,7 @@ pub mod newton {
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
 use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -1635,7 +1646,7 @@ impl Newton {
     pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger(self.first, size / scale);
+            self.first = larger_so_far(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;
@@ -2856,14 +2867,14 @@ pub mod lane_strain {
 //! What must not be too large in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of a value that must not be above 1 when it is multiplied by a factor.
     #[inline]
     pub fn watch(&mut self, lane: usize, value: f64, factor: f64) {
         if let Some(strain) = self.strain.get_mut(lane) {
-            *strain = larger(*strain, value.abs() * factor);
+            *strain = larger_so_far(*strain, value.abs() * factor);
         }
     }
 }
@@ -2873,7 +2884,7 @@ pub mod lane_pivots {
 //! What pivots tell of a position in a lane.
 
 use super::lane_solutions::{Laned, Solutions};
-use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 impl<M: Laned<L>, const L: usize> Solutions<M, L> {
     /// Takes note of one over a pivot, and of what makes that a pure number.
@@ -2882,7 +2893,7 @@ impl<M: Laned<L>, const L: usize> Solutions<M, L> {
         let signs = self.signs.as_mut().get_mut(turn).and_then(|signs| signs.get_mut(lane));
         if let (Some(sign), Some(steepest)) = (signs, self.steepest.get_mut(lane)) {
             *sign ^= inverse.to_bits();
-            *steepest = larger(*steepest, inverse.abs() * weight);
+            *steepest = larger_so_far(*steepest, inverse.abs() * weight);
         }
     }
 }
@@ -2897,6 +2908,7 @@ pub mod lane_newton {
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
 use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
 pub struct Settling<const L: usize> {
@@ -2923,8 +2935,8 @@ impl<const L: usize> Settling<L> {
     pub fn correct(&mut self, lane: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if let (Some(far), Some(open)) = (self.far.get_mut(lane), self.open.get_mut(lane)) {
-            *far = larger(*far, size / scale);
-            *open = larger(*open, size / cell);
+            *far = larger_so_far(*far, size / scale);
+            *open = larger_so_far(*open, size / cell);
         }
         *x += delta;
     }

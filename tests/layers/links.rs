@@ -51,7 +51,14 @@ impl Crate {
     pub fn named(&self, module: &Names) -> BTreeSet<Names> {
         let file = &self.files[module];
         let modules: BTreeSet<Names> = self.files.keys().cloned().collect();
-        let in_code = paths(&file.body).into_iter().filter_map(|path| absolute(module, &path, &modules));
+        let by_use = |path: &str| {
+            let (first, rest) = path.split_once("::")?;
+            let (used, _) = file.uses.iter().find(|(used, _)| used.last().is_some_and(|last| last == first))?;
+            Some(used.iter().cloned().chain(rest.split("::").map(str::to_owned)).collect())
+        };
+        let in_code = paths(&file.body)
+            .into_iter()
+            .filter_map(|path| by_use(&path).or_else(|| absolute(module, &path, &modules)));
         // what is only handed on is a signpost
         let stands = |path: &Names| path.last().is_some_and(|last| words(&file.body).any(|word| word == last));
         let in_lines = file.uses.iter().filter(|(path, hands_on)| !hands_on || stands(path));
@@ -64,6 +71,42 @@ impl Crate {
         known.filter(|other| other != module && !other.is_empty()).collect()
     }
 
+    /// The types that a room shows at its door, each with the module of the file that declares it: declared there or in a module that is
+    /// public, or handed on.
+    pub fn shown(&self, room: &Names) -> BTreeSet<(String, Names)> {
+        let file = &self.files[room];
+        let mut shown: BTreeSet<(String, Names)> = self.types(room);
+        for (path, _) in file.uses.iter().filter(|(_, hands_on)| *hands_on) {
+            let declaring = self.declaring(path, 0);
+            let is_wanted = |(name, _): &(String, Names)| path.last().is_some_and(|last| last == name || last == "*");
+            shown.extend(
+                self.files
+                    .get(&declaring)
+                    .map(|_| self.types(&declaring))
+                    .unwrap_or_default()
+                    .into_iter()
+                    .filter(is_wanted),
+            );
+        }
+        let is_public = |line: &str| line.trim().strip_prefix("pub mod ")?.strip_suffix(';').map(str::to_owned);
+        for module in file.code.lines().filter_map(is_public).map(|name| [room.as_slice(), &[name]].concat()) {
+            shown.extend(self.types(&module));
+        }
+        shown
+    }
+
+    /// The public types that a file declares.
+    fn types(&self, module: &Names) -> BTreeSet<(String, Names)> {
+        let name_of = |line: &str| {
+            let declared = line.strip_prefix("pub ")?;
+            let kinds = ["struct ", "enum ", "trait ", "type "];
+            let name = kinds.iter().find_map(|kind| declared.strip_prefix(kind))?;
+            words(name).next().map(str::to_owned)
+        };
+        let code = self.files.get(module).map(|file| file.code.as_str()).unwrap_or_default();
+        code.lines().filter_map(name_of).map(|name| (name, module.clone())).collect()
+    }
+
     /// The module of the file that declares what a path names.
     fn declaring(&self, path: &[String], depth: usize) -> Names {
         let length = (0..=path.len()).rev().find(|&n| self.files.contains_key(&path[..n])).unwrap_or(0);
@@ -71,10 +114,24 @@ impl Crate {
         let (Some(file), Some(name)) = (self.files.get(module), rest.first()) else {
             return module.to_vec();
         };
-        match file.uses.iter().find(|(used, _)| used.last() == Some(name) && used != path) {
-            Some((used, _)) if depth < 8 => self.declaring(&[used, &rest[1..]].concat(), depth + 1),
-            _ => module.to_vec(),
+        let by_name = file.uses.iter().map(|(used, _)| used).find(|used| used.last() == Some(name) && *used != path);
+        let handed_on =
+            || file.uses.iter().filter(|(used, hands_on)| *hands_on && used.last().is_some_and(|l| l == "*"));
+        let by_star = || handed_on().map(|(used, _)| &used[..used.len() - 1]).find(|used| self.has(used, name));
+        match by_name {
+            _ if depth == 8 => module.to_vec(),
+            Some(used) => self.declaring(&[used, &rest[1..]].concat(), depth + 1),
+            None => by_star().map_or(module.to_vec(), |used| self.declaring(&[used, rest].concat(), depth + 1)),
         }
+    }
+
+    /// Whether a file declares something for others that has a name, or hands it on.
+    fn has(&self, module: &[String], name: &str) -> bool {
+        self.files.get(module).is_some_and(|file| {
+            let is_declared = |line: &str| line.trim_start().starts_with("pub") && words(line).any(|word| word == name);
+            file.body.lines().any(is_declared)
+                || file.uses.iter().any(|(used, _)| used.last().is_some_and(|l| l == name))
+        })
     }
 }
 

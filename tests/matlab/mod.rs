@@ -2,7 +2,7 @@
 
 use crate::support::random::Random;
 use mechc::rooms::math;
-use mechc::rooms::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use mechc::rooms::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
 use std::f64::consts::PI;
 
 // ---- random formulas
@@ -233,12 +233,12 @@ pub fn value_here(e: &Expr, t: f64) -> f64 {
         ExprKind::Compare(a, comparison, b) => {
             let (a, b) = (of(a), of(b));
             truth(match comparison {
-                Comparison::Less => a < b,
-                Comparison::LessEqual => a <= b,
-                Comparison::Greater => a > b,
-                Comparison::GreaterEqual => a >= b,
-                Comparison::Equal => a == b,
-                Comparison::NotEqual => a != b,
+                ComparisonSign::Less => a < b,
+                ComparisonSign::LessEqual => a <= b,
+                ComparisonSign::Greater => a > b,
+                ComparisonSign::GreaterEqual => a >= b,
+                ComparisonSign::Equal => a == b,
+                ComparisonSign::NotEqual => a != b,
             })
         }
         ExprKind::And(list) => truth(list.iter().all(|e| of(e) != 0.0)),

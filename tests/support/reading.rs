@@ -73,8 +73,8 @@ pub fn read(graph: &mut Graph, e: &ast::Expr, names: &dyn Names) -> ExprId {
         Kind::Compare(a, comparison, b) => {
             let (a, b) = (go(a), go(b));
             let comparison = match comparison {
-                ast::Comparison::Less => Comparison::Less,
-                ast::Comparison::LessEqual => Comparison::LessEqual,
+                ast::ComparisonSign::Less => Comparison::Less,
+                ast::ComparisonSign::LessEqual => Comparison::LessEqual,
                 _ => Comparison::Equal,
             };
             graph.compare(comparison, a, b)

@@ -1,8 +1,8 @@
 //! Trees without their places: what two texts of one meaning share.
 
 use mechc::rooms::syntax::ast::{
-    Binding, Expr, ExprKind, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name, Part, Range, Segment,
-    TableRows, Use, WrittenUnit,
+    Binding, Expr, ExprKind, Feature, FeatureKind, File, IndexRange, Item, ItemKind, Mechanism, Name, Part,
+    PathSegment, TableRows, UsedFile, WrittenUnit,
 };
 
 /// A formula in a form that two texts of one meaning share: no parentheses, sums and products from the left in pairs,
@@ -17,7 +17,7 @@ pub fn shape(e: &Expr) -> String {
         ExprKind::Name(name) => name.text.clone(),
         ExprKind::Member { owner, feature } => format!("{}.{}", owner.text, feature.text),
         ExprKind::Path(segments) => {
-            let part = |segment: &Segment| format!("{}{}", segment.name.text, shapes(&segment.indices));
+            let part = |segment: &PathSegment| format!("{}{}", segment.name.text, shapes(&segment.indices));
             segments.iter().map(part).collect::<Vec<_>>().join(".")
         }
         ExprKind::Call { name, arguments } => format!("{}{}", name.text, shapes(arguments)),
@@ -63,7 +63,7 @@ pub fn file_shape(file: &File) -> Vec<String> {
     uses.chain(file.mechanisms.iter().flat_map(mechanism_shape)).collect()
 }
 
-fn use_shape(used: &Use) -> String {
+fn use_shape(used: &UsedFile) -> String {
     let text = |name: &Option<Name>| name.as_ref().map(|name| name.text.clone());
     format!("{:?} use {:?} as {:?}", used.docs, text(&used.path), text(&used.prefix))
 }
@@ -80,8 +80,9 @@ fn mechanism_shape(mechanism: &Mechanism) -> Vec<String> {
 }
 
 fn item_shape(item: &Item) -> String {
-    let range =
-        |range: &Range| format!("{} {} {} {}", range.index.text, shape(&range.from), shape(&range.to), range.is_closed);
+    let range = |range: &IndexRange| {
+        format!("{} {} {} {}", range.index.text, shape(&range.from), shape(&range.to), range.is_closed)
+    };
     let ranges: Vec<String> = item.ranges.iter().map(range).collect();
     format!("{} {ranges:?}", kind_shape(&item.kind))
 }

@@ -199,12 +199,13 @@ fn explain(kinematics: &mut Kinematics, q: &[f64], t: f64) -> Diagnostic {
     if let Err(fault) = kinematics.set_position(q) {
         return errors::no_value(kinematics.system(), fault, t);
     }
-    open_loop::explain(&kinematics.determined(), q, t).unwrap_or_else(|| {
-        let _ = kinematics.factor();
-        let open = |row: usize| kinematics.residual(row);
-        let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
-        errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
-    })
+    if let Some(open) = open_loop::found(&kinematics.determined(), q, t) {
+        return errors::open_loop(kinematics.system(), &open, t);
+    }
+    let _ = kinematics.factor();
+    let open = |row: usize| kinematics.residual(row);
+    let worst = (0..q.len()).max_by(|&a, &b| open(a).total_cmp(&open(b))).unwrap_or(0);
+    errors::cannot_assemble(kinematics.system(), worst, open(worst), t)
 }
 
 /// Where a tangent vanishes the condition that tangents are parallel says nothing: a spurious root.

@@ -9,8 +9,8 @@ use super::freedom::{FreeMotion, Freedom, motions_as_drawn};
 use super::redundancy::{Dependent, dependents, times_nearby};
 use crate::analysis::state::Horizon;
 use crate::diag::{Diagnostic, Diagnostics};
-use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind};
-use crate::structure::{self, Determined, Part, Refused};
+use crate::ir::{Check, ConstraintSystem, DeclarationKind, JointKind, Row};
+use crate::structure::{self, Determined, Refused, Subsystem};
 use crate::tolerances::determinacy::determine::LARGEST;
 
 /// Shows that a system is determined, where need be without the equations that are redundant.
@@ -95,7 +95,7 @@ struct Anatomy {
 
 impl Anatomy {
     /// Of a system of which a part has too many equations.
-    fn of(system: &ConstraintSystem, too_many: &Part, horizon: Horizon) -> Anatomy {
+    fn of(system: &ConstraintSystem, too_many: &Subsystem, horizon: Horizon) -> Anatomy {
         let Horizon { from: t, span } = horizon;
         let mut evaluator = Evaluator::new(system);
         let mut found = Vec::new();
@@ -111,7 +111,7 @@ impl Anatomy {
 }
 
 /// The equations of a part that are too many. Where one conflicts its joint is taken away before the others are judged.
-fn surplus(evaluator: &mut Evaluator<'_>, mut part: Part, times: [f64; 2]) -> Vec<Dependent> {
+fn surplus(evaluator: &mut Evaluator<'_>, mut part: Subsystem, times: [f64; 2]) -> Vec<Dependent> {
     let system = evaluator.system;
     let declaration_of = |row: usize| system.rows[row].declaration;
     // of joints that hold the same, one that formulas speak of stays
@@ -165,7 +165,7 @@ fn suspicion(system: &ConstraintSystem, row: usize) -> u8 {
 
 impl Anatomy {
     /// What is left free at the start, or shortly after where that is less: a start may be in a singular position.
-    fn freedom(evaluator: &mut Evaluator<'_>, kept: &Part, [t, span]: [f64; 2]) -> Option<Freedom> {
+    fn freedom(evaluator: &mut Evaluator<'_>, kept: &Subsystem, [t, span]: [f64; 2]) -> Option<Freedom> {
         let least = kept.columns.len().saturating_sub(kept.rows.len());
         let mut best: Option<Freedom> = None;
         for t in times_nearby(t, span) {
@@ -183,8 +183,8 @@ impl Anatomy {
     }
 }
 
-fn everything(system: &ConstraintSystem) -> Part {
-    Part { rows: (0..system.rows.len() as u32).collect(), columns: (0..system.coordinates.len() as u32).collect() }
+fn everything(system: &ConstraintSystem) -> Subsystem {
+    Subsystem { rows: (0..system.rows.len() as u32).collect(), columns: (0..system.coordinates.len() as u32).collect() }
 }
 
 /// Makes checks of the equations that are left out.
@@ -202,7 +202,8 @@ fn leave_out(system: &mut ConstraintSystem, dependents: &[Dependent]) {
                 .map(|&(column, slope)| system.value_at(slope, &q) * system.coordinates[column as usize].scale);
             let norm = slopes.filter(|slope| slope.is_finite()).map(|slope| slope * slope).sum::<f64>().sqrt();
             let scale = if norm > 0.0 { norm } else { 1.0 };
-            Check { phi: system.rows[row].phi, declaration: system.rows[row].declaration, scale }
+            let Row { declaration, phi, unit } = system.rows[row];
+            Check { phi, unit, declaration, scale }
         })
         .collect();
     system.leave_out(&rows, checks);

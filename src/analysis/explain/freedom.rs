@@ -1,17 +1,15 @@
-//! Too few equations: what is left free, told as motions, and what could be written to take the freedom.
+//! Too few equations: what is left free, told as motions.
 
 use super::errors;
 use super::evaluator::Evaluator;
 use super::free_motion::motion_in_words;
-use super::redundancy::{Basis, orthogonal};
-use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, Declaration, DeclarationKind, IdVec, JointKind, PointId};
-use crate::math;
-use crate::structure::Part;
-use crate::tolerances::determinacy::freedom::{
-    ANGLE_SHARE, ASSEMBLED, COINCIDE, DANGLING, LOOSE, MOST_POINTS, MOVES, SUGGESTED, TAKEN, TOLD,
-};
-use rustc_hash::FxHashMap;
-use std::collections::hash_map::Entry;
+use super::orthonormal::Orthonormal;
+use super::proposals::Proposals;
+use super::redundancy::basis_of;
+use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, IdVec};
+use crate::structure::Subsystem;
+use crate::tolerances::determinacy::freedom::{ANGLE_SHARE, ASSEMBLED, LOOSE, MOVES, TOLD};
+use nalgebra::DVector;
 
 /// How bodies move in one of the motions that equations leave free: at whichever speed, and either way.
 #[derive(Clone, PartialEq, Debug)]
@@ -38,15 +36,15 @@ pub struct Freedom {
 
 impl Freedom {
     /// What the rows of a part leave free of its columns at a time (s); none where they cannot be met.
-    pub fn of(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<Freedom> {
+    pub fn of(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<Freedom> {
         let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
         if linear.residual.iter().any(|open| open.abs() > ASSEMBLED) {
             return None;
         }
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
         let system = evaluator.system;
-        let taken = Basis::of(&jacobian, part.columns.len()).vectors;
-        let shares = shares_left(&taken, part.columns.len());
+        let taken = basis_of(&jacobian, part.columns.len()).span;
+        let shares = taken.shares_left();
         let with_share = |least: f64| {
             let mut count = system.bodies.map(|_| 0);
             for (&column, &share) in part.columns.iter().zip(&shares) {
@@ -65,8 +63,8 @@ impl Freedom {
         let moving = bodies_where(with_share(MOVES), 1);
         let motions = motions_beside(system, part, taken);
         let mut freedom = Freedom { motions, loose, moving, drivers: Vec::new(), joints: Vec::new() };
-        freedom.drivers = freedom.drivers(evaluator);
-        freedom.joints = freedom.joints(evaluator);
+        let proposals = Proposals { evaluator, motions: &freedom.motions, moving: &freedom.moving };
+        (freedom.drivers, freedom.joints) = (proposals.drivers(), proposals.joints());
         Some(freedom)
     }
 
@@ -139,144 +137,13 @@ impl Freedom {
         }
         helps
     }
-
-    /// For one degree of freedom some drivers to choose from, else as many as take all degrees together.
-    fn drivers(&self, evaluator: &Evaluator<'_>) -> Vec<String> {
-        let candidates = self.candidates(evaluator);
-        if self.degrees() == 1 {
-            let takes = |(_, rates): &(String, Vec<f64>)| rates[0].abs() > TAKEN;
-            return candidates.into_iter().filter(takes).map(|(text, _)| text).take(SUGGESTED).collect();
-        }
-        let mut taken: Vec<Vec<f64>> = Vec::new();
-        let mut chosen = Vec::new();
-        for (text, rates) in candidates {
-            let (rest, _) = orthogonal(&rates, &taken);
-            let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if norm > TAKEN && taken.len() < self.degrees() {
-                taken.push(rest.iter().map(|x| x / norm).collect());
-                chosen.push(text);
-            }
-        }
-        chosen
-    }
-
-    /// What could be driven: of joints first, then of the bodies that move. Each with its rate in every motion.
-    fn candidates(&self, evaluator: &Evaluator<'_>) -> Vec<(String, Vec<f64>)> {
-        let system = evaluator.system;
-        let mut candidates = Vec::new();
-        // motors mostly stand on the ground
-        let on_ground = |one: &&Declaration| one.points.iter().any(|&point| system.points[point].body.is_none());
-        let (grounded, others): (Vec<&Declaration>, Vec<&Declaration>) =
-            system.declarations.iter().partition(on_ground);
-        for declaration in grounded.into_iter().chain(others) {
-            let [Some(&p), Some(&q)] = [0, 1].map(|k| declaration.points.get(k)) else {
-                continue;
-            };
-            let rates: Vec<f64> = match declaration.kind {
-                DeclarationKind::Joint(JointKind::Revolute) => {
-                    self.motions.iter().map(|motion| turn(system, motion, q) - turn(system, motion, p)).collect()
-                }
-                DeclarationKind::Joint(JointKind::Translational) => self.slides(evaluator, p, q),
-                _ => continue,
-            };
-            let quantity = if declaration.kind == DeclarationKind::Joint(JointKind::Revolute) {
-                "rotation"
-            } else {
-                "displacement"
-            };
-            candidates.push((format!("{quantity}({})", declaration.name), rates));
-        }
-        for &body in &self.moving {
-            let name = &system.bodies[body].name;
-            let turns = self.motions.iter().map(|motion| motion[system.pose_of(body)[2]]).collect();
-            let of_body = |point: &PointId| system.points[*point].body == Some(body);
-            let point = system.points.ids().filter(of_body).find_map(|k| Some((k, system.points[k].name.as_ref()?)));
-            if let Some((point, point_name)) = point {
-                for (part, word) in [(0, "x"), (1, "y")] {
-                    let rates =
-                        self.motions.iter().map(|motion| velocity(evaluator, motion, point)[part] / system.length);
-                    candidates.push((format!("{word}({name}.{point_name})"), rates.collect()));
-                }
-            }
-            candidates.push((format!("angle({name})"), turns));
-        }
-        candidates
-    }
-
-    /// How fast a second point moves away from a first one, along the way it takes.
-    fn slides(&self, evaluator: &Evaluator<'_>, p: PointId, q: PointId) -> Vec<f64> {
-        let system = evaluator.system;
-        let (from, to) = (evaluator.place_of(p), evaluator.place_of(q));
-        let relative = |motion: &Vec<f64>| {
-            let (vp, vq) = (velocity(evaluator, motion, p), velocity(evaluator, motion, q));
-            // seen from the first body
-            let turn = turn(system, motion, p);
-            [vq[0] - vp[0] + turn * (to[1] - from[1]), vq[1] - vp[1] - turn * (to[0] - from[0])]
-        };
-        let all: Vec<[f64; 2]> = self.motions.iter().map(relative).collect();
-        let size = |v: &[f64; 2]| math::hypot(v[0], v[1]);
-        let fastest = all.iter().copied().max_by(|a, b| size(a).total_cmp(&size(b))).unwrap_or([0.0; 2]);
-        let norm = f64::max(size(&fastest), f64::MIN_POSITIVE);
-        all.iter().map(|v| (v[0] * fastest[0] + v[1] * fastest[1]) / norm / system.length).collect()
-    }
-
-    /// Points of moving bodies that lie on points of others, and that no joint holds together.
-    fn joints(&self, evaluator: &Evaluator<'_>) -> Vec<String> {
-        let system = evaluator.system;
-        // a joint takes two; it may hold what is held already, and leave one
-        let is_enough = self.degrees() >= 2 || system.ndof() < self.degrees().cast_signed();
-        if !is_enough || system.points.len() > MOST_POINTS {
-            return Vec::new();
-        }
-        let drawn = Evaluator::new(system);
-        let pinned = pinned_together(system);
-        let held = |p: PointId, q: PointId| {
-            let bodies = [system.points[p].body, system.points[q].body];
-            let holds = |points: &[PointId]| {
-                matches!(points, &[a, b] if [system.points[a].body, system.points[b].body] == bodies
-                    || [system.points[b].body, system.points[a].body] == bodies)
-            };
-            pinned[p] == pinned[q] || system.declarations.iter().any(|declaration| holds(&declaration.points))
-        };
-        let mut pairs: Vec<(f64, PointId, PointId)> = Vec::new();
-        for p in system.points.ids() {
-            for q in system.points.ids().skip(p.index() + 1) {
-                let bodies = [system.points[p].body, system.points[q].body];
-                let moves = bodies.iter().flatten().any(|body| self.moving.contains(body));
-                if bodies[0] == bodies[1] || !moves {
-                    continue;
-                }
-                let (a, b) = (drawn.place_of(p), drawn.place_of(q));
-                let apart = math::hypot(b[0] - a[0], b[1] - a[1]);
-                let is_used = |point: PointId| system.declarations.iter().any(|one| one.points.contains(&point));
-                let near = if is_used(p) || is_used(q) { COINCIDE } else { DANGLING };
-                if apart < near * system.length && !held(p, q) {
-                    pairs.push((apart, p, q));
-                }
-            }
-        }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let text = |&(_, p, q): &(f64, PointId, PointId)| {
-            Some(format!("`joint NAME: revolute({}, {})`", system.point_name(p)?, system.point_name(q)?))
-        };
-        // of points that are pinned together one will do
-        let mut told: Vec<[PointId; 2]> = Vec::new();
-        pairs.retain(|&(_, p, q)| {
-            let mut both = [pinned[p], pinned[q]];
-            both.sort_unstable();
-            let is_new = !told.contains(&both);
-            told.push(both);
-            is_new
-        });
-        pairs.iter().filter_map(text).take(SUGGESTED.min(usize::max(self.degrees() / 2, 1))).collect()
-    }
 }
 
 /// The motions that the rows of a part leave free where it is drawn, whether or not it can be assembled; none where they have no
 /// value at that time (s).
-pub fn motions_as_drawn(system: &ConstraintSystem, part: &Part, t: f64) -> Option<Vec<FreeMotion>> {
+pub fn motions_as_drawn(system: &ConstraintSystem, part: &Subsystem, t: f64) -> Option<Vec<FreeMotion>> {
     let jacobian = Evaluator::new(system).linear(&part.rows, &part.columns, None, t)?.jacobian;
-    let taken = Basis::of(&jacobian, part.columns.len()).vectors;
+    let taken = basis_of(&jacobian, part.columns.len()).span;
     Some(motions_beside(system, part, taken).iter().map(|motion| of_bodies(system, motion)).collect())
 }
 
@@ -292,85 +159,43 @@ fn of_bodies(system: &ConstraintSystem, motion: &[f64]) -> FreeMotion {
     FreeMotion { bodies: system.bodies.ids().filter(moves).map(moved).collect() }
 }
 
-/// The motions beside an orthonormal basis of what is held, each told by itself, of all coordinates.
-fn motions_beside(system: &ConstraintSystem, part: &Part, mut taken: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+/// The motions beside what is held, each told by itself, of all coordinates.
+fn motions_beside(system: &ConstraintSystem, part: &Subsystem, mut taken: Orthonormal) -> Vec<Vec<f64>> {
     let mut motions = Vec::new();
-    while let Some(motion) = next_motion(system, part, &taken) {
-        taken.push(motion.clone());
+    while let Some(motion) = next_motion(system, part, &mut taken) {
         motions.push(motion);
     }
-    apart(motions).iter().map(|motion| spread(motion, part, system.coordinates.len())).collect()
+    apart(motions).iter().map(|motion| spread(motion.as_slice(), part, system.coordinates.len())).collect()
 }
 
-/// For each point, one that stands for all that are pinned together with it, also by way of others.
-fn pinned_together(system: &ConstraintSystem) -> IdVec<PointId, PointId> {
-    let mut stands_for: IdVec<PointId, PointId> = system.points.ids().collect();
-    let mut join = |a: PointId, b: PointId| {
-        let (from, to) = (stands_for[a], stands_for[b]);
-        for point in stands_for.iter_mut() {
-            if *point == from {
-                *point = to;
-            }
-        }
-    };
-    for declaration in &system.declarations {
-        if let (DeclarationKind::Joint(JointKind::Revolute | JointKind::Weld), &[a, b]) =
-            (declaration.kind, declaration.points.as_slice())
-        {
-            join(a, b);
-        }
-    }
-    // a point may stand in a body under several names
-    let mut first_at: FxHashMap<(Option<BodyId>, [u64; 2]), PointId> = FxHashMap::default();
-    for (k, point) in system.points.pairs() {
-        let place = point.at.map(|id| (system.value_at(id, &[]) + 0.0).to_bits());
-        match first_at.entry((point.body, place)) {
-            Entry::Occupied(known) => join(k, *known.get()),
-            Entry::Vacant(free) => drop(free.insert(k)),
-        }
-    }
-    stands_for
-}
-
-/// How much of each coordinate is free.
-fn shares_left(taken: &[Vec<f64>], n: usize) -> Vec<f64> {
-    (0..n).map(|k| 1.0 - taken.iter().map(|vector| vector[k] * vector[k]).sum::<f64>()).collect()
-}
-
-/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest.
-fn next_motion(system: &ConstraintSystem, part: &Part, taken: &[Vec<f64>]) -> Option<Vec<f64>> {
+/// A free motion beside those taken, of unit norm: that of the angle, or else the coordinate, which is freest. It is taken too.
+fn next_motion(system: &ConstraintSystem, part: &Subsystem, taken: &mut Orthonormal) -> Option<DVector<f64>> {
     let n = part.columns.len();
-    if taken.len() >= n {
+    if taken.is_whole() {
         return None;
     }
-    let shares = shares_left(taken, n);
+    let shares = taken.shares_left();
     let is_angle = |k: usize| system.coordinates[part.columns[k] as usize].kind == CoordinateKind::Angle;
     let freest =
         |wanted: &dyn Fn(usize) -> bool| (0..n).filter(|&k| wanted(k)).max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
     let any = freest(&|_| true)?;
     let of_angle = freest(&is_angle).filter(|&k| shares[k] > ANGLE_SHARE * shares[any]);
-    let mut unit = vec![0.0; n];
-    unit[of_angle.unwrap_or(any)] = 1.0;
-    let (rest, _) = orthogonal(&unit, taken);
-    let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (norm > 0.0).then(|| rest.iter().map(|x| x / norm).collect())
+    let mut axis = DVector::zeros(n);
+    axis[of_angle.unwrap_or(any)] = 1.0;
+    let (rest, _) = taken.beside(axis);
+    taken.take(&rest, 0.0).then(|| taken.last())?
 }
 
 /// The same motions, each without the leading coordinates of the others: so it can be told by itself.
-fn apart(mut motions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+fn apart(mut motions: Vec<DVector<f64>>) -> Vec<DVector<f64>> {
     for k in 0..motions.len() {
-        let n = motions[k].len();
-        let Some(leading) = (0..n).max_by(|&a, &b| motions[k][a].abs().total_cmp(&motions[k][b].abs())) else {
-            return motions;
-        };
-        let pivot = motions[k][leading];
-        let reference: Vec<f64> = motions[k].iter().map(|x| x / pivot).collect();
+        let motion = &motions[k];
+        let largest = (0..motion.len()).max_by(|&a, &b| motion[a].abs().total_cmp(&motion[b].abs()));
+        let Some(leading) = largest else { return motions };
+        let reference = motion / motion[leading];
         for (j, other) in motions.iter_mut().enumerate() {
-            let share = other[leading];
             if j != k {
-                for (x, r) in other.iter_mut().zip(&reference) {
-                    *x -= share * r;
-                }
+                other.axpy(-other[leading], &reference, 1.0);
             }
         }
         motions[k] = reference;
@@ -379,28 +204,10 @@ fn apart(mut motions: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
 }
 
 /// A motion of a part's coordinates as one of all coordinates.
-fn spread(motion: &[f64], part: &Part, n: usize) -> Vec<f64> {
+fn spread(motion: &[f64], part: &Subsystem, n: usize) -> Vec<f64> {
     let mut all = vec![0.0; n];
     for (&column, x) in part.columns.iter().zip(motion) {
         all[column as usize] = *x;
     }
     all
-}
-
-/// How fast the body of a point turns.
-fn turn(system: &ConstraintSystem, motion: &[f64], point: PointId) -> f64 {
-    system.points[point].body.map_or(0.0, |body| motion[system.pose_of(body)[2]])
-}
-
-/// How fast a point moves (m).
-fn velocity(evaluator: &Evaluator<'_>, motion: &[f64], point: PointId) -> [f64; 2] {
-    let system = evaluator.system;
-    let Some(body) = system.points[point].body else {
-        return [0.0; 2];
-    };
-    let [x, y] = evaluator.place_of(point);
-    let along = |k: usize| motion[k] * system.coordinates[k].scale;
-    let [origin_x, origin_y, phi] = system.pose_of(body);
-    let turn = motion[phi];
-    [along(origin_x) - turn * (y - evaluator.q[origin_y]), along(origin_y) + turn * (x - evaluator.q[origin_x])]
 }

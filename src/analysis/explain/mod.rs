@@ -6,6 +6,8 @@ mod evaluator;
 mod free_motion;
 mod freedom;
 pub mod open_loop;
+mod orthonormal;
+mod proposals;
 mod redundancy;
 pub mod singular;
 

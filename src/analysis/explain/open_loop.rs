@@ -7,10 +7,9 @@
 use super::errors;
 use super::evaluator::Evaluator;
 use crate::analysis::state::Linear;
-use crate::diag::Diagnostic;
 use crate::ir::{BodyId, ConstraintSystem, CoordinateKind, DeclarationId, DeclarationKind, JointKind, PointId};
 use crate::math;
-use crate::structure::{Determined, Part};
+use crate::structure::{Determined, Subsystem};
 use crate::tolerances::determinacy::open_loop::{ALONG, CLOSED, FAR, LARGEST, LIGHT, TAKES_PART};
 
 /// A loop that does not close.
@@ -48,11 +47,9 @@ pub enum LinkOf {
     Declaration(DeclarationId),
 }
 
-/// The diagnosis where the nearest position is `q`.
-pub fn explain(determined: &Determined, q: &[f64], t: f64) -> Option<Diagnostic> {
-    let system = determined.system();
-    let (open, _) = told(determined, q, t)?;
-    Some(errors::open_loop(system, &open, t))
+/// What does not close where the nearest position is `q`.
+pub fn found(determined: &Determined, q: &[f64], t: f64) -> Option<OpenLoop> {
+    told(determined, q, t).map(|(open, _)| open)
 }
 
 /// The coordinates [m, rad] where all is closed but what is told to be open.
@@ -72,20 +69,20 @@ fn told(determined: &Determined, q: &[f64], t: f64) -> Option<(OpenLoop, Vec<f64
 }
 
 /// All equations, or the first block that stays open.
-fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Part> {
+fn open_part(evaluator: &mut Evaluator<'_>, determined: &Determined, t: f64) -> Option<Subsystem> {
     let system = determined.system();
     let n = system.rows.len();
     if n <= LARGEST {
-        return Some(Part { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
+        return Some(Subsystem { rows: (0..n as u32).collect(), columns: (0..n as u32).collect() });
     }
     determined.blocks().iter().filter(|block| block.rows.len() <= LARGEST).find_map(|block| {
         let linear = evaluator.linear(&block.rows, &block.columns, None, t)?;
         let is_open = linear.residual.iter().any(|open| open.abs() > CLOSED);
-        is_open.then(|| Part { rows: block.rows.clone(), columns: block.columns.clone() })
+        is_open.then(|| Subsystem { rows: block.rows.clone(), columns: block.columns.clone() })
     })
 }
 
-fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenLoop> {
+fn open_loop(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64) -> Option<OpenLoop> {
     let system = evaluator.system;
     let linear = evaluator.assemble(&part.rows, &part.columns, None, t)?;
     let largest = linear.residual.iter().fold(0.0, |m: f64, open| m.max(open.abs()));
@@ -110,33 +107,37 @@ fn open_loop(evaluator: &mut Evaluator<'_>, part: &Part, t: f64) -> Option<OpenL
         .collect();
     evaluator.assemble(&part.rows, &part.columns, Some(&weights), t)?;
     let rows = part.rows.iter().map(|&row| row as usize).filter(|&row| system.rows[row].declaration == at);
+    let (kind, by) = widest_gap(evaluator, rows)?;
+    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+}
+
+/// In what rows are open, and by how much all of these (m or rad); none where they close.
+fn widest_gap(evaluator: &Evaluator<'_>, rows: impl Iterator<Item = usize>) -> Option<(CoordinateKind, f64)> {
+    let system = evaluator.system;
     let gaps: Vec<(CoordinateKind, f64)> =
         rows.map(|row| (errors::gap_kind(system, row), evaluator.gap(row))).filter(|(_, by)| by.is_finite()).collect();
+    if gaps.is_empty() {
+        // no motion that could be seen closes it
+        return Some((CoordinateKind::Length, f64::INFINITY));
+    }
     let of_kind = |wanted: CoordinateKind| {
         let squares = gaps.iter().filter(|(kind, _)| *kind == wanted).map(|(_, by)| by * by);
         squares.sum::<f64>().sqrt()
     };
     let (length, angle) = (of_kind(CoordinateKind::Length), of_kind(CoordinateKind::Angle));
     // from elsewhere it closes: the estimates are too far off, and no length is wrong
-    if !gaps.is_empty() && length <= CLOSED * system.length && angle <= CLOSED {
+    if length <= CLOSED * system.length && angle <= CLOSED {
         return None;
     }
-    let (kind, by) = if gaps.is_empty() {
-        // no motion that could be seen closes it
-        (CoordinateKind::Length, f64::INFINITY)
-    } else if length / system.length > 0.1 * angle {
-        (CoordinateKind::Length, length)
-    } else {
-        (CoordinateKind::Angle, angle)
-    };
-    Some(OpenLoop { at, by, kind, declarations, links, residual: largest })
+    let is_length = length / system.length > 0.1 * angle;
+    Some(if is_length { (CoordinateKind::Length, length) } else { (CoordinateKind::Angle, angle) })
 }
 
 /// Where the loop is told to be open: a prescribed length is more often wrong than where something is driven to, and that
 /// than a pin.
 fn weakest(
     system: &ConstraintSystem,
-    part: &Part,
+    part: &Subsystem,
     linear: &Linear,
     declarations: &[DeclarationId],
 ) -> Option<DeclarationId> {
@@ -162,7 +163,7 @@ fn weakest(
 }
 
 /// The lengths along which the residuals pull or press.
-fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
+fn links(evaluator: &Evaluator<'_>, part: &Subsystem, linear: &Linear, declarations: &[DeclarationId]) -> Vec<Link> {
     let system = evaluator.system;
     let mut links = Vec::new();
     for &k in declarations {
@@ -198,7 +199,7 @@ fn links(evaluator: &Evaluator<'_>, part: &Part, linear: &Linear, declarations: 
 /// What a declaration pulls at a body or the ground with, its residuals taken for springs.
 fn force(
     evaluator: &Evaluator<'_>,
-    part: &Part,
+    part: &Subsystem,
     linear: &Linear,
     declaration: DeclarationId,
     body: Option<BodyId>,

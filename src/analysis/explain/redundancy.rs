@@ -6,7 +6,8 @@
 
 use super::errors;
 use super::evaluator::Evaluator;
-use crate::structure::Part;
+use super::orthonormal::Basis;
+use crate::structure::Subsystem;
 use crate::tolerances::determinacy::redundancy::{DEPENDENT, NEARBY, OPEN, TAKES_PART};
 
 /// An equation that depends on others.
@@ -22,7 +23,7 @@ pub struct Dependent {
 
 /// The equations of a part that depend on those before them, from the start at `t` on over a span of time (s); none where
 /// they have no values.
-pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
+pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Vec<Dependent>> {
     let basis = basis_of_start(evaluator, part, [t, span])?;
     let row = |k: usize| part.rows[k] as usize;
     let mut dependents: Vec<Dependent> = basis
@@ -34,7 +35,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
     for t in times_nearby(t, span) {
         let met = evaluator.assemble(&kept, &part.columns, None, t)?;
         // a singular position is known to half the digits
-        let is_singular = Basis::of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
+        let is_singular = basis_of(&met.jacobian, part.columns.len()).kept.len() < kept.len();
         let limit = if is_singular { OPEN.sqrt() } else { OPEN };
         let is_met = met.residual.iter().all(|open| open.abs() <= limit);
         for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_none()) {
@@ -54,7 +55,7 @@ pub fn dependents(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
 }
 
 /// How far all that the declaration of a row asks for is off, with all other equations met.
-fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Part, row: usize, t: f64) -> Option<f64> {
+fn gap_of_declaration(evaluator: &mut Evaluator<'_>, part: &Subsystem, row: usize, t: f64) -> Option<f64> {
     let system = evaluator.system;
     let is_own = |other: &u32| system.rows[*other as usize].declaration == system.rows[row].declaration;
     let (own, others): (Vec<u32>, Vec<u32>) = part.rows.iter().copied().partition(is_own);
@@ -73,7 +74,7 @@ pub fn times_nearby(t: f64, span: f64) -> impl Iterator<Item = f64> {
 }
 
 /// The basis at the start, or shortly after where fewer equations depend on others: a start may be in a singular position.
-fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2]) -> Option<Basis> {
+fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Subsystem, [t, span]: [f64; 2]) -> Option<Basis> {
     let mut best: Option<(Basis, Vec<f64>)> = None;
     for (k, t) in times_nearby(t, span).enumerate() {
         if k > 0 {
@@ -82,7 +83,7 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
         }
         evaluator.assemble(&part.rows, &part.columns, None, t)?;
         let jacobian = evaluator.linear(&part.rows, &part.columns, None, t)?.jacobian;
-        let basis = Basis::of(&jacobian, part.columns.len());
+        let basis = basis_of(&jacobian, part.columns.len());
         if best.as_ref().is_none_or(|(known, _)| basis.kept.len() > known.kept.len()) {
             best = Some((basis, evaluator.q.clone()));
         }
@@ -94,12 +95,12 @@ fn basis_of_start(evaluator: &mut Evaluator<'_>, part: &Part, [t, span]: [f64; 2
 
 /// What conflicts may do so with equations that have no part in it where they are looked at: a driven crank that is just in
 /// line has none in the place of its tip. Beside that position they have.
-fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Part, t: f64, dependents: &mut [Dependent]) {
+fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Subsystem, t: f64, dependents: &mut [Dependent]) {
     evaluator.nudge(&part.columns);
     let Some(linear) = evaluator.linear(&part.rows, &part.columns, None, t) else {
         return;
     };
-    let beside = Basis::of(&linear.jacobian, part.columns.len()).dependent;
+    let beside = basis_of(&linear.jacobian, part.columns.len()).dependent;
     for dependent in dependents.iter_mut().filter(|dependent| dependent.open.is_some()) {
         let found = beside.iter().find(|(k, _)| part.rows[*k] as usize == dependent.row);
         let on = found.into_iter().flat_map(|(_, on)| on).map(|&k| part.rows[k] as usize);
@@ -109,61 +110,7 @@ fn add_hidden(evaluator: &mut Evaluator<'_>, part: &Part, t: f64, dependents: &m
     }
 }
 
-/// Vectors as far as they are independent of those before them.
-pub struct Basis {
-    /// Orthonormal.
-    pub vectors: Vec<Vec<f64>>,
-    /// Which of the vectors given are independent.
-    pub kept: Vec<usize>,
-    /// The others, and which of the kept ones each depends on.
-    dependent: Vec<(usize, Vec<usize>)>,
-}
-
-impl Basis {
-    /// Of vectors of length `n`, each of about unit norm, one after another.
-    pub fn of(vectors: &[f64], n: usize) -> Basis {
-        let mut basis = Basis { vectors: Vec::new(), kept: Vec::new(), dependent: Vec::new() };
-        // each kept vector by the basis vectors up to its own
-        let mut factors: Vec<Vec<f64>> = Vec::new();
-        for (k, vector) in vectors.chunks_exact(n.max(1)).enumerate() {
-            let (rest, shares) = orthogonal(vector, &basis.vectors);
-            let norm = rest.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if norm > DEPENDENT && basis.vectors.len() < n {
-                basis.vectors.push(rest.iter().map(|x| x / norm).collect());
-                factors.push([shares, vec![norm]].concat());
-                basis.kept.push(k);
-                continue;
-            }
-            let weights = back_substituted(&factors, shares);
-            let on = basis.kept.iter().zip(weights).filter(|(_, weight)| weight.abs() > TAKES_PART);
-            basis.dependent.push((k, on.map(|(&k, _)| k).collect()));
-        }
-        basis
-    }
-}
-
-/// What is left of a vector beside a basis, and its shares along it; twice, so that rounding does not add up.
-pub fn orthogonal(vector: &[f64], basis: &[Vec<f64>]) -> (Vec<f64>, Vec<f64>) {
-    let (mut rest, mut shares) = (vector.to_vec(), vec![0.0; basis.len()]);
-    for _ in 0..2 {
-        for (share, vector) in shares.iter_mut().zip(basis) {
-            let along: f64 = rest.iter().zip(vector).map(|(a, b)| a * b).sum();
-            for (x, v) in rest.iter_mut().zip(vector) {
-                *x -= along * v;
-            }
-            *share += along;
-        }
-    }
-    (rest, shares)
-}
-
-/// The weights of the kept vectors from shares along the basis.
-fn back_substituted(factors: &[Vec<f64>], mut shares: Vec<f64>) -> Vec<f64> {
-    for k in (0..shares.len()).rev() {
-        shares[k] /= factors[k][k];
-        for j in 0..k {
-            shares[j] -= factors[k][j] * shares[k];
-        }
-    }
-    shares
+/// The equations with a Jacobian over `n` coordinates, as far as they are independent.
+pub fn basis_of(jacobian: &[f64], n: usize) -> Basis {
+    Basis::of(jacobian, n, [DEPENDENT, TAKES_PART])
 }

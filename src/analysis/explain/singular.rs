@@ -3,10 +3,10 @@
 use super::determine::explain_dependent;
 use super::errors::{self, StartVerdict};
 use super::free_motion::motion_in_words;
-use crate::analysis::state::{Fault, Horizon, Kinematics, State};
+use crate::analysis::state::{Fault, Horizon, Kinematics, Singular, State};
 use crate::diag::Diagnostic;
 use crate::ir::{ConstraintSystem, DeclarationId, DeclarationKind, WatchKind};
-use crate::program::Rim;
+use crate::program::PlacedRim;
 use crate::tolerances::singular::reasons::{AT_HAND, FLAT, NEAR, NEAR_FOLD, TAKES_PART};
 
 /// The diagnosis at the last good state, where even a step as small as `h` (s) towards `target` (s) failed.
@@ -38,28 +38,11 @@ pub fn explain_fold(
     kinematics.restore(state);
     let residual = kinematics.largest_residual();
     let singular = kinematics.worst();
-    match fault {
-        // a curvature that comes to zero makes the position singular, one that jumps over it does not
-        Fault::Watch { index } if system.watches[index].kind != WatchKind::Curvature || singular.sigma > NEAR => {
-            return errors::no_contact(system, index, state.t);
-        }
-        _ => {}
-    }
-    if let Some(index) = centers_that_meet(kinematics) {
+    if let Some(index) = contact_that_ends(kinematics, fault, singular.sigma) {
         return errors::no_contact(system, index, state.t);
     }
     let diagnostic = if singular.sigma < NEAR {
-        // beside a bifurcation that just fails to be one the driver's share is small
-        let named = if let Some((t, row)) = fold.zip(heaviest_driver(system, &singular.left)) {
-            errors::lock_up(system, row, &joints_in(system, &singular.left), &columns_in(&singular.right), t)
-        } else {
-            let t = time_of_fold(kinematics.span(), state, &singular.right);
-            name_singular(system, &singular.left, &singular.right, t)
-        };
-        match flat_contact(kinematics) {
-            Some(joint) => errors::equal_curvatures(named, system, joint),
-            None => named,
-        }
+        explain_position(kinematics, state, &singular, fold)
     } else if let Some(fault) = without_value(kinematics, state, target) {
         errors::no_value(system, fault, target)
     } else if let Some(at_rim) = rim_at_hand(kinematics, state) {
@@ -68,6 +51,31 @@ pub fn explain_fold(
         errors::cannot_follow(system, state.t, fastest_driver(kinematics, state, just_ahead))
     };
     diagnostic.datum("residual", residual)
+}
+
+/// The watch over a contact that ends where the position was set.
+fn contact_that_ends(kinematics: &Kinematics, fault: Fault, sigma: f64) -> Option<usize> {
+    let watches = &kinematics.system().watches;
+    match fault {
+        // a curvature that comes to zero makes the position singular, one that jumps over it does not
+        Fault::Watch { index } if watches[index].kind != WatchKind::Curvature || sigma > NEAR => Some(index),
+        _ => centers_that_meet(kinematics),
+    }
+}
+
+/// What is said of a singular position that was set, where it may be known when the mechanism comes to the end of its reach (s).
+fn explain_position(kinematics: &Kinematics, state: &State, singular: &Singular, fold: Option<f64>) -> Diagnostic {
+    let system = kinematics.system();
+    let (left, right) = (&singular.left, &singular.right);
+    // beside a bifurcation that just fails to be one the driver's share is small
+    let named = match fold.zip(heaviest_driver(system, left)) {
+        Some((t, row)) => errors::lock_up(system, row, &joints_in(system, left), &columns_in(right), t),
+        None => name_singular(system, left, right, time_of_fold(kinematics.span(), state, right)),
+    };
+    match flat_contact(kinematics) {
+        Some(joint) => errors::equal_curvatures(named, system, joint),
+        None => named,
+    }
 }
 
 /// When a motion that grows as before a fold comes to it: there q* − q is as √(t* − t), so that t* − t is q̇ / 2q̈. The state is
@@ -120,7 +128,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic>
     kinematics.restore(state);
     let span = kinematics.span();
     let rims = kinematics.rims().to_vec();
-    let mut left = |rim: &Rim| {
+    let mut left = |rim: &PlacedRim| {
         let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
         f64::min(gauge.abs() / kinematics.largest_term(rim), AT_HAND / NEAR_FOLD * (gauge / slope).abs() / span)
     };
@@ -139,7 +147,7 @@ fn rim_at_hand(kinematics: &mut Kinematics, state: &State) -> Option<Diagnostic>
 }
 
 /// How soon a gauge touches zero (s), behind which its formula goes on with a corner; none where it goes through zero.
-fn corner_ahead(kinematics: &mut Kinematics, rim: &Rim, state: &State) -> Option<f64> {
+fn corner_ahead(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State) -> Option<f64> {
     let [gauge, slope] = gauge_at(kinematics, rim, state, 0.0);
     let left = -2.0 * gauge / slope;
     let [before, _] = gauge_at(kinematics, rim, state, -left);
@@ -148,7 +156,7 @@ fn corner_ahead(kinematics: &mut Kinematics, rim: &Rim, state: &State) -> Option
 }
 
 /// A gauge and its slope where the motion goes on evenly from a state for a time (s).
-fn gauge_at(kinematics: &mut Kinematics, rim: &Rim, state: &State, after: f64) -> [f64; 2] {
+fn gauge_at(kinematics: &mut Kinematics, rim: &PlacedRim, state: &State, after: f64) -> [f64; 2] {
     let q: Vec<f64> = state.q.iter().zip(&state.qd).map(|(q, qd)| q + after * qd).collect();
     kinematics.set_time(state.t + after);
     // what is wrong with the position shows in the gauge

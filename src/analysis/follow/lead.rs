@@ -52,38 +52,23 @@ pub fn lead(
     parts: &[f64],
     options: &LeadOptions,
 ) -> Result<Way, Box<Diagnostic>> {
-    let LeadOptions { tolerance, cancel, .. } = options;
-    let again = |part: f64, from: &[f64]| {
-        start_from(Arc::clone(determined), Arc::clone(program), WAY.beginning(part), Some(from), *tolerance, cancel)
-    };
-    let mut started = start_from(Arc::clone(determined), Arc::clone(program), WAY, from, *tolerance, cancel)?;
+    let leader = Leader { determined, program, options };
+    let mut started = leader.start(WAY, from)?;
     let remarks = started.far_estimates_at(options.t);
     let mut way = Way { reached: Vec::new(), remarks, passed: Vec::new(), stopped: None };
     let mut from = (0.0, started.q().to_vec());
     for _ in 0..MOST_KINKS {
         let known = way.reached.len();
         let Way { reached, passed, .. } = &mut way;
-        let stopped = follow(started, from.0, &parts[known..], options, reached, passed);
-        let Some((part, why)) = stopped else { return Ok(way) };
+        way.stopped = follow(started, from.0, &parts[known..], options, reached, passed);
+        let Some((part, why)) = &way.stopped else { return Ok(way) };
         if let Some(last) = way.reached[known..].last() {
             from = (parts[way.reached.len() - 1], last.clone());
         }
-        way.stopped = Some((part, why));
-        let is_a_kink = way.stopped.as_ref().is_some_and(|(_, why)| why.code == Code::E0609);
-        if !is_a_kink || cancel.is_cancelled() {
+        if why.code != Code::E0609 || options.cancel.is_cancelled() {
             return Ok(way);
         }
-        let (before, behind) = ((part - BESIDE_A_KINK).max(from.0), (part + BESIDE_A_KINK).min(1.0));
-        let mut there = Vec::new();
-        let near = again(from.0, &from.1).ok().and_then(|s| {
-            let stopped = follow(s, from.0, &[before], options, &mut there, &mut Vec::new());
-            there.pop().filter(|_| stopped.is_none())
-        });
-        let beyond = near.and_then(|q| {
-            let beyond = again(behind, &q).ok()?;
-            is_the_same(determined.system(), &q, beyond.q()).then_some(beyond)
-        });
-        let Some(beyond) = beyond else { return Ok(way) };
+        let Some((behind, beyond)) = leader.beyond_kink(*part, &from) else { return Ok(way) };
         way.stopped = None;
         while parts.get(way.reached.len()).is_some_and(|&part| part <= behind) {
             way.reached.push(beyond.q().to_vec());
@@ -96,6 +81,32 @@ pub fn lead(
     }
     way.stopped = Some((from.0, Box::new(errors::cannot_follow(determined.system(), from.0, None))));
     Ok(way)
+}
+
+/// What is led, and how.
+struct Leader<'l> {
+    determined: &'l Arc<Determined>,
+    program: &'l Arc<Program>,
+    options: &'l LeadOptions,
+}
+
+impl Leader<'_> {
+    /// Assembled where a horizon begins, from its estimates or from others.
+    fn start(&self, horizon: Horizon, from: Option<&[f64]>) -> Result<Started, Box<Diagnostic>> {
+        let LeadOptions { tolerance, cancel, .. } = self.options;
+        start_from(Arc::clone(self.determined), Arc::clone(self.program), horizon, from, *tolerance, cancel)
+    }
+
+    /// The start just behind a place where a velocity jumps, with its part of the way; none where the position is another one there.
+    fn beyond_kink(&self, part: f64, (known, q): &(f64, Vec<f64>)) -> Option<(f64, Started)> {
+        let (before, behind) = ((part - BESIDE_A_KINK).max(*known), (part + BESIDE_A_KINK).min(1.0));
+        let again = self.start(WAY.beginning(*known), Some(q)).ok()?;
+        let mut there = Vec::new();
+        let stopped = follow(again, *known, &[before], self.options, &mut there, &mut Vec::new());
+        let near = there.pop().filter(|_| stopped.is_none())?;
+        let beyond = self.start(WAY.beginning(behind), Some(&near)).ok()?;
+        is_the_same(self.determined.system(), &near, beyond.q()).then_some((behind, beyond))
+    }
 }
 
 /// Adds the positions at some parts of the way, and the bifurcations that are passed; says where the motion ends before the last, and

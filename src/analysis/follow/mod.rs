@@ -7,7 +7,7 @@
 //!            └── Rows       which row comes next, and what it is worth
 //! ```
 //!
-//! Each owner's fields are its own; what it needs of others is an argument. `Motion` puts them in order.
+//! Each owner's fields are its own; what it needs of others is an argument. `Follower` puts them in order.
 
 mod bookmark;
 mod crossing;
@@ -19,6 +19,6 @@ mod rows;
 mod step;
 
 pub use lead::{LeadOptions, Way, lead};
-pub use march::{Motion, Stretch};
+pub use march::{Follower, Stretch};
 pub use rows::state_of_row;
 pub use step::quintic_between;

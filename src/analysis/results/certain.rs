@@ -3,7 +3,7 @@
 use super::Asked;
 use super::reduced::Reduced;
 use super::survey::Trouble;
-use crate::analysis::follow::{Motion, Stretch};
+use crate::analysis::follow::{Follower, Stretch};
 use crate::analysis::state::Times;
 use crate::ir::ReductionKind;
 
@@ -20,7 +20,7 @@ impl Near {
     }
 
     /// Takes note of a stretch that the motion has just gone over.
-    pub fn take_note(&mut self, stretch: &Stretch, motion: &Motion) {
+    pub fn take_note(&mut self, stretch: &Stretch, motion: &Follower) {
         let is_clear = motion.was_clear_here();
         if !(is_clear && self.was_clear && stretch.bridge.is_none()) {
             self.stretches.push([stretch.from.t, stretch.to.t]);

@@ -19,7 +19,7 @@ mod survey;
 mod varying;
 
 use crate::analysis::assemble::Started;
-use crate::analysis::follow::Motion;
+use crate::analysis::follow::Follower;
 use crate::analysis::state::{Kinematics, State, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Diagnostic, Diagnostics};
@@ -109,8 +109,8 @@ impl Asked {
     }
 
     /// A motion of its own to some times.
-    fn motion(&self, times: Times) -> Motion {
-        let mut motion = Motion::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
+    fn motion(&self, times: Times) -> Follower {
+        let mut motion = Follower::new((self.kinematics.clone(), self.state.clone(), self.solver.clone()), times);
         if self.pass {
             motion.pass_bifurcations();
         }

@@ -8,7 +8,6 @@ use super::formulas::{Cell, Point, between};
 use super::survey::{Scale, Survey};
 use crate::program::Range;
 use crate::tolerances::results::search::{BESIDE, CERTAIN, GAP, GAP_OF_VALUES, ITERATIONS};
-use crate::tolerances::results::survey::ROUNDING;
 use std::rc::Rc;
 
 /// The largest value of a formula, or the largest of its opposite.
@@ -63,6 +62,22 @@ impl Extreme {
         self.extrema.push(found);
     }
 
+    /// Whether what is no larger than this is of no interest any more.
+    fn is_above(&self, upper: f64, scale: Scale) -> bool {
+        let gap = scale.gap(GAP);
+        upper < self.best - scale.alike() - gap || upper <= self.largest + gap
+    }
+
+    /// The ends of a range, times the sign, in order.
+    fn oriented(&self, Range { low, high, .. }: Range) -> [f64; 2] {
+        if self.sign > 0.0 { [low, high] } else { [-high, -low] }
+    }
+
+    /// The values at both ends of a cell, times the sign.
+    fn values(&self, cell: &Cell) -> [f64; 2] {
+        [&cell.a, &cell.b].map(|point| self.sign * point.sample.value)
+    }
+
     /// The largest value.
     pub fn value(&self) -> f64 {
         self.sign * self.best
@@ -102,53 +117,46 @@ impl Survey<'_> {
 
     /// Whether a cell holds nothing more of interest; what it holds has been noted.
     fn is_done(&mut self, cell: &Cell, known: Option<Range>, extreme: &mut Extreme, scale: Scale) -> bool {
-        let sign = extreme.sign;
-        let gap = f64::max(GAP * scale.range, ROUNDING * scale.weight);
-        let (least, enough) = (extreme.best - scale.alike() - gap, extreme.largest + gap);
-        let is_hopeless = |upper: f64| upper < least || upper <= enough;
-        let oriented = |low: f64, high: f64| if sign > 0.0 { [low, high] } else { [-high, -low] };
-        if known.is_some_and(|range| is_hopeless(oriented(range.low, range.high)[1])) {
+        if known.is_some_and(|range| extreme.is_above(extreme.oriented(range)[1], scale)) {
             return true;
         }
-        let [a, b] = [&cell.a, &cell.b].map(|point| sign * point.sample.value);
         if !self.goes_on(cell, f64::INFINITY) {
             // an edge of the formula, to neighbouring times
-            extreme.add(Extremum { t: cell.a.state.t, value: a, is_edge: true }, scale);
-            extreme.add(Extremum { t: cell.b.state.t, value: b, is_edge: true }, scale);
+            extreme.note_edge(cell.a.state.t, cell.a.sample.value, scale);
+            extreme.note_edge(cell.b.state.t, cell.b.sample.value, scale);
             return true;
         }
         let range = self.range(cell);
-        let upper = oriented(range.low, range.high)[1];
-        if is_hopeless(upper) {
+        let upper = extreme.oriented(range)[1];
+        if extreme.is_above(upper, scale) {
             return true;
         }
-        if range.may_switch {
-            return false;
+        match self.formula.derivatives() {
+            _ if range.may_switch => false,
+            0 => is_done_by_values(cell, upper, extreme, scale),
+            _ => self.is_done_by_slopes(cell, upper, extreme, scale),
         }
-        let derivatives = self.formula.derivatives();
-        if derivatives == 0 {
-            let small = f64::max(GAP_OF_VALUES * scale.range, ROUNDING * scale.weight);
-            let is_small = upper <= f64::max(a, b) + small;
-            if is_small {
-                let (t, value) = if b > a { (cell.b.state.t, b) } else { (cell.a.state.t, a) };
-                extreme.add(Extremum { t, value, is_edge: false }, scale);
-            }
-            return is_small;
-        }
+    }
+
+    /// The same of a cell whose values are no larger than `upper`, by what the formula's derivatives can be in it.
+    fn is_done_by_slopes(&mut self, cell: &Cell, upper: f64, extreme: &mut Extreme, scale: Scale) -> bool {
+        let sign = extreme.sign;
         let first = self.formula.range(1);
-        let slopes @ [falls, rises] = oriented(first.low, first.high);
+        let slopes @ [falls, rises] = extreme.oriented(first);
         let turns = sign * cell.a.sample.first > 0.0 && sign * cell.b.sample.first <= 0.0;
         // at a kink it may come to rest
         if (falls >= 0.0 || rises <= 0.0) && !(turns && first.may_switch) {
             return true;
         }
+        let [a, b] = extreme.values(cell);
         let upper = upper.min(between(a, b, slopes, cell.length())[1]);
-        if is_hopeless(upper) {
+        if extreme.is_above(upper, scale) {
             return true;
         }
-        let is_small = upper <= f64::max(a, b) + gap;
-        let bends = (derivatives == 2 && !first.may_switch && !is_small).then(|| self.formula.range(2));
-        let [bends_down, bends_up] = bends.map_or([0.0; 2], |range| oriented(range.low, range.high));
+        let is_small = upper <= f64::max(a, b) + scale.gap(GAP);
+        let tells_bends = self.formula.derivatives() == 2 && !first.may_switch && !is_small;
+        let bends = tells_bends.then(|| self.formula.range(2));
+        let [bends_down, bends_up] = bends.map_or([0.0; 2], |range| extreme.oriented(range));
         let turns_once = bends_up < 0.0;
         if turns && (is_small || turns_once) {
             self.solve_for_turn(cell, extreme, scale);
@@ -196,6 +204,18 @@ impl Survey<'_> {
         let turn = if is_inside { guess } else { high.state.t };
         extreme.add(Extremum { t: turn, value: sign * top.sample.value, is_edge: false }, scale);
     }
+}
+
+/// Whether a cell whose values are no larger than `upper` holds hardly more than the larger of its ends, which is noted then: all that
+/// is known of a formula without derivatives.
+fn is_done_by_values(cell: &Cell, upper: f64, extreme: &mut Extreme, scale: Scale) -> bool {
+    let [a, b] = extreme.values(cell);
+    let is_small = upper <= f64::max(a, b) + scale.gap(GAP_OF_VALUES);
+    if is_small {
+        let (t, value) = if b > a { (cell.b.state.t, b) } else { (cell.a.state.t, a) };
+        extreme.add(Extremum { t, value, is_edge: false }, scale);
+    }
+    is_small
 }
 
 /// Where the straight line through two slopes is zero (s).

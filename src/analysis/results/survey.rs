@@ -26,7 +26,12 @@ pub(super) struct Scale {
 impl Scale {
     /// Values that differ by no more than this are the same: what rounding makes of a value that rests is no change.
     pub fn alike(self) -> f64 {
-        f64::max(ALIKE * self.range, ROUNDING * self.weight)
+        self.gap(ALIKE)
+    }
+
+    /// A part of the range, but no less than what rounding makes of a value.
+    pub fn gap(self, part: f64) -> f64 {
+        f64::max(part * self.range, ROUNDING * self.weight)
     }
 }
 

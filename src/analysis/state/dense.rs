@@ -1,4 +1,5 @@
-//! LU of a small dense matrix, where the fixed order of a block would lose digits.
+//! LU of a small dense matrix, where the fixed order of a block would lose digits. The factors are kept in place, for any number of
+//! right sides and for the transposed matrix (`math/blocks.rs` keeps none).
 
 use crate::tolerances::solving::order::LEAST_PIVOT;
 

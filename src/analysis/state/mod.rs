@@ -17,5 +17,6 @@ pub use aslant::aslant;
 pub use determinant::Determinant;
 pub use kinematics::{Fault, Kinematics, State};
 pub use least_squares::{Evaluated, Linear, minimize};
+pub use linear::Singular;
 pub use times::{Horizon, Times, behind_start, shortly_after};
 pub use trust::{Trust, are_small};

@@ -137,24 +137,10 @@ impl Yardstick {
         }
         for &row in &block.rows {
             for (position, &(column, _)) in system.phi_q.range(row as usize).zip(system.phi_q.row(row as usize)) {
-                if place_of[column as usize] == NONE {
-                    continue;
+                if place_of[column as usize] != NONE {
+                    let (along, kind) = self.kind_of(system, [row, column], features, centroid_of);
+                    self.entries.push(Entry { row, column, position: position as u32, along, kind });
                 }
-                let body = system.body_of(column as usize);
-                let along = body.map_or([NONE; 2], |body| {
-                    let [x, y, _] = system.pose_of(body);
-                    [x, y].map(|column| slope(system, row, column))
-                });
-                let kind = match (system.coordinates[column as usize].kind, body) {
-                    (CoordinateKind::Angle, Some(body)) => {
-                        let about = centroid_of[body];
-                        let centroid = self.centroids.get(about as usize).map_or([0.0; 2], |one| one.local);
-                        EntryKind::Turn { lever: features.lever(system, row as usize, body, centroid), about }
-                    }
-                    (CoordinateKind::Length, Some(_)) if is_of_joint(system, row as usize) => EntryKind::Place,
-                    _ => EntryKind::Other,
-                };
-                self.entries.push(Entry { row, column, position: position as u32, along, kind });
             }
         }
         for (body, _) in far {
@@ -166,6 +152,31 @@ impl Yardstick {
             centroids: centroids..self.centroids.len(),
             changes: block.rows.iter().any(|&row| changes(system, row as usize)),
         });
+    }
+
+    /// What is known of an entry by its row and column: the slopes beside it, and what it is a slope in.
+    fn kind_of(
+        &self,
+        system: &ConstraintSystem,
+        [row, column]: [u32; 2],
+        features: &Features,
+        centroid_of: &IdVec<BodyId, u32>,
+    ) -> ([u32; 2], EntryKind) {
+        let body = system.body_of(column as usize);
+        let along = body.map_or([NONE; 2], |body| {
+            let [x, y, _] = system.pose_of(body);
+            [x, y].map(|column| slope(system, row, column))
+        });
+        let kind = match (system.coordinates[column as usize].kind, body) {
+            (CoordinateKind::Angle, Some(body)) => {
+                let about = centroid_of[body];
+                let centroid = self.centroids.get(about as usize).map_or([0.0; 2], |one| one.local);
+                EntryKind::Turn { lever: features.lever(system, row as usize, body, centroid), about }
+            }
+            (CoordinateKind::Length, Some(_)) if is_of_joint(system, row as usize) => EntryKind::Place,
+            _ => EntryKind::Other,
+        };
+        (along, kind)
     }
 
     /// Whether magnitudes have been taken.

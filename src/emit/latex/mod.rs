@@ -146,7 +146,7 @@ impl Writer<'_> {
         for (k, of) in self.system.params.iter().enumerate() {
             let sign = if of.value < 0.0 { "-" } else { "" };
             let value = format!("{sign}{}", numeral(of.value.abs()).text);
-            let unit = unit(&of.unit);
+            let unit = unit(&of.unit());
             self.entry(&param(self.system, k).text, &format!("{value}{unit}"));
         }
     }

@@ -6,6 +6,7 @@
 use super::lane_solutions::{Laned, Solutions};
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
 use super::numbers::larger;
+use super::so_far::larger_so_far;
 
 /// An iteration of Newton in every lane, until all have settled or are lost.
 pub struct Settling<const L: usize> {
@@ -32,8 +33,8 @@ impl<const L: usize> Settling<L> {
     pub fn correct(&mut self, lane: usize, x: &mut f64, delta: f64, cell: f64, scale: f64) {
         let size = delta.abs();
         if let (Some(far), Some(open)) = (self.far.get_mut(lane), self.open.get_mut(lane)) {
-            *far = larger(*far, size / scale);
-            *open = larger(*open, size / cell);
+            *far = larger_so_far(*far, size / scale);
+            *open = larger_so_far(*open, size / cell);
         }
         *x += delta;
     }

@@ -33,6 +33,7 @@ pub mod reach;
 pub mod rims;
 pub mod sensitivity;
 pub mod sensitivity_led;
+pub mod so_far;
 pub mod solution;
 pub mod state;
 pub mod step;

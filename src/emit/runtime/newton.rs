@@ -2,6 +2,7 @@
 
 use super::limits::{HALF_A_CELL, LARGEST_CORRECTION};
 use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 /// An iteration of Newton from grid point to grid point, so that where it begins leaves no trace in where it ends.
@@ -24,7 +25,7 @@ impl Newton {
     pub fn corrected(&mut self, x: f64, delta: f64, cell: f64, scale: f64) -> f64 {
         let size = delta.abs();
         if self.is_first {
-            self.first = larger(self.first, size / scale);
+            self.first = larger_so_far(self.first, size / scale);
         }
         self.is_open |= size > HALF_A_CELL * cell;
         self.is_lost |= size.is_nan() || size > LARGEST_CORRECTION * scale;

@@ -22,16 +22,16 @@ impl<const K: usize> Flags for [bool; K] {
     const NONE: Self = [false; K];
 }
 
-/// The largest value beside its scale; a last one that is not a number wins.
+/// The largest value beside its scale; not a number if one is not.
 pub fn largest<N: Numbers>(values: &N, scales: &N) -> f64 {
     let pairs = values.as_ref().iter().zip(scales.as_ref());
     let sizes = pairs.map(|(value, scale)| value.abs() / scale);
     sizes.fold(0.0, larger)
 }
 
-/// The larger one; a second one that is not a number wins.
+/// The larger one; not a number if one is not.
 pub fn larger(a: f64, b: f64) -> f64 {
-    if b <= a { a } else { b }
+    if b > a || b.is_nan() { b } else { a }
 }
 
 /// What leads from some numbers to others.

@@ -1,6 +1,6 @@
 //! What pivots tell of a position.
 
-use super::numbers::larger;
+use super::so_far::larger_so_far;
 use super::solution::{Solution, Solved};
 
 impl<M: Solved> Solution<M> {
@@ -9,6 +9,6 @@ impl<M: Solved> Solution<M> {
         if let Some(is_negative) = self.is_negative.as_mut().get_mut(turn) {
             *is_negative ^= inverse < 0.0;
         }
-        self.steepest = larger(self.steepest, inverse.abs() * weight);
+        self.steepest = larger_so_far(self.steepest, inverse.abs() * weight);
     }
 }

@@ -206,7 +206,11 @@ fn a_rim_is_met_once() {
 
 #[test]
 fn sizes_are_judged_beside_their_scales() {
-    assert!(larger(1.0, f64::NAN).is_nan());
-    assert!(largest(&[1.0, f64::NAN], &[1.0; 2]).is_nan());
+    assert!(larger(1.0, f64::NAN).is_nan() && larger(f64::NAN, 1.0).is_nan());
+    for place in 0..3 {
+        let mut values = [1.0, -6.0, 2.0];
+        values[place] = f64::NAN;
+        assert!(largest(&values, &[1.0; 3]).is_nan(), "what is no number counts at any place, {place} too");
+    }
     assert!(is_near(largest(&[1.0, -6.0], &[1.0, 2.0]), 3.0));
 }

@@ -5,16 +5,15 @@
 
 use super::indices::numbered;
 use super::{Writer, equations};
+use crate::emit::Following;
 use crate::emit::equations::{Equations, Given, Wanted};
 use crate::emit::goods::Uses;
-
 use crate::emit::names::{Case, Names};
 use crate::emit::params::Params;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::tables::Tables;
 use crate::emit::text::one_line;
-use crate::emit::{Following, Motion};
 use crate::ir::Input;
 use crate::program::Register;
 use rustc_hash::FxHashMap;
@@ -39,11 +38,11 @@ equations about once, and one that has to be made shorter counts as well.
 Why it cannot get there; the state stays as it was. But after [`Error::TooFar`] it is on its
 way, and the same call goes on from there.";
 
-/// The inputs, and the module that follows them; what that uses.
-pub(super) fn module(following: &Following<'_>, page: &mut Page) -> Uses {
+/// The inputs, and the module that follows them; what that uses, and the words that it takes of a state.
+pub(super) fn module(following: &Following<'_>, page: &mut Page) -> (Uses, usize) {
     let unit = &*following.unit;
     let Some(motion) = &unit.motion else {
-        return Uses::default();
+        return (Uses::default(), 0);
     };
     let tables = Tables::new(unit.program);
     let names = Names::new(unit.system, Params::new(unit.system).paths, &tables.variables());
@@ -52,9 +51,11 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> Uses {
     let mut body = Page::default();
     writer.tables(&mut body);
     let mut uses = by_text(following, &names, &tables, &mut body);
-    writer.led(motion, &mut body);
+    let solution = Solution::new(unit, motion, &equations);
+    writer.led(&solution, &mut body);
+    let words = writer.words_of_lead(&solution);
     uses.add(&equations.uses.take());
-    let inputs = Inputs { all: &unit.system.inputs, names: &names };
+    let inputs = Inputs { all: &unit.system.inputs, names: &names, for_c: unit.for_c };
     inputs.print(page);
     inputs.doors(!unit.system.checks.is_empty(), page);
     page.docs("What follows inputs: along a way from 0 to 1, on which `t` is a place.");
@@ -65,7 +66,7 @@ pub(super) fn module(following: &Following<'_>, page: &mut Page) -> Uses {
         page.text(&body.done());
     });
     uses.file("follow");
-    uses
+    (uses, words)
 }
 
 /// What the text says of inputs: their values, rates and accelerations by its formulas. Gives what that uses.
@@ -82,25 +83,27 @@ fn by_text(following: &Following<'_>, names: &Names, tables: &Tables, page: &mut
         book: None,
         uses: RefCell::default(),
     };
-    page.text(&equations.function(&Wanted {
-        name: "by_text",
-        docs: "Value, rate and acceleration of each signal by the text's formulas.",
-        is_public: false,
-        orders: 0,
-        has_time: true,
-        varied: false,
-        outputs: &outputs,
-        length: "3 * SIGNALS",
-        negated: false,
-        given: Given::None,
-    }));
+    equations.function(
+        &Wanted {
+            name: "by_text",
+            docs: "Value, rate and acceleration of each signal by the text's formulas.",
+            is_public: false,
+            orders: 0,
+            has_time: true,
+            varied: false,
+            outputs: &outputs,
+            length: "3 * SIGNALS",
+            negated: false,
+            given: Given::None,
+        },
+        page,
+    );
     equations.uses.into_inner()
 }
 
 impl Writer<'_> {
     /// The mechanism along signals.
-    fn led(&self, motion: &Motion, page: &mut Page) {
-        let solution = Solution::new(self.unit, motion, self.equations);
+    fn led(&self, solution: &Solution<'_>, page: &mut Page) {
         let system = self.unit.system;
         page.constant("A way of the signals.", "type Way", "super::runtime::way::Way<Params, SIGNALS>");
         page.line(&format!("const ENTRIES: usize = {};\n", system.phi_q.entries().len()));
@@ -112,14 +115,12 @@ impl Writer<'_> {
         if !system.checks.is_empty() {
             page.line(&format!("const LEFT_OUT: usize = {};\n", system.checks.len()));
         }
-        self.model("way", "Way", "way", &solution, page);
-        self.solved(&solution, page);
+        self.model("way", "Way", "way", solution, page);
+        self.solved(solution, page);
         self.left_out_slopes("signal", &self.unit.program.outputs.check_slopes.signals, page);
-        self.along_signals(&solution, page);
-        self.sensitivity(&solution, page);
-        if let Some(book) = &self.equations.book {
-            book.borrow().print(self.equations, page);
-        }
+        self.along_signals(solution, page);
+        self.sensitivity(solution, page);
+        self.equations.print_book(page);
     }
 
     /// The motion along signals.
@@ -155,12 +156,21 @@ impl Writer<'_> {
 struct Inputs<'i> {
     all: &'i [Input],
     names: &'i Names,
+    /// Whether C knows them too.
+    for_c: bool,
 }
 
 impl Inputs<'_> {
     /// Those that are not the time, which stands behind them.
     fn own(&self) -> impl Iterator<Item = (&Input, &String)> {
         self.all.iter().zip(&self.names.inputs).filter(|(input, _)| !input.is_time())
+    }
+
+    /// A structure that C knows too.
+    fn as_in_c(&self, page: &mut Page) {
+        if self.for_c {
+            page.line("#[repr(C)]");
+        }
     }
 
     fn has_time(&self) -> bool {
@@ -170,6 +180,7 @@ impl Inputs<'_> {
     fn print(&self, page: &mut Page) {
         page.docs("What is given of an input, in SI: its value, and how that changes.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
+        self.as_in_c(page);
         page.item("pub struct Signal", |page| {
             let fields = [
                 ("value", "The value."),
@@ -194,6 +205,7 @@ impl Inputs<'_> {
         );
         page.docs("What comes from outside.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
+        self.as_in_c(page);
         page.item("pub struct Inputs", |page| {
             for (input, name) in self.own() {
                 page.docs(&format!("`{}` ({})", one_line(&input.name), unit(input)));

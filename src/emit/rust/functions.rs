@@ -35,17 +35,17 @@ impl Writer<'_> {
         let kind = |name, docs, orders, outputs, length| Kind { name, docs, orders, outputs, length };
         let docs = "The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or\nrad).";
         let mut kinds = vec![
-            kind("phi", "The residual of the equations (m, m^2 or rad).", 1, &outputs.phi[..], "N"),
+            kind("phi", "The residual of the equations, each in its unit: see [`row`].", 1, &outputs.phi[..], "N"),
             kind("phi_q", docs, 1, &outputs.phi_q, "ENTRIES"),
         ];
         let docs = "The partial derivative of `phi` by time (the equation's unit per s).";
-        kinds.push(kind("phi_t", docs, 1, &outputs.nu, "N"));
+        kinds.push(kind("phi_t", docs, 1, outputs.nu(), "N"));
         let docs = "Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).";
-        kinds.push(kind("nu", docs, 1, &outputs.nu, "N"));
+        kinds.push(kind("nu", docs, 1, outputs.nu(), "N"));
         let docs = "Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).";
-        kinds.push(kind("gamma", docs, 2, &outputs.gamma, "N"));
-        if !outputs.jerk.is_empty() {
-            kinds.push(kind("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, &outputs.jerk, "N"));
+        kinds.push(kind("gamma", docs, 2, outputs.gamma(), "N"));
+        if !outputs.jerk().is_empty() {
+            kinds.push(kind("jerk", "Right side of the jerk equation `phi_q qddd = jerk`.", 3, outputs.jerk(), "N"));
         }
         if !outputs.checks.is_empty() {
             kinds.push(kind("left_out", LEFT_OUT, 1, &outputs.checks, "LEFT_OUT"));
@@ -57,18 +57,21 @@ impl Writer<'_> {
     pub fn functions(&self, page: &mut Page) {
         self.left_out(page);
         for Kind { name, docs, orders, outputs, length } in self.kinds() {
-            page.text(&self.equations.function(&Wanted {
-                name,
-                docs,
-                is_public: true,
-                orders,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: name == "phi_t",
-                given: Given::None,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name,
+                    docs,
+                    is_public: true,
+                    orders,
+                    has_time: true,
+                    varied: false,
+                    outputs,
+                    length,
+                    negated: name == "phi_t",
+                    given: Given::None,
+                },
+                page,
+            );
         }
         if self.unit.system.coordinates.len() <= LARGEST_DENSE {
             dense(page);
@@ -96,18 +99,21 @@ impl Writer<'_> {
             } else {
                 format!("As [`{name}`], on branches of formulas that are given.")
             };
-            page.text(&self.equations.function(&Wanted {
-                name: &self.on_sides(name),
-                docs: &docs,
-                is_public: false,
-                orders,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: false,
-                given: Given::All,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name: &self.on_sides(name),
+                    docs: &docs,
+                    is_public: false,
+                    orders,
+                    has_time: true,
+                    varied: false,
+                    outputs,
+                    length,
+                    negated: false,
+                    given: Given::All,
+                },
+                page,
+            );
         }
         if has_pivoting {
             self.varied(Given::All, page);
@@ -155,18 +161,21 @@ impl Writer<'_> {
         }
         let outputs: Vec<Register> = variations.iter().flatten().flatten().copied().collect();
         let is_public = given == Given::None;
-        page.text(&self.equations.function(&Wanted {
-            name: &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
-            docs: VARIED,
-            is_public,
-            orders: 3,
-            has_time: true,
-            varied: true,
-            outputs: &outputs,
-            length: "VARIED",
-            negated: false,
-            given,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &if is_public { "varied_right".to_owned() } else { self.on_sides("varied_right") },
+                docs: VARIED,
+                is_public,
+                orders: 3,
+                has_time: true,
+                varied: true,
+                outputs: &outputs,
+                length: "VARIED",
+                negated: false,
+                given,
+            },
+            page,
+        );
     }
 
     /// The measures with their derivatives.
@@ -199,18 +208,21 @@ impl Writer<'_> {
         });
         let all: Vec<Register> =
             [&outputs.measures, &outputs.measures_d, &outputs.measures_dd].into_iter().flatten().copied().collect();
-        page.text(&self.equations.function(&Wanted {
-            name: "all_measures",
-            docs: "The measures, their rates and their accelerations, one behind the other.",
-            is_public: false,
-            orders: if has_jerk { 4 } else { 3 },
-            has_time: true,
-            varied: true,
-            outputs: &all,
-            length: &all.len().to_string(),
-            negated: false,
-            given: Given::None,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: "all_measures",
+                docs: "The measures, their rates and their accelerations, one behind the other.",
+                is_public: false,
+                orders: if has_jerk { 4 } else { 3 },
+                has_time: true,
+                varied: true,
+                outputs: &all,
+                length: &all.len().to_string(),
+                negated: false,
+                given: Given::None,
+            },
+            page,
+        );
     }
 }
 

@@ -28,9 +28,18 @@ impl Writer<'_> {
         let names = Case::Constant.names(rows.iter().map(String::as_str));
         let equations = rows.iter().enumerate().map(|(k, row)| {
             let declaration = system.declaration_of(k);
-            format!("{} `{row}`{}", declaration.kind.noun(), self.line(declaration.span))
+            let unit = match system.rows[k].unit.to_string() {
+                unit if unit == "1" => "a pure number".to_owned(),
+                unit => unit,
+            };
+            format!("{} `{row}` ({unit}){}", declaration.kind.noun(), self.line(declaration.span))
         });
-        numbered(page, "Which equation each joint, constraint or driver wrote.", "row", equations.zip(&names));
+        numbered(
+            page,
+            "Which equation each joint, constraint or driver wrote, and its unit.",
+            "row",
+            equations.zip(&names),
+        );
         self.pattern("pub ", "Row and column of each value that [`phi_q`] gives.", page);
         self.bodies(page);
         self.measure_indices(page);

@@ -12,6 +12,7 @@ mod pivoting;
 mod sensitivity;
 mod sides;
 mod statics;
+mod words;
 
 use super::Unit;
 use super::equations::Equations;
@@ -31,6 +32,8 @@ pub(super) struct Module {
     pub text: String,
     /// Whether it asks for the crate `libm`.
     pub needs_libm: bool,
+    /// Words of 8 bytes that a state takes; 0 where nothing is solved.
+    pub words: usize,
 }
 
 /// One Rust module, self-contained but for the `libm` crate where a formula asks for it.
@@ -50,17 +53,18 @@ pub(super) fn module(unit: &Unit<'_>) -> Module {
     writer.indices(&mut body);
     writer.tables(&mut body);
     writer.functions(&mut body);
+    let mut words = 0;
     if let Some(motion) = &unit.motion {
         let solution = Solution::new(unit, motion, &equations);
         writer.doors(&mut body);
         writer.motion(&solution, &mut body);
         writer.lanes(&solution, &mut body);
+        words = writer.words(&solution);
     }
-    if let Some(book) = &equations.book {
-        book.borrow().print(&equations, &mut body);
-    }
+    equations.print_book(&mut body);
     if let Some(following) = &unit.following {
-        let uses = following::module(following, &mut body);
+        let (uses, words_of_lead) = following::module(following, &mut body);
+        words += words_of_lead;
         equations.uses.borrow_mut().include(&uses);
     }
     let uses = equations.uses.take();
@@ -69,7 +73,7 @@ pub(super) fn module(unit: &Unit<'_>) -> Module {
     uses.print("runtime", &mut page);
     page.text(&body.done());
     uses.goods(&mut page);
-    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: uses.needs_libm() }
+    Module { text: page.done().trim_end().to_owned() + "\n", needs_libm: uses.needs_libm(), words }
 }
 
 /// What the functions of a unit's equations are written from; led ones are given their inputs.

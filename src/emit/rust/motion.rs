@@ -180,18 +180,21 @@ impl Writer<'_> {
         if !registers.is_empty() {
             let docs = "Number of values that follow from the parameters alone.";
             page.constant(docs, "const KNOWN: usize", &registers.len().to_string());
-            page.text(&self.equations.function(&Wanted {
-                name: "known",
-                docs: "What follows from the parameters alone.",
-                is_public: false,
-                orders: 0,
-                has_time: false,
-                varied: false,
-                outputs: &registers,
-                length: "KNOWN",
-                negated: false,
-                given: Given::None,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name: "known",
+                    docs: "What follows from the parameters alone.",
+                    is_public: false,
+                    orders: 0,
+                    has_time: false,
+                    varied: false,
+                    outputs: &registers,
+                    length: "KNOWN",
+                    negated: false,
+                    given: Given::None,
+                },
+                page,
+            );
         }
         let more = if registers.is_empty() { "" } else { ", and what follows from these alone" };
         page.docs(&format!("The mechanism with its {what}{more}."));

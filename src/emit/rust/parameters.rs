@@ -55,6 +55,13 @@ impl Writer<'_> {
         }
     }
 
+    /// A structure that C knows too.
+    fn as_in_c(&self, page: &mut Page) {
+        if self.unit.for_c {
+            page.line("#[repr(C)]");
+        }
+    }
+
     fn no_parameters(&self, page: &mut Page) {
         page.docs("The mechanism has no parameters.");
         page.line("#[derive(Clone, Copy, Debug, Default, PartialEq)]");
@@ -78,13 +85,14 @@ impl Writer<'_> {
                 format!("The parameters of a part, as `{}`, in SI.", of.source)
             });
             page.line("#[derive(Clone, Copy, Debug, PartialEq)]");
+            self.as_in_c(page);
             page.item(&format!("pub struct {}", of.name), |page| {
                 for field in &of.fields {
                     let (source, name) = (one_line(&field.source), &field.name);
                     let (docs, of) = match &field.of {
                         Of::Number(param) => {
                             let param = &self.unit.system.params[*param];
-                            (format!("`{source}` ({}){}", param.unit, self.line(param.span)), "f64".to_owned())
+                            (format!("`{source}` ({}){}", param.unit(), self.line(param.span)), "f64".to_owned())
                         }
                         Of::Part(part) => (format!("Those of `{source}`."), params.types[*part].name.clone()),
                         Of::Copies(part, lengths) => {

@@ -19,7 +19,7 @@ impl Writer<'_> {
         let is_led = self.equations.is_led;
         if is_led {
             self.measures("fn", page);
-            self.rights("signal", &self.unit.program.outputs.by_signal, "SIGNALS", page);
+            self.rights("signal", self.unit.program.outputs.by_signals(), "SIGNALS", page);
         }
         let has_varied = self.equations.has_varied();
         page.item("impl Pivoting for Model", |page| {
@@ -54,7 +54,7 @@ impl Writer<'_> {
 
     /// Whether measures hold third derivatives that are solved for.
     fn has_jerk(&self) -> bool {
-        !self.unit.program.outputs.jerk.is_empty() && self.unit.system.jerk().is_some()
+        !self.unit.program.outputs.jerk().is_empty() && self.unit.system.jerk().is_some()
     }
 
     /// The methods that give right sides.
@@ -151,8 +151,8 @@ impl Writer<'_> {
     }
 
     /// The right sides for the derivatives of the coordinates by signals or parameters.
-    pub fn rights(&self, by: &str, lists: &[Vec<Register>], count: &str, page: &mut Page) {
-        let all: Vec<Register> = lists.iter().flatten().copied().collect();
+    pub fn rights<'l>(&self, by: &str, lists: impl Iterator<Item = &'l [Register]>, count: &str, page: &mut Page) {
+        let all: Vec<Register> = lists.flatten().copied().collect();
         let name = format!("all_rights_by_{by}");
         page.docs(&format!("The right sides of the equations for the derivatives of the coordinates by each {by}."));
         let of = if self.equations.is_led { "&Way" } else { "&Params" };
@@ -166,17 +166,20 @@ impl Writer<'_> {
             page.line("let mut next = || all.next().unwrap_or(f64::NAN);");
             page.line("core::array::from_fn(|_| core::array::from_fn(|_| next()))");
         });
-        page.text(&self.equations.function(&Wanted {
-            name: &name,
-            docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
-            is_public: false,
-            orders: 1,
-            has_time: true,
-            varied: false,
-            outputs: &all,
-            length: &format!("N * {count}"),
-            negated: false,
-            given: Given::All,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &name,
+                docs: &format!("The partial derivatives of the equations by each {by}, negated, one behind the other."),
+                is_public: false,
+                orders: 1,
+                has_time: true,
+                varied: false,
+                outputs: &all,
+                length: &format!("N * {count}"),
+                negated: false,
+                given: Given::All,
+            },
+            page,
+        );
     }
 }

@@ -19,7 +19,7 @@ impl Writer<'_> {
         if !is_led {
             page.constant("Number of parameters.", "pub const PARAMS: usize", &params.len().to_string());
             let names = Case::Constant.names(params.iter().map(|param| param.name.as_str()));
-            let said = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit));
+            let said = params.iter().map(|param| format!("`{}` ({})", one_line(&param.name), param.unit()));
             numbered(page, "Where each parameter stands in what [`sensitivity`] gives.", "param", said.zip(&names));
             self.public_sensitivity(page);
         }
@@ -32,7 +32,7 @@ impl Writer<'_> {
         }
         let has_pivoting = solution.motion.blocks.is_some();
         if has_pivoting {
-            self.rights("param", &self.unit.program.outputs.by_param, "PARAMS", page);
+            self.rights("param", self.unit.program.outputs.by_params(), "PARAMS", page);
         }
         self.left_out_slopes("param", &self.unit.program.outputs.check_slopes.params, page);
         self.uses("sensitivity", "Sensitive");
@@ -94,20 +94,23 @@ impl Writer<'_> {
             self.left_out_pattern(page);
         }
         let all: Vec<Register> = slopes.coordinates.iter().chain(lists.iter().flatten()).copied().collect();
-        page.text(&self.equations.function(&Wanted {
-            name: &format!("left_out_slopes_by_{by}"),
-            docs: &format!(
-                "How the equations that were left out change with the coordinates, and then with each {by}."
-            ),
-            is_public: false,
-            orders: 1,
-            has_time: true,
-            varied: false,
-            outputs: &all,
-            length: &all.len().to_string(),
-            negated: false,
-            given: Given::All,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: &format!("left_out_slopes_by_{by}"),
+                docs: &format!(
+                    "How the equations that were left out change with the coordinates, and then with each {by}."
+                ),
+                is_public: false,
+                orders: 1,
+                has_time: true,
+                varied: false,
+                outputs: &all,
+                length: &all.len().to_string(),
+                negated: false,
+                given: Given::All,
+            },
+            page,
+        );
     }
 
     /// The function that everybody may call.

@@ -5,7 +5,7 @@ use crate::emit::equations::{Given, Wanted};
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
 use crate::emit::text::{constant, literal};
-use crate::program::{Register, Rim};
+use crate::program::{PlacedRim, Register};
 
 impl Writer<'_> {
     /// The branches of formulas.
@@ -21,14 +21,14 @@ impl Writer<'_> {
             let only: Vec<Register> =
                 switches.iter().map(|switch| if switch.on_time { switch.to } else { zero }).collect();
             let docs = "The branches that time alone decides, the others as 0.";
-            page.text(&self.equations.function(&wanted_of_sides("sides_of_time", docs, 0, &only, Given::None)));
+            self.equations.function(&wanted_of_sides("sides_of_time", docs, 0, &only, Given::None), page);
         }
         if of_motion {
             let is_of_time: Vec<String> = switches.iter().map(|switch| switch.on_time.to_string()).collect();
             page.text(&constant("Which of them time alone decides.", "IS_OF_TIME", "bool", "SIDES", &is_of_time));
             let all: Vec<Register> = switches.iter().map(|switch| switch.to).collect();
             let docs = "The branches at a position, those of time being known.";
-            page.text(&self.equations.function(&wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime)));
+            self.equations.function(&wanted_of_sides("sides_of_motion", docs, 1, &all, Given::OfTime), page);
         }
     }
 
@@ -73,18 +73,21 @@ impl Writer<'_> {
     pub fn checks(&self, page: &mut Page) {
         let (outputs, watches) = (self.open_conditions(), &self.unit.program.outputs.watches);
         let mut function = |name: &str, docs: &str, outputs: &[Register], length: &str| {
-            page.text(&self.equations.function(&Wanted {
-                name,
-                docs,
-                is_public: false,
-                orders: 1,
-                has_time: true,
-                varied: false,
-                outputs,
-                length,
-                negated: false,
-                given: Given::All,
-            }));
+            self.equations.function(
+                &Wanted {
+                    name,
+                    docs,
+                    is_public: false,
+                    orders: 1,
+                    has_time: true,
+                    varied: false,
+                    outputs,
+                    length,
+                    negated: false,
+                    given: Given::All,
+                },
+                page,
+            );
         };
         if !outputs.is_empty() {
             let docs = "Distances, and places within intervals and tables: all must be positive.";
@@ -153,7 +156,7 @@ impl Writer<'_> {
         self.rims().next().is_some()
     }
 
-    fn rims(&self) -> impl Iterator<Item = &Rim> {
+    pub fn rims(&self) -> impl Iterator<Item = &PlacedRim> {
         let is_led = self.equations.is_led;
         self.unit.program.outputs.rims.iter().filter(move |rim| rim.on_time && !is_led)
     }
@@ -166,18 +169,21 @@ impl Writer<'_> {
         let outputs: Vec<Register> = self.rims().map(|rim| rim.gauge).chain(self.rims().map(|rim| rim.slope)).collect();
         let docs = "Number of places where a formula of time may end.";
         page.constant(docs, "const RIMS: usize", &self.rims().count().to_string());
-        page.text(&self.equations.function(&Wanted {
-            name: "rims_of_time",
-            docs: "Quantities that are zero where a formula of time may end, and then their slopes.",
-            is_public: false,
-            orders: 0,
-            has_time: true,
-            varied: false,
-            outputs: &outputs,
-            length: "2 * RIMS",
-            negated: false,
-            given: Given::None,
-        }));
+        self.equations.function(
+            &Wanted {
+                name: "rims_of_time",
+                docs: "Quantities that are zero where a formula of time may end, and then their slopes.",
+                is_public: false,
+                orders: 0,
+                has_time: true,
+                varied: false,
+                outputs: &outputs,
+                length: "2 * RIMS",
+                negated: false,
+                given: Given::None,
+            },
+            page,
+        );
         self.uses("rims", "Rimmed");
         page.item("impl Rimmed for Model", |page| {
             page.line("type Gauges = [f64; 2 * RIMS];\n");

@@ -12,14 +12,14 @@ use crate::import::errors;
 use crate::import::value::Quoted;
 use crate::source::Span;
 use crate::syntax::DEEPEST;
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
 
 /// What an infix operator does.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
 enum Infix {
     Or,
     And,
-    Compare(Comparison),
+    Compare(ComparisonSign),
     Sum(Sign),
     Product(Factor),
     LeftDivision,
@@ -32,12 +32,12 @@ const INFIX: &[(&str, u8, Infix)] = &[
     ("&&", 2, Infix::And),
     ("|", 3, Infix::Or),
     ("&", 4, Infix::And),
-    ("<", 5, Infix::Compare(Comparison::Less)),
-    ("<=", 5, Infix::Compare(Comparison::LessEqual)),
-    (">", 5, Infix::Compare(Comparison::Greater)),
-    (">=", 5, Infix::Compare(Comparison::GreaterEqual)),
-    ("==", 5, Infix::Compare(Comparison::Equal)),
-    ("~=", 5, Infix::Compare(Comparison::NotEqual)),
+    ("<", 5, Infix::Compare(ComparisonSign::Less)),
+    ("<=", 5, Infix::Compare(ComparisonSign::LessEqual)),
+    (">", 5, Infix::Compare(ComparisonSign::Greater)),
+    (">=", 5, Infix::Compare(ComparisonSign::GreaterEqual)),
+    ("==", 5, Infix::Compare(ComparisonSign::Equal)),
+    ("~=", 5, Infix::Compare(ComparisonSign::NotEqual)),
     ("+", 6, Infix::Sum(Sign::Plus)),
     ("-", 6, Infix::Sum(Sign::Minus)),
     ("*", 7, Infix::Product(Factor::Times)),

@@ -1,7 +1,7 @@
 //! What a part of a MATLAB formula is in the language.
 
 use crate::import::build;
-use crate::syntax::ast::{Comparison, Expr, ExprKind};
+use crate::syntax::ast::{ComparisonSign, Expr, ExprKind};
 
 /// A formula that is a number or, in MATLAB's way, true or false; a truth value is a condition in the language.
 pub(super) struct Term {
@@ -35,7 +35,7 @@ impl Term {
 
     /// What is not 0 is true.
     pub fn into_condition(self) -> Expr {
-        if self.is_truth { self.expression } else { against_zero(self.expression, Comparison::NotEqual) }
+        if self.is_truth { self.expression } else { against_zero(self.expression, ComparisonSign::NotEqual) }
     }
 
     /// True where it was false.
@@ -44,12 +44,12 @@ impl Term {
         Term::truth(if self.is_truth {
             Expr { kind: ExprKind::Not(Box::new(self.expression)), span }
         } else {
-            against_zero(self.expression, Comparison::Equal)
+            against_zero(self.expression, ComparisonSign::Equal)
         })
     }
 }
 
-fn against_zero(e: Expr, comparison: Comparison) -> Expr {
+fn against_zero(e: Expr, comparison: ComparisonSign) -> Expr {
     let span = e.span;
     Expr { kind: ExprKind::Compare(Box::new(e), comparison, Box::new(build::number(0.0, span))), span }
 }

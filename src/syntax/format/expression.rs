@@ -3,7 +3,7 @@
 //! [`Level`] says how tightly a form binds. A form that binds more loosely than its place allows gets parentheses;
 //! those of the tree itself count for nothing, so that a tree which was never written down prints right as well.
 
-use crate::syntax::ast::{Comparison, Expr, ExprKind, Factor, Sign};
+use crate::syntax::ast::{ComparisonSign, Expr, ExprKind, Factor, Sign};
 use crate::vocabulary::Unit;
 
 /// What binds how tightly, loosest first.
@@ -227,14 +227,14 @@ fn write_exponent(text: &mut String, e: &Expr) {
     }
 }
 
-fn comparison_sign(comparison: Comparison) -> &'static str {
+fn comparison_sign(comparison: ComparisonSign) -> &'static str {
     match comparison {
-        Comparison::Less => "<",
-        Comparison::LessEqual => "<=",
-        Comparison::Greater => ">",
-        Comparison::GreaterEqual => ">=",
-        Comparison::Equal => "==",
-        Comparison::NotEqual => "!=",
+        ComparisonSign::Less => "<",
+        ComparisonSign::LessEqual => "<=",
+        ComparisonSign::Greater => ">",
+        ComparisonSign::GreaterEqual => ">=",
+        ComparisonSign::Equal => "==",
+        ComparisonSign::NotEqual => "!=",
     }
 }
 

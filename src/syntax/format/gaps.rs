@@ -8,7 +8,7 @@ use super::rows::{Kind, Row, rows};
 use super::words::{Word, declared, words};
 use crate::diag::Edit;
 use crate::source::{FileId, Span};
-use crate::syntax::parse::Parsed;
+use crate::syntax::parse::ParsedText;
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -53,7 +53,7 @@ struct Line {
 }
 
 impl<'a> Formatted<'a> {
-    pub fn of(parsed: &Parsed, text: &'a str) -> Formatted<'a> {
+    pub fn of(parsed: &ParsedText, text: &'a str) -> Formatted<'a> {
         let lexemes = lexemes(text);
         let names = declared(&lexemes);
         let mut faults: Vec<usize> =

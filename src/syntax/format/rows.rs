@@ -6,7 +6,7 @@ use super::layout::{INDENT, WIDTH};
 use super::lexemes::Lexeme;
 use super::words;
 use crate::source::Span;
-use crate::syntax::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, Use};
+use crate::syntax::ast::{Feature, FeatureKind, File, Item, ItemKind, Mechanism, UsedFile};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -190,7 +190,7 @@ impl Rows<'_> {
         self.lexemes.get(self.at).is_none_or(|lexeme| lexeme.start > byte)
     }
 
-    fn used(&mut self, used: &Use) {
+    fn used(&mut self, used: &UsedFile) {
         self.plain(used.span, (!used.is_broken).then_some(Group::Uses), 0);
     }
 

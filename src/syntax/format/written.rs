@@ -4,8 +4,8 @@
 use super::expression::expression;
 use super::rows::Group;
 use crate::syntax::ast::{
-    Binding, Column, ColumnKind, Expr, ExprKind, Factor, Feature, FeatureKind, File, Item, ItemKind, Mechanism, Name,
-    Part, Pose, Range, TableRows, Use, WrittenUnit,
+    Binding, ColumnName, ColumnWord, DrawnPose, Expr, ExprKind, Factor, Feature, FeatureKind, File, IndexRange, Item,
+    ItemKind, Mechanism, Name, Part, TableRows, UsedFile, WrittenUnit,
 };
 
 /// Reads back as the same tree, apart from places and from parentheses that change nothing.
@@ -16,7 +16,7 @@ pub(super) fn written(file: &File) -> String {
     blocks.join("\n")
 }
 
-fn use_file(used: &Use) -> String {
+fn use_file(used: &UsedFile) -> String {
     // what is broken has no form
     let Some(path) = &used.path else { return String::new() };
     let prefix = used.prefix.as_ref().map_or_else(String::new, |prefix| format!(" as {}", prefix.text));
@@ -98,8 +98,8 @@ fn defined(value: &Expr) -> String {
 }
 
 /// `[k in 0..n]`
-fn ranges(ranges: &[Range]) -> String {
-    let range = |range: &Range| {
+fn ranges(ranges: &[IndexRange]) -> String {
+    let range = |range: &IndexRange| {
         let dots = if range.is_closed { "..=" } else { ".." };
         format!("{} in {}{dots}{}", range.index.text, expression(&range.from), expression(&range.to))
     };
@@ -129,10 +129,10 @@ fn unit(written: &WrittenUnit) -> String {
     text
 }
 
-fn column(column: &Column) -> String {
+fn column(column: &ColumnName) -> String {
     match &column.kind {
-        ColumnKind::Number(number) => number.to_string(),
-        ColumnKind::Named(name) => format!("\"{name}\""),
+        ColumnWord::Number(number) => number.to_string(),
+        ColumnWord::Named(name) => format!("\"{name}\""),
     }
 }
 
@@ -188,7 +188,7 @@ fn pair(e: &Expr) -> String {
 }
 
 /// What stands behind a body's `at`.
-fn placed(pose: &Pose) -> String {
+fn placed(pose: &DrawnPose) -> String {
     let parts: Vec<String> = pose.parts().map(expression).collect();
     parts.join(" toward ")
 }

@@ -132,7 +132,8 @@ fn mend(system: &ConstraintSystem, group: &[Dependent]) -> String {
             )
         }),
         DeclarationKind::Joint(JointKind::Translational) => {
-            match (gap_kind(system, one.row), declaration.axes.as_slice()) {
+            let axes: Vec<&String> = declaration.axes.iter().map(|&axis| &system.axes[axis].name).collect();
+            match (gap_kind(system, one.row), axes.as_slice()) {
                 (CoordinateKind::Length, [a, b]) => {
                     format!("let `{name}` hold the angle only: `constraint {name}: angle({a}, {b}) = 0`")
                 }
@@ -281,27 +282,12 @@ pub fn too_few(mut diagnostic: Diagnostic, system: &ConstraintSystem, freedom: &
 /// Equations too many beside coordinates that nothing fixes.
 pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent], freedom: &Freedom) -> Diagnostic {
     let groups = told_together(system, dependents);
-    let faults: Vec<(DeclarationId, String, String)> =
-        groups.iter().map(|(group, _)| fault_of(system, group)).collect();
-    let left = match freedom.degrees() {
-        1 => "1 degree of freedom is left".to_owned(),
-        n => format!("{n} degrees of freedom are left"),
-    };
-    let headlines: Vec<&str> = faults.iter().take(MOST_FAULTS).map(|(_, headline, _)| headline.as_str()).collect();
-    let more = if faults.len() > MOST_FAULTS {
-        format!(", so are {} more", faults.len() - MOST_FAULTS)
-    } else {
-        String::new()
-    };
-    let mut diagnostic = Diagnostic::new(Code::E0503, format!("{}{more}, and yet {left}", headlines.join(", ")));
-    for (k, (declaration, _, label)) in faults.iter().enumerate().take(LISTED) {
-        let span = system.declarations[*declaration].span;
-        diagnostic = if k == 0 { diagnostic.at(span, label) } else { diagnostic.also(span, label) };
-    }
-    let named: Vec<DeclarationId> = faults.iter().map(|fault| fault.0).collect();
+    let faults: Vec<Culprit> = groups.iter().map(|(group, _)| fault_of(system, group)).collect();
+    let named: Vec<DeclarationId> = faults.iter().map(|fault| fault.declaration).collect();
+    let is_conflict = groups.iter().any(|(group, _)| group.iter().any(|one| one.open.is_some()));
+    let mut diagnostic = headline_of_both(system, &faults, freedom.degrees());
     let on: Vec<DeclarationId> =
         groups.iter().flat_map(|(group, _)| depends_on(system, group)).filter(|k| !named.contains(k)).collect();
-    let is_conflict = groups.iter().any(|(group, _)| group.iter().any(|one| one.open.is_some()));
     let label = if is_conflict {
         ["it conflicts with this", "it conflicts with these"]
     } else {
@@ -316,37 +302,59 @@ pub fn too_many_and_too_few(system: &ConstraintSystem, dependents: &[Dependent],
     }
     let (n, m) = (system.coordinates.len(), system.rows.len());
     diagnostic = diagnostic.note(format!("{n} coordinates, {m} equations: NDOF = {}", system.ndof()));
-    for sentence in freedom.in_words(system) {
-        diagnostic = diagnostic.note(sentence);
-    }
+    diagnostic.notes.extend(freedom.in_words(system));
     if let Some((group, stuck)) = groups.first() {
         let declaration = &system.declarations[declaration_of(system, group)];
         let mend = if is_conflict || !stuck.is_empty() { take_away(declaration) } else { mend(system, group) };
         diagnostic = diagnostic.help(mend);
     }
-    for help in freedom.helps() {
-        diagnostic = diagnostic.help(help);
-    }
-    let names =
-        |list: Vec<DeclarationId>| list.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
+    diagnostic.help.extend(freedom.helps());
+    let named = named.iter().map(|&k| system.declarations[k].name.clone()).collect::<Vec<String>>();
     let free = freedom.moving().iter().map(|&body| system.bodies[body].name.clone()).collect::<Vec<String>>();
     diagnostic
         .drives(freedom.drives().to_vec())
-        .datum("coordinates", system.coordinates.len())
-        .datum("equations", system.rows.len())
+        .datum("coordinates", n)
+        .datum("equations", m)
         .datum("ndof", system.ndof())
-        .datum("redundant", names(named))
+        .datum("redundant", named)
         .datum("free", free)
 }
 
-/// The declaration of a group of dependent rows, what is the matter with it, and a word beside its place.
-fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> (DeclarationId, String, String) {
-    let index = declaration_of(system, group);
-    let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
-    match widest {
-        Some((one, (by, t))) => (index, headline_of_conflict(system, group), gap_in_words(system, one.row, by, t)),
-        None => (index, headline_of_redundant(system, group), "says nothing new".to_owned()),
+/// What is the matter with declarations, and yet how many degrees of freedom are left.
+fn headline_of_both(system: &ConstraintSystem, faults: &[Culprit], degrees: usize) -> Diagnostic {
+    let left = match degrees {
+        1 => "1 degree of freedom is left".to_owned(),
+        n => format!("{n} degrees of freedom are left"),
+    };
+    let headlines: Vec<&str> = faults.iter().take(MOST_FAULTS).map(|fault| fault.headline.as_str()).collect();
+    let more = match faults.len().saturating_sub(MOST_FAULTS) {
+        0 => String::new(),
+        more => format!(", so are {more} more"),
+    };
+    let mut diagnostic = Diagnostic::new(Code::E0503, format!("{}{more}, and yet {left}", headlines.join(", ")));
+    for (k, fault) in faults.iter().enumerate().take(LISTED) {
+        let span = system.declarations[fault.declaration].span;
+        diagnostic = if k == 0 { diagnostic.at(span, &fault.label) } else { diagnostic.also(span, &fault.label) };
     }
+    diagnostic
+}
+
+/// A declaration of dependent rows, with what is the matter with it.
+struct Culprit {
+    declaration: DeclarationId,
+    headline: String,
+    /// Beside its place.
+    label: String,
+}
+
+fn fault_of(system: &ConstraintSystem, group: &[Dependent]) -> Culprit {
+    let declaration = declaration_of(system, group);
+    let widest = group.iter().filter_map(|one| Some((one, one.open?))).max_by(|a, b| a.1.0.total_cmp(&b.1.0));
+    let (headline, label) = match widest {
+        Some((one, (by, t))) => (headline_of_conflict(system, group), gap_in_words(system, one.row, by, t)),
+        None => (headline_of_redundant(system, group), "says nothing new".to_owned()),
+    };
+    Culprit { declaration, headline, label }
 }
 
 /// How far a row is off.

@@ -3,7 +3,7 @@
 use crate::analysis::follow::step::Step;
 use crate::analysis::state::{Kinematics, shortly_after};
 use crate::math::{Halving, about, along, bisect, farthest};
-use crate::program::{Enclosure, Rim};
+use crate::program::{Enclosure, PlacedRim};
 use crate::tolerances::steps::rims::{BEHIND, MOST_HALVINGS, MOST_WIDER, ROUNDING};
 
 /// Where gauges are looked at.
@@ -25,7 +25,7 @@ pub(super) struct Met {
 
 /// The gauges of all rims, with room to look at them.
 pub(super) struct Gauges {
-    all: Vec<Rim>,
+    all: Vec<PlacedRim>,
     of_time: Vec<usize>,
     of_motion: Vec<usize>,
     in_time: Enclosure,
@@ -63,7 +63,7 @@ impl Gauges {
         self.all.is_empty()
     }
 
-    pub fn rim(&self, rim: usize) -> &Rim {
+    pub fn rim(&self, rim: usize) -> &PlacedRim {
         &self.all[rim]
     }
 

@@ -1,6 +1,6 @@
 //! Rows that are held against what comes behind them.
 
-use super::Motion;
+use super::Follower;
 use crate::analysis::explain::singular;
 use crate::analysis::follow::bookmark::Bookmark;
 use crate::analysis::follow::crossing::is_clear;
@@ -9,7 +9,7 @@ use crate::diag::Diagnostic;
 use crate::tolerances::solving::rows::STEPS_AHEAD;
 use crate::tolerances::steps::march::FEWEST_STEPS_NEAR;
 
-impl Motion {
+impl Follower {
     /// How far the motion is looked ahead from a time `t` (s): a singular position that a row is so near to that its derivatives
     /// are in doubt may be twice as far off as the last clear state.
     pub(super) fn time_ahead(&self, t: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! A row whose derivatives are in doubt, so near to a singular position that rounding may have spoiled them: held against the way
 //! over that position, or against itself.
 
-use super::Motion;
+use super::Follower;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::state::{Kinematics, State, Trust, are_small};
 use crate::diag::Diagnostic;
@@ -13,7 +13,7 @@ use crate::tolerances::solving::rows::STEPS_AHEAD;
 /// The range of no values.
 const NOTHING: [f64; 2] = [f64::INFINITY, f64::NEG_INFINITY];
 
-impl Motion {
+impl Follower {
     /// A row of a time `t` whose derivatives are in doubt. If it lies on the way up to a bifurcation that way shows whether they
     /// are right, and what they are if not. The motion is left as it was, so that the rows behind it are the same.
     pub(super) fn row_in_doubt(&mut self, t: f64) -> Result<(), Box<Diagnostic>> {
@@ -110,12 +110,12 @@ impl Motion {
     }
 
     fn narrow_row(&mut self, t: f64) -> bool {
-        let Motion { kinematics, step, crossing, rows, .. } = self;
+        let Follower { kinematics, step, crossing, rows, .. } = self;
         crossing.write_narrow_row(kinematics, step, t, rows.own_mut())
     }
 
     fn trusted_row(&mut self, t: f64) -> bool {
-        let Motion { kinematics, step, crossing, .. } = self;
+        let Follower { kinematics, step, crossing, .. } = self;
         let Some(state) = crossing.state_at(t) else {
             return false;
         };

@@ -1,6 +1,6 @@
 //! Steps over several output times.
 
-use super::Motion;
+use super::Follower;
 use crate::analysis::follow::crossing::is_clear;
 use crate::analysis::follow::rows::Place;
 use crate::analysis::follow::step::{Accepted, keep_away};
@@ -8,7 +8,7 @@ use crate::analysis::state::{Fault, Trust};
 use crate::diag::Diagnostic;
 use crate::tolerances::steps::march::{LARGEST_BETWEEN, LARGEST_CORRECTION};
 
-impl Motion {
+impl Follower {
     /// Whether a step may go over several output times: the state is clear of singular positions.
     pub(super) fn may_leap(&self) -> bool {
         let t = self.step.t();
@@ -47,7 +47,7 @@ impl Motion {
     /// A step of length `h` to time `t`, solved for like a row, which says more of the way between than one place of it does;
     /// none where steps had better go to each output time on their own.
     fn try_leap(&mut self, h: f64, t: f64, to_edge: bool) -> Result<Option<Accepted>, Fault> {
-        let Motion { kinematics, step, edges, crossing, rows, .. } = self;
+        let Follower { kinematics, step, edges, crossing, rows, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
         let Some((leap, times)) = rows.leap() else {
             return Ok(None);
@@ -103,7 +103,7 @@ impl Motion {
     /// Writes the row of a time within the last step, from a time and of a length (s), by solving from its curve, with pivots that suit
     /// it; whether it holds.
     fn row_on_curve(&mut self, way: [f64; 2], t: f64) -> bool {
-        let Motion { kinematics, step, edges, rows, .. } = self;
+        let Follower { kinematics, step, edges, rows, .. } = self;
         step.try_on_curve(way, t);
         let is_solved = step.correct(kinematics).is_ok()
             && edges.switch_met(kinematics, step.t()).is_none()

@@ -26,7 +26,7 @@ use std::sync::Arc;
 pub use stretches::Stretch;
 
 /// A motion in progress: rows at ascending times, computed without allocating.
-pub struct Motion {
+pub struct Follower {
     kinematics: Kinematics,
     step: Step,
     edges: Edges,
@@ -45,15 +45,15 @@ pub struct Motion {
 impl Started {
     /// The motion from the start on, a row for each of some times, which do not come before the start.
     #[must_use]
-    pub fn into_motion(self, times: &Times) -> Motion {
-        Motion::new(self.into_parts(), times.clone())
+    pub fn into_motion(self, times: &Times) -> Follower {
+        Follower::new(self.into_parts(), times.clone())
     }
 }
 
-impl Motion {
+impl Follower {
     /// Of a mechanism in a state, with what solves for its rows.
     #[must_use]
-    pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Motion {
+    pub fn new((mut kinematics, state, solver): (Kinematics, State, Option<Arc<Solver>>), times: Times) -> Follower {
         let last = state.t + times.span();
         // what happens in no time at all is measured by the second
         let span = if times.span() > 0.0 { times.span() } else { 1.0 };
@@ -64,7 +64,7 @@ impl Motion {
         let leap = solver.map(|solver| Leap::new(&kinematics, solver, origin(), span));
         let rows = Rows::new(&kinematics, leap, times);
         let remarks = Remarks::new(kinematics.system());
-        Motion { kinematics, step, edges, crossing, rows, remarks, begun: false, edge: None, span, last }
+        Follower { kinematics, step, edges, crossing, rows, remarks, begun: false, edge: None, span, last }
     }
 
     /// Goes on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
@@ -147,7 +147,7 @@ impl Motion {
         if std::mem::replace(&mut self.begun, true) {
             return Ok(true);
         }
-        let Motion { kinematics, step, .. } = self;
+        let Follower { kinematics, step, .. } = self;
         kinematics.restore(step.state());
         if !kinematics.switches().is_empty() {
             // which way it goes on decides on which side of an edge it begins
@@ -232,7 +232,7 @@ impl Motion {
 
     /// A step of length `h` to time `t`, whose row is written if it is wanted.
     fn try_step(&mut self, h: f64, t: f64, wanted: bool) -> Result<Accepted, Fault> {
-        let Motion { kinematics, step, edges, crossing, rows, .. } = self;
+        let Follower { kinematics, step, edges, crossing, rows, .. } = self;
         let to_edge_of_motion = edges.is_met_by(t);
         let motion = step.predict(kinematics, h, t)?;
         let first_correction = step.correct(kinematics)?;
@@ -252,7 +252,7 @@ impl Motion {
     }
 
     fn accept(&mut self, h: f64, accepted: &Accepted) {
-        let Motion { kinematics, step, edges, crossing, .. } = self;
+        let Follower { kinematics, step, edges, crossing, .. } = self;
         edges.take_pace(kinematics, step, h);
         step.accept(kinematics);
         crossing.keep_if_clear(kinematics, step.state());
@@ -261,7 +261,7 @@ impl Motion {
 
     /// What there is to do where a step of length `h` on the way to `target` was refused.
     fn give_way(&mut self, h: f64, fault: Fault, target: f64) -> Result<(), Box<Diagnostic>> {
-        let Motion { kinematics, step, edges, crossing, remarks, .. } = self;
+        let Follower { kinematics, step, edges, crossing, remarks, .. } = self;
         match fault {
             Fault::Edge { t, switch } if edges.rests(kinematics, step, switch) => {
                 edges.leave_alone(switch, t);
@@ -289,7 +289,7 @@ impl Motion {
     }
 
     fn cross(&mut self, edge: Edge) -> Result<(), Box<Diagnostic>> {
-        let Motion { kinematics, step, edges, rows, remarks, .. } = self;
+        let Follower { kinematics, step, edges, rows, remarks, .. } = self;
         if edges.cross(kinematics, step, edge, remarks)? {
             // the row at an edge is one of its later side
             rows.own_mut().copy_from_slice(edges.later_row());
@@ -322,7 +322,7 @@ impl Motion {
 
     /// Writes the row of a time on the way over a singular position, if it is on one.
     fn row_on_bridge(&mut self, t: f64) -> Option<Result<(), Box<Diagnostic>>> {
-        let Motion { kinematics, step, crossing, rows, .. } = self;
+        let Follower { kinematics, step, crossing, rows, .. } = self;
         crossing.write_row(kinematics, step, t, rows.own_mut())
     }
 

@@ -2,7 +2,7 @@
 //!
 //! They do not depend on which rows are asked for, and end at the edges of the equations.
 
-use super::Motion;
+use super::Follower;
 use crate::analysis::follow::crossing::Bridge;
 use crate::analysis::state::State;
 use crate::diag::Diagnostic;
@@ -24,7 +24,7 @@ pub struct Stretch {
     pub ends_at_edge: bool,
 }
 
-impl Motion {
+impl Follower {
     /// Goes on to the end of the next stretch; none behind the last time.
     ///
     /// # Errors

@@ -33,7 +33,7 @@ impl Kinematics {
 
     /// How fast a row asks to be met, scaled (1/s); the derivatives where the position was set must have been computed.
     pub fn asked_speed(&self, row: usize) -> f64 {
-        self.registers.get(self.program.outputs.nu[row]).abs() / self.linear.row_norm(row)
+        self.registers.get(self.program.outputs.nu()[row]).abs() / self.linear.row_norm(row)
     }
 
     /// How much larger the velocities and accelerations of a state are than the right sides they answer to, scaled; at
@@ -46,8 +46,8 @@ impl Kinematics {
             right.iter().enumerate().map(scaled).fold(0.0, f64::max)
         };
         let ratio = |left: f64, right: f64| if right > 0.0 { left / right } else { 1.0 };
-        let velocity = ratio(self.linear.largest(&state.qd), largest_right(&outputs.nu));
-        let acceleration = ratio(self.linear.largest(&state.qdd), largest_right(&outputs.gamma));
+        let velocity = ratio(self.linear.largest(&state.qd), largest_right(outputs.nu()));
+        let acceleration = ratio(self.linear.largest(&state.qdd), largest_right(outputs.gamma()));
         velocity.max(acceleration).max(1.0)
     }
 
@@ -84,14 +84,14 @@ impl Kinematics {
         self.registers.set_all(coordinates, &self.beside);
         program.run(Stage::Position, &mut self.registers);
         program.run(Stage::Velocity, &mut self.registers);
-        self.write_open(&outputs.nu, &state.qd, &mut doubt.right);
+        self.write_open(outputs.nu(), &state.qd, &mut doubt.right);
         self.solve(&doubt.right, &mut doubt.velocity);
         for ((beside, speed), off) in self.beside.iter_mut().zip(&state.qd).zip(&doubt.velocity) {
             *beside = speed - off;
         }
         self.registers.set_all(qd, &self.beside);
         program.run(Stage::Acceleration, &mut self.registers);
-        self.write_open(&outputs.gamma, &state.qdd, &mut doubt.right);
+        self.write_open(outputs.gamma(), &state.qdd, &mut doubt.right);
         self.solve(&doubt.right, &mut doubt.acceleration);
     }
 
@@ -101,7 +101,7 @@ impl Kinematics {
             return Ok(());
         }
         let outputs = &self.program.outputs;
-        let row = [&outputs.nu, &outputs.gamma, &outputs.jerk]
+        let row = [outputs.nu(), outputs.gamma(), outputs.jerk()]
             .into_iter()
             .find_map(|list| list.iter().position(|&register| !self.registers.get(register).is_finite()));
         Err(row.map_or(Fault::Singular, |row| Fault::NotFinite { row }))
@@ -137,14 +137,14 @@ pub(super) fn rates(
     let [_, qd, qdd, qddd] = program.inputs.coordinates;
     let outputs = &program.outputs;
     program.run(Stage::Velocity, registers);
-    solve(registers, &outputs.nu, &mut state.qd);
+    solve(registers, outputs.nu(), &mut state.qd);
     registers.set_all(qd, &state.qd);
     program.run(Stage::Acceleration, registers);
-    solve(registers, &outputs.gamma, &mut state.qdd);
-    if !outputs.jerk.is_empty() {
+    solve(registers, outputs.gamma(), &mut state.qdd);
+    if !outputs.jerk().is_empty() {
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Jerk, registers);
-        solve(registers, &outputs.jerk, &mut state.qddd);
+        solve(registers, outputs.jerk(), &mut state.qddd);
         registers.set_all(qddd, &state.qddd);
     }
 }

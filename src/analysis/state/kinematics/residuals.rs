@@ -14,7 +14,7 @@ impl Kinematics {
         let open = |x: &[f64], right: Register| {
             (self.left(row, x) - self.registers.get(right)).abs() / self.linear.row_norm(row)
         };
-        (open(&state.qd, outputs.nu[row]), open(&state.qdd, outputs.gamma[row]))
+        (open(&state.qd, outputs.nu()[row]), open(&state.qdd, outputs.gamma()[row]))
     }
 
     /// The equation that was left out and does not hold where the position was set.

@@ -32,7 +32,7 @@ impl Varied {
         let n = system.coordinates.len();
         let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
         let is_varied_column = |holds: &Holds| match *holds {
-            Holds::Time | Holds::Coordinate { .. } => false,
+            Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied => false,
             Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_varied),
             Holds::Appended(_) => true,
         };

@@ -1,7 +1,7 @@
 //! What time and motion decide beside the equations: switches, rims, signals.
 
 use super::Kinematics;
-use crate::program::{Enclosure, Frozen, Op, Register, Rim, Signal, Stage, Switch};
+use crate::program::{Enclosure, Frozen, Op, PlacedRim, Register, Signal, Stage, Switch};
 
 impl Kinematics {
     /// Which switches stay as they are from now on.
@@ -42,7 +42,7 @@ impl Kinematics {
     }
 
     /// Where formulas come to the end of what their functions take.
-    pub fn rims(&self) -> &[Rim] {
+    pub fn rims(&self) -> &[PlacedRim] {
         &self.program.outputs.rims
     }
 
@@ -52,13 +52,13 @@ impl Kinematics {
     }
 
     /// A rim's gauge and its slope where time, position and velocity were set.
-    pub fn gauge(&mut self, rim: &Rim) -> [f64; 2] {
+    pub fn gauge(&mut self, rim: &PlacedRim) -> [f64; 2] {
         self.program.run(Stage::Rims, &mut self.registers);
         [rim.gauge, rim.slope].map(|register| self.registers.get(register))
     }
 
     /// The largest term of a gauge, which must just have been asked for.
-    pub fn largest_term(&self, rim: &Rim) -> f64 {
+    pub fn largest_term(&self, rim: &PlacedRim) -> f64 {
         rim.terms.iter().map(|&register| self.registers.get(register).abs()).fold(0.0, f64::max)
     }
 

@@ -70,6 +70,22 @@ enum Form {
 }
 
 impl Part {
+    /// A block whose rows and columns, and whose dense matrix, begin at these places.
+    fn new(block: &Block, at: usize, matrix: usize) -> Part {
+        let size = block.rows.len();
+        Part {
+            at,
+            size,
+            explicit: block.explicit,
+            matrix,
+            inside: 0..0,
+            smallest_pivot: 0.0,
+            plans: Vec::new(),
+            slots: Vec::new(),
+            form: if size == 1 { Form::Single } else { Form::Dense },
+        }
+    }
+
     /// How much smaller the singular values of a chain of so many coordinates are than those of a few bodies.
     fn length_of_chain(&self) -> f64 {
         let length = self.size as f64 / A_FEW;
@@ -174,27 +190,15 @@ impl BlockLu {
         let (mut parts, mut rows, mut columns) = (Vec::new(), Vec::new(), Vec::new());
         let mut matrix = 0;
         for (k, block) in blocks.iter().enumerate() {
-            let size = block.rows.len();
-            let form = if size == 1 { Form::Single } else { Form::Dense };
-            let (plans, slots) = (Vec::new(), Vec::new());
-            parts.push(Part {
-                at: rows.len(),
-                size,
-                explicit: block.explicit,
-                matrix,
-                inside: 0..0,
-                smallest_pivot: 0.0,
-                plans,
-                slots,
-                form,
-            });
+            let part = Part::new(block, rows.len(), matrix);
             for (place, &column) in block.columns.iter().enumerate() {
                 place_of_column[column as usize] = place as u32;
                 part_of_column[column as usize] = k as u32;
             }
             rows.extend_from_slice(&block.rows);
             columns.extend_from_slice(&block.columns);
-            matrix += if size <= LARGEST_DENSE { size * size } else { 0 };
+            matrix += if part.is_small() { part.size * part.size } else { 0 };
+            parts.push(part);
         }
         let Pattern { starts, entries, inside } =
             Pattern::new(system, &mut parts, &rows, |column| (part_of_column[column], place_of_column[column]));

@@ -2,6 +2,7 @@
 
 use super::factors::Factors;
 use super::{BlockLu, Part};
+use crate::math;
 
 impl BlockLu {
     /// Solves `Φ_q x = b`, `b` by rows of Φ and `x` by coordinates, both unscaled; returns the largest scaled `|x|`.
@@ -32,7 +33,7 @@ impl BlockLu {
     /// The largest scaled `|x|` of some coordinates; not a number if one is not.
     fn largest_of(&self, columns: &[u32], x: &[f64]) -> f64 {
         let scaled = columns.iter().map(|&column| x[column as usize].abs() / self.column_scale[column as usize]);
-        scaled.fold(0.0, |largest, size| if size <= largest { largest } else { size })
+        scaled.fold(0.0, math::max)
     }
 
     /// The largest scaled `|x|` of the coordinates that need iteration.
@@ -74,8 +75,7 @@ impl BlockLu {
                 let column = self.columns[part.at + place] as usize;
                 scaled[column] = value;
                 x[column] = value * self.column_scale[column];
-                // a value that is not a number must win
-                largest = if value.abs() > largest || value.is_nan() { value.abs() } else { largest };
+                largest = math::max(largest, value.abs());
             }
         }
         largest

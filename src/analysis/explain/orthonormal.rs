@@ -1,0 +1,139 @@
+//! Orthonormal vectors, by which it is told what depends on what and which motions are free.
+//!
+//! Vectors and matrices are those of nalgebra, of which only what goes column by column is used: it has one order of operations on every
+//! processor, and nothing of it is on the way to a printed number.
+
+use nalgebra::{DMatrix, DMatrixView, DVector};
+
+/// Some orthonormal vectors of a space.
+#[derive(Clone, Debug)]
+pub struct Orthonormal {
+    /// The vectors, and room for as many as the space has dimensions.
+    columns: DMatrix<f64>,
+    count: usize,
+}
+
+impl Orthonormal {
+    /// None as yet, of a space of `n` dimensions.
+    pub fn of_dimension(n: usize) -> Orthonormal {
+        Orthonormal { columns: DMatrix::zeros(n, n), count: 0 }
+    }
+
+    /// Whether they span the whole space.
+    pub fn is_whole(&self) -> bool {
+        self.count == self.columns.ncols()
+    }
+
+    fn vectors(&self) -> DMatrixView<'_, f64> {
+        self.columns.columns(0, self.count)
+    }
+
+    /// What is left of a vector beside them, and its shares along them; twice, so that rounding does not add up.
+    pub fn beside(&self, vector: DVector<f64>) -> (DVector<f64>, DVector<f64>) {
+        let (vectors, mut rest) = (self.vectors(), vector);
+        let mut shares = DVector::zeros(self.count);
+        for _ in 0..2 {
+            let along = vectors.tr_mul(&rest);
+            rest.gemv(-1.0, &vectors, &along, 1.0);
+            shares += along;
+        }
+        (rest, shares)
+    }
+
+    /// Takes in what was left of a vector, if that is longer than a limit and there is room; whether it was.
+    pub fn take(&mut self, rest: &DVector<f64>, least: f64) -> bool {
+        let norm = rest.norm();
+        let is_taken = norm > least && !self.is_whole();
+        if is_taken {
+            self.columns.set_column(self.count, &(rest / norm));
+            self.count += 1;
+        }
+        is_taken
+    }
+
+    /// The vector that was taken in last.
+    pub fn last(&self) -> Option<DVector<f64>> {
+        self.vectors().column_iter().next_back().map(|vector| vector.into_owned())
+    }
+
+    /// How much of each axis is free of them.
+    pub fn shares_left(&self) -> DVector<f64> {
+        DVector::from_iterator(self.columns.nrows(), self.vectors().row_iter().map(|row| 1.0 - row.norm_squared()))
+    }
+}
+
+/// Vectors as far as they are independent of those before them.
+pub struct Basis {
+    /// What they span.
+    pub span: Orthonormal,
+    /// Which of the vectors given are independent.
+    pub kept: Vec<usize>,
+    /// The others, and which of the kept ones each depends on.
+    pub dependent: Vec<(usize, Vec<usize>)>,
+}
+
+impl Basis {
+    /// Of vectors of length `n`, each of about unit norm, one after another. One depends on those before it where less than a limit is
+    /// left of it beside them, and on such of them as have a weight in it that is above another limit.
+    pub fn of(vectors: &[f64], n: usize, [nothing, weighs]: [f64; 2]) -> Basis {
+        let mut basis = Basis { span: Orthonormal::of_dimension(n), kept: Vec::new(), dependent: Vec::new() };
+        // each kept vector by the span up to its own
+        let mut factors = DMatrix::zeros(n, n);
+        for (k, vector) in vectors.chunks_exact(n.max(1)).enumerate() {
+            let (rest, shares) = basis.span.beside(DVector::from_column_slice(vector));
+            let rank = basis.kept.len();
+            if basis.span.take(&rest, nothing) {
+                factors.view_mut((0, rank), (rank, 1)).copy_from(&shares);
+                factors[(rank, rank)] = rest.norm();
+                basis.kept.push(k);
+                continue;
+            }
+            let weights = factors.view((0, 0), (rank, rank)).solve_upper_triangular(&shares).unwrap_or(shares);
+            let on = basis.kept.iter().zip(&weights).filter(|(_, weight)| weight.abs() > weighs);
+            basis.dependent.push((k, on.map(|(&k, _)| k).collect()));
+        }
+        basis
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Basis, Orthonormal};
+    use nalgebra::DVector;
+
+    #[test]
+    fn what_depends_is_told_with_what_it_depends_on() {
+        let half = std::f64::consts::FRAC_1_SQRT_2;
+        let rows = [
+            [1.0, 0.0, 0.0, 0.0],
+            [half, half, 0.0, 0.0],
+            [0.0, 0.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0, 0.0],
+            [0.0, 0.0, -1.0, 0.0],
+        ];
+        let basis = Basis::of(rows.as_flattened(), 4, [1e-6, 1e-6]);
+        assert_eq!(basis.kept, [0, 1, 2]);
+        assert_eq!(basis.dependent, [(3, vec![0, 1]), (4, vec![2])]);
+        let left = basis.span.shares_left();
+        assert!((left - DVector::from_column_slice(&[0.0, 0.0, 0.0, 1.0])).norm() < 1e-15);
+    }
+
+    #[test]
+    fn what_is_left_of_a_vector_is_orthogonal_to_all_others() {
+        let mut all = Orthonormal::of_dimension(3);
+        let first = DVector::from_column_slice(&[0.6, 0.8, 0.0]);
+        assert!(all.take(&first, 0.0));
+        let (rest, shares) = all.beside(DVector::from_column_slice(&[1.0, 1.0, 1.0]));
+        assert!(rest.dot(&first).abs() < 1e-15 && (shares[0] - 1.4).abs() < 1e-15);
+        assert!(all.take(&rest, 1e-6) && all.count == 2 && !all.is_whole());
+        // what lies between those that are there adds nothing
+        let (rest, _) = all.beside(&first + all.last().expect("a vector"));
+        assert!(!all.take(&rest, 1e-6));
+    }
+
+    #[test]
+    fn of_no_coordinates_nothing_is_kept() {
+        let basis = Basis::of(&[], 0, [1e-6, 1e-6]);
+        assert!(basis.kept.is_empty() && basis.dependent.is_empty() && basis.span.is_whole());
+    }
+}

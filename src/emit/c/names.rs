@@ -1,0 +1,129 @@
+//! Names for C and C++.
+
+/// Words that C or C++ keep for themselves, in small letters, and those that some compilers define.
+const KEYWORDS: &[&str] = &[
+    "alignas",
+    "alignof",
+    "and",
+    "and_eq",
+    "asm",
+    "auto",
+    "bitand",
+    "bitor",
+    "bool",
+    "break",
+    "case",
+    "catch",
+    "char",
+    "char16_t",
+    "char32_t",
+    "char8_t",
+    "class",
+    "co_await",
+    "co_return",
+    "co_yield",
+    "compl",
+    "concept",
+    "const",
+    "const_cast",
+    "consteval",
+    "constexpr",
+    "constinit",
+    "continue",
+    "decltype",
+    "default",
+    "delete",
+    "do",
+    "double",
+    "dynamic_cast",
+    "else",
+    "enum",
+    "errno",
+    "explicit",
+    "export",
+    "extern",
+    "false",
+    "far",
+    "float",
+    "for",
+    "friend",
+    "goto",
+    "if",
+    "inline",
+    "int",
+    "linux",
+    "long",
+    "mutable",
+    "namespace",
+    "near",
+    "new",
+    "noexcept",
+    "not",
+    "not_eq",
+    "nullptr",
+    "operator",
+    "or",
+    "or_eq",
+    "private",
+    "protected",
+    "public",
+    "register",
+    "reinterpret_cast",
+    "requires",
+    "restrict",
+    "return",
+    "short",
+    "signed",
+    "sizeof",
+    "static",
+    "static_assert",
+    "static_cast",
+    "struct",
+    "switch",
+    "template",
+    "this",
+    "thread_local",
+    "throw",
+    "true",
+    "try",
+    "typedef",
+    "typeid",
+    "typename",
+    "typeof",
+    "union",
+    "unix",
+    "unsigned",
+    "using",
+    "virtual",
+    "void",
+    "volatile",
+    "wchar_t",
+    "while",
+    "xor",
+    "xor_eq",
+];
+
+/// A field's name in Rust as one in C. Names in Rust end with a line only where Rust keeps the word, so that no two meet.
+pub(super) fn field(name: &str) -> String {
+    if KEYWORDS.contains(&name) { format!("{name}_") } else { name.to_owned() }
+}
+
+/// A comment of C: nothing ends it, or seems to begin another.
+pub(super) fn comment(text: &str) -> String {
+    format!("/* {} */", text.replace("*/", "* /").replace("/*", "/ *").replace(char::is_control, " "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{comment, field};
+
+    #[test]
+    fn names_are_those_of_the_crate_where_c_lets_them() {
+        assert_eq!(["reach", "int", "class", "fn_"].map(field), ["reach", "int_", "class_", "fn_"]);
+    }
+
+    #[test]
+    fn nothing_ends_a_comment_too_early() {
+        assert_eq!(comment("a */ b /* c\n*/*/"), "/* a * / b / * c * /* / */");
+    }
+}

@@ -1,0 +1,79 @@
+//! What a line of emitted code names: a number, or what holds one.
+
+use super::text::literal;
+use std::fmt::{self, Display, Formatter};
+
+/// Arguments of a function, by their names.
+pub(super) type Arguments = &'static [&'static str];
+
+/// A number, or what holds one.
+#[derive(Clone, Debug)]
+pub(super) enum Operand {
+    Number(f64),
+    /// A name or a place, as it is written.
+    Held {
+        text: String,
+        /// The arguments that this names.
+        of: Arguments,
+    },
+}
+
+impl Operand {
+    /// What holds a number within the arguments of a function.
+    pub fn of(text: String, of: Arguments) -> Operand {
+        Operand::Held { text, of }
+    }
+
+    /// A variable of the function itself.
+    pub fn own(text: String) -> Operand {
+        Operand::of(text, &[])
+    }
+
+    /// The arguments that it names.
+    pub fn arguments(&self) -> Arguments {
+        match self {
+            Operand::Number(_) => &[],
+            Operand::Held { of, .. } => of,
+        }
+    }
+
+    /// The opposite; of 0 itself, as nobody asks for its sign.
+    pub fn negated(&self) -> Operand {
+        match self {
+            Operand::Number(value) if *value == 0.0 => Operand::Number(0.0),
+            Operand::Number(value) => Operand::Number(-value),
+            Operand::Held { text, of } => Operand::of(format!("-{text}"), of),
+        }
+    }
+
+    /// Its size.
+    pub fn absolute(&self) -> String {
+        match self {
+            Operand::Number(value) if value.is_sign_negative() => format!("({self}).abs()"),
+            _ => format!("{self}.abs()"),
+        }
+    }
+}
+
+impl Display for Operand {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        match self {
+            Operand::Number(value) => f.write_str(&literal(*value)),
+            Operand::Held { text, .. } => f.write_str(text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Operand;
+
+    #[test]
+    fn signs_are_those_of_numbers() {
+        let (number, held) = (Operand::Number(-2.5), Operand::of("q[1]".to_owned(), &["q"]));
+        assert_eq!([number.negated(), held.negated()].map(|of| of.to_string()), ["2.5", "-q[1]"]);
+        assert_eq!([number.absolute(), held.absolute()], ["(-2.5).abs()", "q[1].abs()"]);
+        assert_eq!(Operand::Number(-0.0).negated().to_string(), "0.0");
+        assert_eq!(held.negated().arguments(), ["q"]);
+    }
+}

@@ -1,0 +1,52 @@
+//! Features: what joints take hold of, fixed in a body or in the ground, as formulas of parameters in the frame of that body. What is the
+//! ground in a part is folded into what carries the part.
+
+use super::{AxisId, BodyId, CircleId, ConstraintSystem, PointId};
+use crate::expr::ExprId;
+
+/// A point.
+#[derive(Clone, Debug)]
+pub struct Point {
+    /// Its body; none for the ground.
+    pub body: Option<BodyId>,
+    /// Its name; a literal point has none.
+    pub name: Option<String>,
+    /// In the frame of its body (m).
+    pub at: [ExprId; 2],
+}
+
+/// A directed line through a point, of whose body it is.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// As it is written, `rod.slot`.
+    pub name: String,
+    /// A point of it.
+    pub origin: PointId,
+    /// Its direction in the frame of its body, of length 1.
+    pub direction: [ExprId; 2],
+}
+
+/// A circle around a point, of whose body it is.
+#[derive(Clone, Debug)]
+pub struct Circle {
+    /// As it is written, `wheel.rim`.
+    pub name: String,
+    /// Its centre.
+    pub center: PointId,
+    /// Its radius (m).
+    pub radius: ExprId,
+}
+
+impl ConstraintSystem {
+    /// The body that an axis is of; none for the ground.
+    #[must_use]
+    pub fn body_of_axis(&self, axis: AxisId) -> Option<BodyId> {
+        self.points[self.axes[axis].origin].body
+    }
+
+    /// The body that a circle is of; none for the ground.
+    #[must_use]
+    pub fn body_of_circle(&self, circle: CircleId) -> Option<BodyId> {
+        self.points[self.circles[circle].center].body
+    }
+}

@@ -1,0 +1,521 @@
+//! Kinematics of mechanism `arm`, written by mechc 0.1.0 from `rims.mech`.
+//!
+//! - coordinates `q`: 3 (m, rad), equations `phi = 0`: 3
+//! - `phi_q`: 3 entries that do not vanish, see [`PHI_Q_PATTERN`]
+//! - parameters: 0; those that follow from others are worked out
+//! - the motion: [`assemble`], then [`step`] from time to time
+//! - needs the crate `libm`, for elementary functions with the same bits on every platform
+//! - needs no heap and no standard library; nothing in it panics
+//!
+//! This code carries no licence of mechc's: use, change and pass it on as you like.
+
+#![allow(clippy::approx_constant, clippy::eq_op)]
+#![allow(clippy::excessive_precision, clippy::large_const_arrays)]
+
+use runtime::blocks::Blocks;
+use runtime::blocks::work_of;
+use runtime::equations::Branches;
+use runtime::equations::Checks;
+use runtime::equations::Equations;
+use runtime::error::Fault;
+use runtime::pivoting::Pivoting;
+use runtime::pivoting::solve_with_pivoting;
+use runtime::rims::Rimmed;
+use runtime::rims::first_rim;
+use runtime::rims::look_at_rim;
+use runtime::solution::Solved;
+use runtime::state::Parameters;
+use runtime::state::Time;
+use runtime::state::Timed;
+
+/// The mechanism has no parameters.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Params;
+
+impl Parameters for Params {
+    fn towards(&self, _: &Self, _: f64) -> Self {
+        Self
+    }
+
+    fn is_finite(&self) -> bool {
+        true
+    }
+}
+
+/// Number of coordinates, and of equations.
+pub const N: usize = 3;
+
+/// Number of entries of `phi_q` that do not vanish.
+pub const ENTRIES: usize = 3;
+
+/// Coordinates (m, rad).
+pub type Q = [f64; N];
+
+/// Velocities (m/s, rad/s).
+pub type Qd = [f64; N];
+
+/// Accelerations (m/s^2, rad/s^2).
+pub type Qdd = [f64; N];
+
+/// Where each coordinate stands in `q`.
+pub mod coordinate {
+    /// `arm.x` (m), line 3
+    pub const ARM_X: usize = 0;
+    /// `arm.y` (m), line 3
+    pub const ARM_Y: usize = 1;
+    /// `arm.phi` (rad), line 3
+    pub const ARM_PHI: usize = 2;
+}
+
+/// Which equation each joint, constraint or driver wrote, and its unit.
+pub mod row {
+    /// joint `main 1` (m), line 4
+    pub const MAIN_1: usize = 0;
+    /// joint `main 2` (m), line 4
+    pub const MAIN_2: usize = 1;
+    /// driver `motor` (rad), line 5
+    pub const MOTOR: usize = 2;
+}
+
+/// Row and column of each value that [`phi_q`] gives.
+#[rustfmt::skip]
+pub static PHI_Q_PATTERN: [(usize, usize); ENTRIES] = [
+    (0, 0),
+    (1, 1),
+    (2, 2),
+];
+
+/// The bodies.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Body {
+    /// `arm`, line 3
+    Arm,
+}
+
+/// Where a body is, or how its place changes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pose {
+    /// (m)
+    pub x: f64,
+    /// (m)
+    pub y: f64,
+    /// (rad)
+    pub phi: f64,
+}
+
+impl Pose {
+    /// That of a body, out of the coordinates or their derivatives.
+    #[rustfmt::skip]
+#[must_use]
+    pub fn of(q: &[f64; N], body: Body) -> Self {
+        match body {
+            Body::Arm => Self { x: q[0], y: q[1], phi: q[2] },
+        }
+    }
+}
+
+/// The residual of the equations, each in its unit: see [`row`].
+///
+/// 5 operations.
+pub fn phi(q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let arm_x = q[0];
+    let arm_y = q[1];
+    let arm_phi = q[2];
+
+    let v1 = 1.0 - t;
+    let v2 = libm::sqrt(v1);
+    let v3 = -arm_x;
+    let v4 = -arm_y;
+    let v5 = arm_phi - v2;
+
+    out[0] = v3;
+    out[1] = v4;
+    out[2] = v5;
+    out
+}
+
+/// The Jacobian: the values of its entries, in the order of [`PHI_Q_PATTERN`] (the equation's unit per m or
+/// rad).
+///
+/// 0 operations.
+pub fn phi_q(_q: &[f64; N], _t: f64, _p: &Params) -> [f64; ENTRIES] {
+    let mut out = [0.0; ENTRIES];
+    out[0] = -1.0;
+    out[1] = -1.0;
+    out[2] = 1.0;
+    out
+}
+
+/// The partial derivative of `phi` by time (the equation's unit per s).
+///
+/// 4 operations.
+pub fn phi_t(_q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let v1 = 1.0 - t;
+    let v2 = libm::sqrt(v1);
+    let v3 = 2.0 * v2;
+    let v4 = -1.0 / v3;
+
+    out[2] = -v4;
+    out
+}
+
+/// Right side of the velocity equation `phi_q qd = nu` (the equation's unit per s).
+///
+/// 4 operations.
+pub fn nu(_q: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let v1 = 1.0 - t;
+    let v2 = libm::sqrt(v1);
+    let v3 = 2.0 * v2;
+    let v4 = -1.0 / v3;
+
+    out[2] = v4;
+    out
+}
+
+/// Right side of the acceleration equation `phi_q qdd = gamma` (the equation's unit per s^2).
+///
+/// 7 operations.
+pub fn gamma(_q: &[f64; N], _qd: &[f64; N], t: f64, _p: &Params) -> [f64; N] {
+    let mut out = [0.0; N];
+    let v1 = 1.0 - t;
+    let v2 = libm::sqrt(v1);
+    let v3 = 2.0 * v2;
+    let v4 = -1.0 / v3;
+    let v5 = v4 / v3;
+    let v6 = v4 * v5;
+    let v7 = -2.0 * v6;
+
+    out[2] = v7;
+    out
+}
+
+/// The Jacobian as a full matrix, row by row.
+pub fn phi_q_dense(q: &[f64; N], t: f64, p: &Params) -> [[f64; N]; N] {
+    let mut full = [[0.0; N]; N];
+    for (&(row, column), value) in PHI_Q_PATTERN.iter().zip(phi_q(q, t, p)) {
+        if let Some(entry) = full.get_mut(row).and_then(|line| line.get_mut(column)) {
+            *entry = value;
+        }
+    }
+    full
+}
+
+pub use runtime::error::Error;
+pub use runtime::limits::MOST_STEPS;
+
+/// The mechanism at a time.
+pub type State = runtime::state::State<Model>;
+
+impl State {
+    /// Where a body is (m, m, rad).
+    #[must_use]
+    pub fn pose(&self, body: Body) -> Pose {
+        Pose::of(self.q(), body)
+    }
+
+    /// How fast a body moves (m/s, m/s, rad/s).
+    #[must_use]
+    pub fn velocity(&self, body: Body) -> Pose {
+        Pose::of(self.qd(), body)
+    }
+
+    /// How a body's velocity changes (m/s^2, m/s^2, rad/s^2).
+    #[must_use]
+    pub fn acceleration(&self, body: Body) -> Pose {
+        Pose::of(self.qdd(), body)
+    }
+}
+
+/// Brings the mechanism to its first time with some parameters, along the branch that the file's
+/// parameters give.
+///
+/// # Errors
+/// It cannot be assembled with these, or not on that branch.
+pub fn assemble(params: &Params) -> Result<State, Error> {
+    runtime::assemble::assemble(params)
+}
+
+/// Moves a state to time `t` (s), in steps as short as the motion asks for: position, velocity
+/// and acceleration are those of the branch that it is on, whichever way `t` lies.
+///
+/// It takes [`MOST_STEPS`] steps at most, and mostly one; [`step_within`] takes as many as it is
+/// allowed. What a driver does and undoes within a
+/// step, by formulas without branches, is not seen: no step is longer than [`LONGEST_STEP`].
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach.
+pub fn step(t: f64, state: &mut State) -> Result<(), Error> {
+    step_within(t, state, MOST_STEPS)
+}
+
+/// As [`step`], in so many steps at most, for those who have a deadline: each solves the equations
+/// about once, and one that has to be made shorter counts as well.
+///
+/// # Errors
+/// Why it cannot get there; the state stays at the last time that it could reach. Where that is
+/// [`Error::TooFar`] the same call goes on from there.
+pub fn step_within(t: f64, state: &mut State, most: usize) -> Result<(), Error> {
+    runtime::step::step_within(t, state, most)
+}
+
+/// Number of results at a time.
+pub const COLUMNS: usize = 10;
+
+/// The first time of the file's analysis (s), at which the mechanism is assembled.
+pub const START_TIME: f64 = 0.0;
+
+/// How long the file's analysis takes (s).
+const SPAN: f64 = 1.0;
+
+/// The longest step (s).
+pub const LONGEST_STEP: f64 = 0.03125;
+
+/// The shortest step (s).
+const SMALLEST_STEP: f64 = 1e-12;
+
+/// What a change of each coordinate is judged against.
+#[rustfmt::skip]
+static SCALES: [f64; N] = [
+    1.0, 1.0, 1.0,
+];
+
+/// The assembled position (m, rad).
+#[rustfmt::skip]
+static START: [f64; N] = [
+    0.0, 0.0, 1.0,
+];
+
+/// The mechanism with its parameters.
+#[derive(Clone, Debug)]
+pub struct Model {
+    params: Params,
+}
+
+/// Number of coordinates that Newton solves for; the others follow.
+const TEARS: usize = 0;
+
+/// What a change of each of them is judged against (m, or 1 rad).
+static TEAR_SCALES: [f64; TEARS] = [];
+
+/// Number of blocks of equations whose determinants change with the position.
+const TURNS: usize = 0;
+
+/// Whether they are negative where all pivots are positive.
+static TURNED: [bool; TURNS] = [];
+
+/// Number of places where formulas have branches.
+const SIDES: usize = 0;
+
+/// Which branch is taken at each: what a comparison gives, the number of a piece.
+type Sides = [f64; SIDES];
+
+/// What solves the equations at a time.
+type Solution = runtime::solution::Solution<Model>;
+
+/// Position, velocity and acceleration at a time. Every coordinate follows from those before it.
+///
+/// 7 operations.
+fn solve(_guess: &[f64; TEARS], t: f64, _m: &Model, at: &mut Solution) {
+    at.begin(t);
+    let v1 = 1.0 - t;
+    let arm_phi = libm::sqrt(v1);
+    at.q[2] = arm_phi + 0.0;
+    let v3 = 2.0 * arm_phi;
+    let arm_phi_d = -1.0 / v3;
+    at.qd[2] = arm_phi_d + 0.0;
+    let v5 = arm_phi_d / v3;
+    let v6 = arm_phi_d * v5;
+    let arm_phi_dd = -2.0 * v6;
+    at.qdd[2] = arm_phi_dd + 0.0;
+}
+
+impl Equations for Model {
+    type Q = Q;
+    type Entries = [f64; ENTRIES];
+    type Sides = Sides;
+
+    fn pattern() -> &'static [(usize, usize)] {
+        &PHI_Q_PATTERN
+    }
+
+    fn scales() -> &'static Q {
+        &SCALES
+    }
+
+    fn phi(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        phi(q, t, &self.params)
+    }
+
+    fn phi_q(&self, q: &Q, t: f64, _sides: &Sides) -> Self::Entries {
+        phi_q(q, t, &self.params)
+    }
+
+    fn nu(&self, q: &Q, t: f64, _sides: &Sides) -> Q {
+        nu(q, t, &self.params)
+    }
+
+    fn gamma(&self, q: &Q, qd: &Qd, t: f64, _sides: &Sides) -> Qdd {
+        gamma(q, qd, t, &self.params)
+    }
+}
+
+impl Branches for Model {}
+
+impl Checks for Model {
+    type Watched = [bool; 0];
+}
+
+impl Solved for Model {
+    type Tears = [f64; TEARS];
+    type Turns = [bool; TURNS];
+    type Measures = ();
+    type Joined = [f64; 0];
+    type Along = Time;
+
+    fn tear_scales() -> &'static Self::Tears {
+        &TEAR_SCALES
+    }
+
+    fn turned() -> &'static Self::Turns {
+        &TURNED
+    }
+
+    #[rustfmt::skip]
+    fn tears(_q: &Q) -> Self::Tears {
+        []
+    }
+
+    fn solve(&self, guess: &Self::Tears, t: f64, _sides: &Sides, at: &mut Solution) {
+        solve(guess, t, self, at);
+    }
+
+    fn pivoted(&self, q: &Q, t: f64, sides: &Sides, _at: &Solution) -> Result<Solution, Fault> {
+        solve_with_pivoting(self, q, t, sides)
+    }
+}
+
+/// The width of a cell of each coordinate's grid.
+#[rustfmt::skip]
+static CELLS: [f64; N] = [
+    7.450580596923828e-9, 7.450580596923828e-9, 7.450580596923828e-9,
+];
+
+/// Number of blocks of equations that can be solved one after the other.
+const BLOCKS: usize = 3;
+
+/// The blocks whose determinants change.
+static TURNING: [usize; TURNS] = [];
+
+/// Numbers that the elimination of the largest block works on.
+const WORK: usize = work_of(1);
+
+/// How the equations fall apart into blocks.
+#[rustfmt::skip]
+static EQUATIONS: Blocks<'static> = Blocks {
+    sizes: &[
+        1, 1, 1,
+    ],
+    rows: &[
+        0, 1, 2,
+    ],
+    columns: &[
+        0, 1, 2,
+    ],
+    starts: &[
+        0, 1, 2, 3,
+    ],
+    entries: &[
+        0, 1, 2,
+    ],
+    places: &[
+        0, 1, 2,
+    ],
+    units: &[
+        1.0, 1.0, 1.0,
+    ],
+};
+
+impl Pivoting for Model {
+    type Work = [f64; WORK];
+    type Blocks = [bool; BLOCKS];
+    type Varied = [f64; 0];
+    type Rights = [Q; 0];
+
+    const TOLERANCE: f64 = 1e-12;
+
+    fn blocks() -> &'static Blocks<'static> {
+        &EQUATIONS
+    }
+
+    fn turning() -> &'static [usize] {
+        &TURNING
+    }
+
+    fn cells() -> &'static Q {
+        &CELLS
+    }
+
+    fn rights(&self, _q: &Q, _t: f64, _sides: &Sides) -> [Q; 0] {
+        []
+    }
+
+    fn measured(&self, _orders: [&Q; 4], _varied: &[f64; 0], _t: f64) {}
+}
+
+/// Number of places where a formula of time may end.
+const RIMS: usize = 1;
+
+/// Quantities that are zero where a formula of time may end, and then their slopes.
+///
+/// 1 operations.
+fn rims_of_time(t: f64, _p: &Params) -> [f64; 2 * RIMS] {
+    let mut out = [0.0; 2 * RIMS];
+    let v1 = 1.0 - t;
+
+    out[0] = v1;
+    out[1] = -1.0;
+    out
+}
+
+impl Rimmed for Model {
+    type Gauges = [f64; 2 * RIMS];
+
+    fn gauges(&self, t: f64) -> Self::Gauges {
+        rims_of_time(t, &self.params)
+    }
+}
+
+impl Timed for Model {
+    type Params = Params;
+    type Lead = ();
+    type Passed = [f64; RIMS];
+    type Row = [f64; COLUMNS];
+
+    const START_TIME: f64 = START_TIME;
+    const SPAN: f64 = SPAN;
+    const LONGEST_STEP: f64 = LONGEST_STEP;
+    const SMALLEST_STEP: f64 = SMALLEST_STEP;
+
+    fn new(params: &Params) -> Self {
+        Self { params: *params }
+    }
+
+    fn params(&self) -> &Params {
+        &self.params
+    }
+
+    fn start() -> &'static Q {
+        &START
+    }
+
+    fn first_rim(&self, from: f64, to: f64, passed: &Self::Passed) -> Option<(usize, f64)> {
+        first_rim(self, from, to, passed)
+    }
+
+    fn look_at_rim(state: &mut State, rim: usize, t: f64) -> Result<(), Error> {
+        look_at_rim(state, rim, t)
+    }
+}
