@@ -43,7 +43,8 @@ const policy = [
 ].join("; ");
 const { version } = JSON.parse(from("node_modules/uplot/package.json"));
 const notices = `uPlot ${version}, https://github.com/leeoniya/uPlot\n\n${from("node_modules/uplot/LICENSE").trim()}\n`;
-const page = from("src/page.html").replace("{{policy}}", policy);
+// a page that asks a program is allowed to, by the gap behind
+const page = from("src/page.html").replace("{{policy}}", `${policy}{{connect}}`);
 
 writeFileSync(join(out, "page.js"), script);
 writeFileSync(join(out, "page.css"), style);

@@ -45,6 +45,8 @@ mod ide;
 mod import;
 mod ir;
 mod layout;
+#[cfg(feature = "live")]
+mod live;
 mod lower;
 #[cfg(feature = "lsp")]
 mod lsp;

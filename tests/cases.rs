@@ -1,6 +1,7 @@
 //! Reference answers, computed elsewhere to 20 digits: `tests/cases/NAME.mech` with `NAME.csv`; where a file holds several
-//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test cases four_bar` runs one of them. Those of `tests/cases2` are run by the
-//! command line, with the options of their first line, `// run: …`; `NAME.results.json` has their results.
+//! mechanisms, with `NAME.MECHANISM.csv`. `cargo test --test cases four_bar` runs one of them. Those of `tests/cases2`, and of
+//! `tests/cases3`, which have forces, are run by the command line, with the options of their first line, `// run: …`;
+//! `NAME.results.json` has their results. Those of `tests/forces` have references of forces alone, by hand (`tests/forces/README.md`).
 
 #![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic, clippy::float_cmp)] // a test fails by panicking
 
@@ -28,6 +29,12 @@ fn read(path: &Path) -> Table {
     Table { columns, rows }
 }
 
+/// Every column and time of `want` is in `got`, to `tolerance` times one plus the largest value of the column; and no other column.
+fn compare_all(name: &str, got: &Outcome, want: &Table, tolerance: f64) {
+    compare(name, got, want, tolerance);
+    assert_eq!(got.columns, want.columns, "{name}: the columns");
+}
+
 /// Every column and time of `want` is in `got`, to `tolerance` times one plus the largest value of the column.
 fn compare(name: &str, got: &Outcome, want: &Table, tolerance: f64) {
     for (k, column) in want.columns.iter().enumerate() {
@@ -45,7 +52,6 @@ fn compare(name: &str, got: &Outcome, want: &Table, tolerance: f64) {
             );
         }
     }
-    assert_eq!(got.columns, want.columns, "{name}: the columns");
 }
 
 fn nearest(got: &Outcome, t: f64) -> usize {
@@ -91,7 +97,7 @@ fn matches_its_reference(case: &Case) {
     let want = read(&case.path.with_file_name(format!("{}.csv", case.name)));
     let got = case.run(Span::default());
     assert_eq!(got.rows.len(), want.rows.len() + usize::from(case.name == "functions"), "the rows");
-    compare(&case.name, &got, &want, case.tolerance());
+    compare_all(&case.name, &got, &want, case.tolerance());
 }
 
 fn has_the_same_numbers_at_ten_times_larger_output_steps(case: &Case) {
@@ -119,8 +125,8 @@ fn runs_without_a_word(example: &Path) {
     assert!(got.rows.len() > 20, "{} rows", got.rows.len());
 }
 
-/// What the command line prints for a case of `tests/cases2` has every number of its references, to 1e-9.
-fn is_told_by_the_command_line(path: &Path) {
+/// What the command line prints for a mechanism with the options of its first line.
+fn told_by_the_command_line(path: &Path) -> (Outcome, PathBuf, tempfile::TempDir) {
     let folder = tempfile::tempdir().expect("a folder");
     let outputs = ["table.csv", "results.json"].map(|name| folder.path().join(name));
     let text = fs::read_to_string(path).expect("a text");
@@ -131,15 +137,30 @@ fn is_told_by_the_command_line(path: &Path) {
     mechc.assert().success();
     let Table { columns, rows } = read(&outputs[0]);
     let (diagnostics, sources) = Default::default();
-    let got = Outcome { sources, diagnostics, columns, rows };
+    let [_, results] = outputs;
+    (Outcome { sources, diagnostics, columns, rows }, results, folder)
+}
+
+/// It has every number of its reference, to 1e-9, and of its results.
+fn is_told_by_the_command_line(path: &Path) {
+    let (got, results, _folder) = told_by_the_command_line(path);
     let want = read(&path.with_extension("csv"));
     assert_eq!(got.rows.len(), want.rows.len(), "the rows");
-    compare(&stem(path), &got, &want, 1e-9);
+    compare_all(&stem(path), &got, &want, 1e-9);
+    let text = fs::read_to_string(path).expect("a text");
     let wanted = path.with_extension("results.json");
     assert!(wanted.exists() || !text.contains("result "), "its results have no reference");
     if wanted.exists() {
-        compare_results(&numbers(&outputs[1]), &numbers(&wanted));
+        compare_results(&numbers(&results), &numbers(&wanted));
     }
+}
+
+/// It has the forces that were found by hand.
+fn has_the_forces_of_newton_and_euler(path: &Path) {
+    let (got, ..) = told_by_the_command_line(path);
+    let want = read(&path.with_extension("csv"));
+    assert_eq!(got.rows.len(), want.rows.len(), "the rows");
+    compare(&stem(path), &got, &want, 1e-9);
 }
 
 fn numbers(path: &Path) -> serde_json::Map<String, serde_json::Value> {
@@ -159,11 +180,12 @@ fn compare_results(
 
 fn main() {
     let mut tests = Tests::default();
-    let composed = files("tests/cases2", "mech").into_iter().map(|path| (stem(&path), path));
-    let examples = files("examples", "mech").into_iter().map(|path| (stem(&path), path));
+    let of = |folder: &str| files(folder, "mech").into_iter().map(|path| (stem(&path), path)).collect::<Vec<_>>();
     tests.each("reference", cases(), 55, |case| matches_its_reference(&case));
     tests.each("coarse_steps", cases(), 55, |case| has_the_same_numbers_at_ten_times_larger_output_steps(&case));
-    tests.each("composed", composed, 5, |path| is_told_by_the_command_line(&path));
-    tests.each("example", examples, 20, |path| runs_without_a_word(&path));
+    tests.each("composed", of("tests/cases2"), 5, |path| is_told_by_the_command_line(&path));
+    tests.each("forces", of("tests/cases3"), 4, |path| is_told_by_the_command_line(&path));
+    tests.each("by_hand", of("tests/forces"), 22, |path| has_the_forces_of_newton_and_euler(&path));
+    tests.each("example", of("examples"), 20, |path| runs_without_a_word(&path));
     tests.run()
 }

@@ -41,6 +41,7 @@ const COMMAND_LINE: &[&str] = &[
     "emit::MARK",
     "expr::number",
     "layout",
+    "live",
     "lsp",
     "output",
     "scene",
@@ -217,8 +218,16 @@ fn no_two_rooms_show_types_of_one_name() {
     assert_eq!(shared, SHARED);
 }
 
-/// What a file may use of the platform: threads, which are gone without their feature.
-const PLATFORM: &[(&str, &str)] = &[("analysis/follow/rows/leap.rs", "std::thread")];
+/// What a file may use of the platform: threads, which are gone without their feature; and the server of live pages, which is too, its
+/// connections and their limits.
+const PLATFORM: &[(&str, &str)] = &[
+    ("analysis/follow/rows/leap.rs", "std::thread"),
+    ("live/http.rs", "std::time"),
+    ("live/server.rs", "std::net"),
+    ("live/server.rs", "std::thread"),
+    ("live/server.rs", "std::time"),
+    ("live/workshop.rs", "std::time"),
+];
 
 #[test]
 fn rooms_know_no_files_threads_clock_or_environment() {

@@ -7,6 +7,8 @@
 mod client;
 #[path = "lsp/disk.rs"]
 mod disk;
+#[path = "lsp/live.rs"]
+mod live;
 #[path = "lsp/memory.rs"]
 mod memory;
 #[path = "lsp/pipe.rs"]

@@ -344,7 +344,15 @@ fn inputs(path: &Path) {
                 let is_there = text.split("mechanism ").any(|one| one.starts_with(&mechanism) && one.contains(input));
                 if is_there && compile(path, &text, &choice).is_some() {
                     let (mechanism, name) = (&mechanism, "zin");
-                    seen.take(&Varied { path, text: &text, mechanism, name, value: 0.0, unit: unit.to_owned(), is_input: true });
+                    seen.take(&Varied {
+                        path,
+                        text: &text,
+                        mechanism,
+                        name,
+                        value: 0.0,
+                        unit: unit.to_owned(),
+                        is_input: true,
+                    });
                 }
             }
         }

@@ -28,7 +28,7 @@ fn keywords(wanted: impl Fn(&Keyword) -> bool) -> BTreeSet<String> {
 fn the_grammar_has_the_keywords_of_the_table() {
     assert_eq!(words_of_rule("reserved"), keywords(Keyword::is_reserved));
     assert_eq!(words_of_rule("separator"), keywords(|keyword| keyword.role == Role::Separator));
-    assert_eq!(words_of_rule("opener"), keywords(|keyword| keyword.role == Role::Opener));
+    assert_eq!(words_of_rule("opener"), keywords(|keyword| keyword.role.is_opener()));
     let grammar = fs::read_to_string("grammar/mech.pest").expect("the grammar");
     for keyword in KEYWORDS.iter().filter(|keyword| keyword.role != Role::Side) {
         let name = keyword.word.name;
@@ -46,7 +46,7 @@ fn the_grammar_has_the_keywords_of_the_table() {
         .map(|rule| rule.trim().to_owned())
         .filter(|rule| !rule.is_empty())
         .collect();
-    assert_eq!(named, keywords(|keyword| keyword.role == Role::Feature));
+    assert_eq!(named, keywords(|keyword| matches!(keyword.role, Role::Feature | Role::FeatureOpener)));
 }
 
 #[test]
@@ -328,8 +328,8 @@ fn what_is_said_instead_has_the_value_of_what_was_meant() {
 #[test]
 fn only_what_exists_is_proposed() {
     // one for each kind of argument
-    let of_kinds: [&[&str]; 6] =
-        [&["0.4", "0.3", "0.6"], &["1.4"], &["b.P", "ground.Q"], &["b", "b"], &["joint_b"], &["guide"]];
+    let of_kinds: [&[&str]; 7] =
+        [&["0.4", "0.3", "0.6"], &["1.4"], &["b.P", "ground.Q"], &["b", "b"], &["joint_b"], &["guide"], &["motor"]];
     let checks = |measure: &str| run("said", &with(measure), Span::default()).succeeded();
     for synonym in SYNONYMS {
         for word in synonym.means {
@@ -363,7 +363,8 @@ fn only_what_exists_is_proposed() {
         };
         for name in code_in(&said).into_iter().flat_map(called) {
             let is_joint = vocabulary::JOINTS.iter().any(|joint| joint.word.name == name);
-            assert!(is_joint || vocabulary::is_called(&name), "{said}: `{name}`");
+            let is_quantity = vocabulary::QuantityWord::named(&name).is_some();
+            assert!(is_joint || is_quantity || vocabulary::is_called(&name), "{said}: `{name}`");
         }
         if synonym.place == Place::Call && !said.ends_with('?') {
             for k in 0..code_in(&said).len() {

@@ -19,10 +19,11 @@
   '("if" "then" "else" "and" "or" "not")
   "Words of the language.")
 (defconst mech-mode-openers
-  '("use" "trace" "result" "input" "part")
+  '("use" "load" "trace" "result" "input" "part")
   "Words of the language.")
 (defconst mech-mode-places
-  '("to" "every" "along" "at" "toward" "radius" "from" "spline" "in" "on" "mirrored" "as" "columns" "periodic")
+  '("mass" "gravity" "to" "every" "along" "at" "toward" "radius" "inertia" "from" "on" "spline" "in"
+    "mirrored" "as" "columns" "periodic")
   "Words of the language.")
 (defconst mech-mode-sides
   '("left" "right")
@@ -33,15 +34,17 @@
   "Words of the language.")
 (defconst mech-mode-called
   '("abs" "acos" "angle" "argmax" "argmin" "asin" "at" "atan" "atan2" "cos" "cosh" "curvature" "cycloidal"
-    "der" "direction" "displacement" "distance" "exp" "first" "harmonic" "hypot" "integral" "last" "length"
-    "ln" "log10" "max" "mean" "mid" "min" "mod" "modsine" "polar" "pole_x" "pole_y" "poly" "pressure_angle"
-    "rms" "rotation" "sign" "sin" "sinh" "slip" "speed" "sqrt" "step" "step5" "step7" "tan" "tanh" "x" "y")
+    "der" "direction" "displacement" "distance" "effort" "exp" "first" "force_x" "force_y" "harmonic" "hypot"
+    "integral" "last" "length" "ln" "log10" "max" "mean" "mid" "min" "mod" "modsine" "polar" "pole_x"
+    "pole_y" "poly" "pressure_angle" "rms" "rotation" "sign" "sin" "sinh" "slip" "speed" "sqrt" "step"
+    "step5" "step7" "tan" "tanh" "torque" "x" "y")
   "Words of the language.")
 (defconst mech-mode-constants
   '("t" "pi" "tau")
   "Words of the language.")
 (defconst mech-mode-units
-  '("m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm")
+  '("m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm" "kg" "lbm"
+    "N" "kN" "lbf" "J" "W" "kW" "Pa" "kPa" "MPa" "bar")
   "Words of the language.")
 ;; </words>
 

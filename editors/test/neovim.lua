@@ -1,5 +1,5 @@
 -- What a user does in Neovim: sees a mistake, mends it, completes a point, renames a body in two files, formats, looks at a
--- hover, and runs a lens.
+-- hover, runs a lens, and opens the page of the text.
 -- nvim --headless --clean --cmd 'set runtimepath^=editors/neovim' -c 'luafile editors/test/neovim.lua' FOLDER/four_bar.mech
 
 local PATIENCE = 20000
@@ -137,11 +137,22 @@ function steps.lens()
   vim.cmd('bwipeout!')
 end
 
+-- The page of the text, by the file that leads the browser there.
+function steps.view()
+  local opened
+  vim.ui.open = function(path) opened = path end
+  vim.cmd('MechView')
+  wait('the page', function() return opened end)
+  local leads = table.concat(vim.fn.readfile(opened))
+  assert(leads:find('url=http://127%.0%.0%.1:%d+/#%x+'), leads)
+  vim.cmd('doautocmd CursorMoved')
+end
+
 function steps.save()
   vim.cmd('wall')
 end
 
-local wanted = vim.env.STEPS or 'diagnostic fix complete rename format hover lens save'
+local wanted = vim.env.STEPS or 'diagnostic fix complete rename format hover lens view save'
 local begun = vim.loop.hrtime()
 local ok, fault = pcall(function()
   for step in wanted:gmatch('%S+') do

@@ -16,14 +16,14 @@ const RESERVED = [
 // words that a number may stand before, and that are not its unit; names elsewhere
 // <words separators>
 const SEPARATORS = [
-  'to', 'every', 'along', 'at', 'toward', 'radius', 'from',
+  'to', 'every', 'along', 'at', 'toward', 'radius', 'inertia', 'from', 'on',
 ];
 // </words>
 
 // words that begin a declaration where one begins; names elsewhere, but no unit
 // <words openers>
 const OPENERS = [
-  'use', 'trace', 'result', 'input', 'part',
+  'use', 'mass', 'gravity', 'load', 'trace', 'result', 'input', 'part',
 ];
 // </words>
 
@@ -65,10 +65,10 @@ module.exports = grammar({
     block: $ => seq('{', repeat(choice($._item, $._feature)), '}'),
 
     _item: $ => choice(
-      $.param, $.function, $.table, $.input, $.part, $.ground, $.body, $.joint, $.driver, $.constraint, $.measure, $.trace,
-      $.result, $.analysis,
+      $.param, $.function, $.table, $.input, $.part, $.ground, $.body, $.joint, $.driver, $.constraint, $.gravity, $.load,
+      $.measure, $.trace, $.result, $.analysis,
     ),
-    _feature: $ => choice($.point, $.axis, $.circle, $.curve),
+    _feature: $ => choice($.point, $.axis, $.circle, $.curve, $.mass),
 
     // ---- declarations
 
@@ -126,12 +126,19 @@ module.exports = grammar({
       'curve', field('name', $.identifier),
       begun($._argument, seq(is($), optional(seq('at', field('estimate', $.expression))))),
     ),
+    // a name elsewhere: alone it is none of these
+    mass: $ => seq(
+      'mass', field('mass', $.expression),
+      optional(seq('at', field('center', $.expression))), optional(seq('inertia', field('inertia', $.expression))),
+    ),
 
     joint: $ => seq('joint', $._repeated_name, begun(seq(':', field('value', choice($.call, $._reference))))),
     driver: $ => seq('driver', $._repeated_name, begun(seq(':', field('left', $.expression)), seq('=', field('right', $.expression)))),
     constraint: $ => seq(
       'constraint', $._repeated_name, begun(seq(':', field('left', $.expression)), seq('=', field('right', $.expression))),
     ),
+    gravity: $ => seq('gravity', field('acceleration', $._parenthesized)),
+    load: $ => seq('load', $._repeated_name, begun(seq(':', field('force', $.expression)), seq('on', field('quantity', $.expression)))),
     measure: $ => seq('measure', $._repeated_name, begun(seq(is($), optional($.printed)))),
     trace: $ => seq('trace', $._repeated_name, begun(seq(is($), optional($.printed)))),
     result: $ => seq('result', $._repeated_name, begun(seq(is($), optional($.printed)))),

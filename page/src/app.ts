@@ -6,6 +6,7 @@ import { button, html, press, sign } from "./elements.ts";
 import { keys } from "./keys.ts";
 import { Clock } from "./motion/clock.ts";
 import type { Moment } from "./motion/motion.ts";
+import type { Grasp } from "./live/hand.ts";
 import { Closer } from "./panes/closer.ts";
 import { help } from "./panes/help.ts";
 import type { Deeds, Pane } from "./panes/pane.ts";
@@ -33,6 +34,18 @@ const SWITCHES = [
 
 type Switch = (typeof SWITCHES)[number][1];
 
+/** What a page has that follows a file. */
+export interface Following {
+    /** Sliders, in the place of those of variants. */
+    readonly knobs: Pane;
+    /** What can be taken by the hand in the picture. */
+    readonly hand: Grasp;
+    /** Time goes on: nothing stands still any more. */
+    timeMoves(): void;
+    /** A place of the file was chosen (UTF-16). */
+    show(at: number): void;
+}
+
 export class App implements Deeds {
     readonly element = html("div", { class: "app" });
     readonly picture = new Picture();
@@ -51,11 +64,16 @@ export class App implements Deeds {
     private hasMoved = false;
     private before: number | undefined;
     private wanted = 0;
+    private inputs: ReadonlyMap<string, Float64Array> = new Map();
+    /** Where everything stands while inputs are moved by hand. */
+    private standing: Document | undefined;
+    private chosen: number | undefined;
     private readonly times: { between: number; drawing: number }[] = [];
 
     constructor(
         readonly page: Page,
         private readonly source: Source,
+        private readonly following?: Following,
     ) {
         this.alone.addEventListener("click", () => this.lecture());
         this.picture.views.append(this.alone);
@@ -69,7 +87,9 @@ export class App implements Deeds {
         results.keepRoom(page.variants.length > 1 && page.variants.some(({ messages }) => messages.length > 0));
         this.element.classList.toggle("varies", page.vary.length > 0);
         this.plots.whenPlotted(() => rows.plottedAnew());
-        this.panes = [this.picture, this.transport, this.variants, results, this.plots, text, closer, rows];
+        const knobs = following?.knobs;
+        this.picture.hand = following?.hand;
+        this.panes = [this.picture, this.transport, knobs ?? this.variants, results, this.plots, text, closer, rows];
         const tabs = new Tabs([["Text", text.element], ["Closer look", closer.element], ["Table", rows.element]], () => this.draw());
         this.element.append(
             html(
@@ -77,7 +97,7 @@ export class App implements Deeds {
                 { class: "stage" },
                 html("div", { class: "frame" }, this.picture.element, this.toolbar()),
                 this.transport.element,
-                this.variants.element,
+                (knobs ?? this.variants).element,
                 results.element,
             ),
             html("div", { class: "beside" }, this.plots.element, tabs.element),
@@ -102,7 +122,7 @@ export class App implements Deeds {
     }
 
     get shown(): Document | undefined {
-        return this.document;
+        return this.standing ?? this.document;
     }
 
     get pace(): { between: number; drawing: number } {
@@ -115,6 +135,7 @@ export class App implements Deeds {
         const { from, to } = document.motion;
         const { rows } = document.table;
         this.document = document;
+        this.standing = undefined;
         this.moment = document.motion.moment();
         // what is broken has no time of its own, and takes none away
         if (rows > 0) this.clock.span(from, to, !this.hasMoved);
@@ -122,6 +143,35 @@ export class App implements Deeds {
         this.element.classList.toggle("still", document.table.rows < 2);
         for (const pane of this.panes) pane.show(document, this.wishes);
         this.draw();
+    }
+
+    /** Shows where inputs that are moved by hand have brought everything; time stands still. */
+    stand(at: Document | undefined): void {
+        this.standing = at;
+        this.draw();
+    }
+
+    /** The values of inputs (SI), a row each. */
+    takeInputs(values: readonly (readonly [name: string, values: Float64Array])[]): void {
+        this.inputs = new Map(values);
+    }
+
+    /** What an input is now (SI). */
+    input(name: string): number {
+        const table = this.document?.table;
+        return this.inputs.get(name)?.[table?.nearest(this.time) ?? 0] ?? NaN;
+    }
+
+    /** An editor's cursor is at a place of the file (UTF-16): what is declared there is lit. */
+    point(at: number | null): void {
+        const declarations = this.document?.scene.declarations ?? [];
+        let inner: number | undefined;
+        declarations.forEach(([, , text, from, to], number) => {
+            if (at === null || text !== 0 || at < from || at > to || to <= from) return;
+            const [, , , begin, end] = inner === undefined ? [0, 0, 0, -Infinity, Infinity] : declarations[inner]!;
+            if (to - from < end - begin) inner = number;
+        });
+        this.wishes.point(inner === undefined ? [] : [inner]);
     }
 
     /** Begins to move, unless the reader asked for little motion. */
@@ -133,6 +183,7 @@ export class App implements Deeds {
 
     play(): void {
         if (this.clock.playing || (this.document?.table.rows ?? 0) < 2) return;
+        this.goOn();
         this.clock.playing = true;
         this.before = undefined;
         this.times.length = 0;
@@ -148,6 +199,7 @@ export class App implements Deeds {
     }
 
     seek(time: number): Promise<void> {
+        this.goOn();
         this.clock.go(time);
         this.draw();
         if (!this.clock.playing) this.transport.say();
@@ -178,6 +230,11 @@ export class App implements Deeds {
         if (turn === this.wanted) this.show(document);
     }
 
+    private goOn(): void {
+        this.standing = undefined;
+        this.following?.timeMoves();
+    }
+
     private frame(now: number): void {
         if (!this.clock.playing) return;
         const began = performance.now();
@@ -193,7 +250,8 @@ export class App implements Deeds {
     private draw(): void {
         const { document, moment } = this;
         if (!document || !moment) return;
-        document.motion.at(this.time, moment);
+        (this.standing ?? document).motion.at(this.time, moment);
+        if (this.standing) moment.row = document.table.rowAt(this.time);
         for (const pane of this.panes) pane.draw(moment);
     }
 
@@ -204,8 +262,18 @@ export class App implements Deeds {
             else pane.show(this.document, this.wishes);
         }
         if (change === "pointer") return;
+        this.tellChosen();
         for (const [wish, made] of this.switches) press(made, this.wishes[wish]);
         this.draw();
+    }
+
+    /** What is chosen is shown in the editor. */
+    private tellChosen(): void {
+        const { chosen } = this.wishes;
+        if (chosen === this.chosen) return;
+        this.chosen = chosen;
+        const [, , text, from, to] = this.document?.scene.declarations[chosen ?? -1] ?? [];
+        if (text === 0 && from! < to!) this.following?.show(from!);
     }
 
     /** The picture alone, or everything again. */

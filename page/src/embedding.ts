@@ -15,7 +15,10 @@ export interface Mechc {
     row(): number[];
     /** Where every pin is in the page (CSS pixels). */
     pins(): { point: string; x: number; y: number }[];
-    /** Sets what was varied to the nearest of its values (in its unit); resolves when it is drawn. */
+    /**
+     * Sets what was varied to the nearest of its values (in its unit); on a page that follows a file, a param (in its unit) or an input
+     * (SI); resolves when it is drawn.
+     */
     set(name: string, value: number): Promise<void>;
     /** The medians of the time between two drawings and of the time that one took, of the last second of play (ms). */
     readonly pace: { between: number; drawing: number };
@@ -27,7 +30,8 @@ declare global {
     }
 }
 
-export function embedding(app: App): Mechc {
+/** What an app offers; `set` is another one where params are not varied beforehand. */
+export function embedding(app: App, set = (name: string, value: number) => app.set(name, value)): Mechc {
     return {
         seek: (time) => app.seek(time),
         play: () => app.play(),
@@ -36,14 +40,14 @@ export function embedding(app: App): Mechc {
             return app.time;
         },
         get columns() {
-            return app.page.columns.map(({ name }) => name);
+            return (app.shown?.page ?? app.page).columns.map(({ name }) => name);
         },
         row: () => {
             const shown = app.shown;
-            return shown ? app.page.columns.map((column, place) => printed(column, shown.motion.value(place, app.time))) : [];
+            return shown ? shown.page.columns.map((column, place) => printed(column, shown.motion.value(place, app.time))) : [];
         },
         pins: () => app.picture.pins(),
-        set: (name, value) => app.set(name, value),
+        set,
         get pace() {
             return app.pace;
         },

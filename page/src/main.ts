@@ -4,9 +4,16 @@ import { Embedded, type Document, type Source } from "./data/document.ts";
 import { App } from "./app.ts";
 import { embedding } from "./embedding.ts";
 import { html } from "./elements.ts";
+import { Live } from "./live/live.ts";
+import { Connection, Panel } from "./live/transport.ts";
 
 const began = async (): Promise<void> => {
-    const source: Source = Embedded.of(document.getElementById("mechc")!.textContent!);
+    const data = document.getElementById("mechc")!.textContent!;
+    if (data === "") {
+        new Live(globalThis.acquireVsCodeApi ? new Panel(globalThis.acquireVsCodeApi()) : new Connection(), document.getElementById("page")!);
+        return;
+    }
+    const source: Source = Embedded.of(data);
     const app = new App(source.page, source);
     document.getElementById("page")!.append(app.element);
     window.mechc = embedding(app);

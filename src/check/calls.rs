@@ -25,7 +25,7 @@ const MOST_READ: usize = 16;
 #[derive(Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Call {
     entity: Entity,
-    argument: Option<(ExprId, Option<(u64, u64)>)>,
+    argument: Option<(ExprId, Option<[u64; 3]>)>,
     judged: bool,
     /// Less is said in a branch that is never taken.
     untaken: bool,
@@ -76,7 +76,7 @@ impl<'a> Checker<'a> {
             return None;
         }
         // elsewhere a parameter of that name was rather meant than a quantity that may not stand there
-        let is_quantity = context.measures || self.space.get(&name.text).is_none();
+        let is_quantity = context.rates || self.space.get(&name.text).is_none();
         if is_quantity && self.quantity_word(name).is_some() {
             return self.quantity(e, name, arguments, context);
         }
@@ -123,7 +123,7 @@ impl<'a> Checker<'a> {
         }
         let (formula, name) = (function.value, function.argument);
         let bits = match argument.dim {
-            Dim::Of(d) if context.judged => Some(((d.length + 0.0).to_bits(), (d.time + 0.0).to_bits())),
+            Dim::Of(d) if context.judged => Some([d.length, d.time, d.mass].map(|power| (power + 0.0).to_bits())),
             Dim::Any | Dim::Of(_) => None,
         };
         let call = Call {
@@ -133,7 +133,15 @@ impl<'a> Checker<'a> {
             untaken: self.untaken,
             guard: self.guard,
         };
-        let inner = Context { time: true, quantities: false, measures: false, results: false, names: true, ..*context };
+        let inner = Context {
+            time: true,
+            quantities: false,
+            rates: false,
+            measures: false,
+            results: false,
+            names: true,
+            ..*context
+        };
         self.expand(call, formula, Some((&name.text, argument)), span, &inner)
     }
 

@@ -74,6 +74,13 @@ impl Checker<'_> {
                     .map(|quantity| self.name_symbol(Named::Quantity(self.part, quantity), 0))
             }),
         };
+        let coordinates = coordinates.filter(|pair: &[ExprId; 2]| {
+            let is_of_forces = pair.iter().any(|&id| self.holds_force(id));
+            if is_of_forces {
+                self.report(errors::force_in("a trace", "a force", point.span));
+            }
+            !is_of_forces
+        });
         let asked = self.asked_at_times(conditions, &name.text);
         let units = self.units(point, Some(Dimension::LENGTH), 0, unit);
         if let (Some(coordinates), Some(units)) = (coordinates, units) {
@@ -117,15 +124,18 @@ impl Checker<'_> {
     }
 
     pub(super) fn equations(&mut self) {
-        let mut parts = 0..self.parts.len();
+        let (mut parts, mut own) = (0..self.parts.len(), 0..);
+        self.equations.resize(self.count.equations, None);
         for item in self.items() {
             match &item.kind {
                 ItemKind::Equation { driver, name, left, right } => {
+                    let k = own.next().unwrap_or_default();
                     if let Some((form, dimension)) = self.equation(*driver, name, [left, right]) {
                         let (declared, written) = (self.declared(name), left.span.to(right.span));
                         let driver = *driver && self.drives(form);
                         let is_angle = [left, right].into_iter().any(|side| self.angle_power(side) == 1);
-                        self.model.equations.push(Equation { declared, driver, form, dimension, is_angle, written });
+                        let equation = Equation { declared, driver, form, dimension, is_angle, written };
+                        self.equations[k] = Some(self.model.add_equation(equation));
                     }
                 }
                 ItemKind::Part(_) => {
@@ -136,6 +146,7 @@ impl Checker<'_> {
                 _ => {}
             }
         }
+        self.import_equations();
     }
 
     /// Whether what is a driver in the text is one in the whole: where a part's input follows bodies, it is a constraint.
@@ -274,7 +285,7 @@ impl Checker<'_> {
             .collect()
     }
 
-    fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
+    pub(super) fn a_body_moves(&self, ids: [ExprId; 2]) -> bool {
         self.quantities_in(ids)
             .into_iter()
             .any(|quantity| self.frames_of(quantity).iter().any(|&frame| self.moves(frame)))
@@ -321,7 +332,8 @@ impl Checker<'_> {
 
 /// How the formula of a measure is read.
 pub(super) fn measure_context(judged: bool) -> Context<'static> {
-    Context { judged, time: true, inputs: true, quantities: true, measures: true, ..Context::constant("a measure") }
+    let context = Context::constant("a measure");
+    Context { judged, time: true, inputs: true, quantities: true, rates: true, measures: true, ..context }
 }
 
 /// Whether a side of an equation is a length and nothing else.

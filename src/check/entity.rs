@@ -11,7 +11,8 @@ pub(super) enum Entity {
     Input(usize),
     Body(usize),
     Joint(usize),
-    Equation,
+    Equation(usize),
+    Load,
     Measure(usize),
     Trace,
     Part(usize),
@@ -32,7 +33,8 @@ impl Entity {
             Entity::Input(_) => "an input",
             Entity::Body(_) => "a body",
             Entity::Joint(_) => "a joint",
-            Entity::Equation => "a constraint or driver",
+            Entity::Equation(_) => "a constraint or driver",
+            Entity::Load => "a load",
             Entity::Measure(_) => "a measure",
             Entity::Trace => "a trace",
             Entity::Part(_) => "a part",
@@ -54,7 +56,7 @@ impl Entity {
             Entity::Function(_) | Entity::Table(_) => KindOfName::Function,
             Entity::Body(_) | Entity::Part(_) | Entity::Ground => KindOfName::Body,
             Entity::Joint(_) => KindOfName::Joint,
-            Entity::Equation => KindOfName::Equation,
+            Entity::Equation(_) | Entity::Load => KindOfName::Equation,
         }
     }
 }

@@ -1,10 +1,12 @@
 //! What is said of a mechanism that does not pass.
 
+mod forces;
 pub mod library;
 mod parts;
 mod results;
 mod variables;
 
+pub use forces::*;
 pub use parts::*;
 pub use results::{REDUCES, derivative_of_result, outside_reduction, reduction_in, result_in, variation_of_result};
 pub use variables::*;

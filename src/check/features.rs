@@ -101,6 +101,7 @@ impl<'a> Checker<'a> {
         for &(frame, features) in &frames {
             self.axes_of(frame, features);
             self.profiles_of(frame, features);
+            self.masses_of(frame, features);
         }
         self.in_parts(Checker::read_features);
     }
@@ -125,6 +126,7 @@ impl<'a> Checker<'a> {
                 FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => Feature::Axis(None),
                 FeatureKind::Circle { .. } => Feature::Circle(None),
                 FeatureKind::Curve { .. } => Feature::Curve(None),
+                FeatureKind::Mass { .. } => continue,
                 FeatureKind::Broken if feature.name.text.is_empty() => {
                     if let Some(space) = self.features.get_mut(&frame) {
                         space.declare_nameless();

@@ -69,7 +69,9 @@ pub(super) struct Context<'c> {
     pub inputs: bool,
     /// Whether kinematic quantities may stand.
     pub quantities: bool,
-    /// Whether other measures and `der` may stand.
+    /// Whether `der`, and the quantities that speak of rates, may stand.
+    pub rates: bool,
+    /// Whether other measures, and what comes out of forces, may stand.
     pub measures: bool,
     /// Whether reductions and other results may stand.
     pub results: bool,
@@ -90,6 +92,7 @@ impl<'c> Context<'c> {
             time: false,
             inputs: false,
             quantities: false,
+            rates: false,
             measures: false,
             results: false,
             names: true,
@@ -100,8 +103,8 @@ impl<'c> Context<'c> {
 
     /// The same for another place and argument.
     pub fn at<'p>(&self, place: &'p str, argument: Option<(&'p str, Value)>) -> Context<'p> {
-        let &Context { judged, time, inputs, quantities, measures, results, names, expands, .. } = self;
-        Context { place, judged, time, inputs, quantities, measures, results, names, expands, argument }
+        let &Context { judged, time, inputs, quantities, rates, measures, results, names, expands, .. } = self;
+        Context { place, judged, time, inputs, quantities, rates, measures, results, names, expands, argument }
     }
 }
 
@@ -653,11 +656,15 @@ impl Checker<'_> {
             self.report(errors::derivative_of_result(e.span));
             return None;
         }
-        if !context.measures {
+        if !context.rates {
             self.report(errors::derivative_in(context.place, e.span));
             return None;
         }
         let inner = self.number(argument, context)?;
+        if self.holds_force(inner.id) {
+            self.report(errors::derivative_of_force(e.span));
+            return None;
+        }
         let order = self.derivative_order(inner.id) + 1;
         if order > 3 {
             self.report(errors::derivative_too_high(e.span));

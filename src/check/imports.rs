@@ -45,6 +45,7 @@ impl<'a> Checker<'a> {
             Entity::Input(_) => Entity::Input(next(&mut self.count.inputs)),
             Entity::Body(_) | Entity::Ground => Entity::Body(next(&mut self.count.bodies)),
             Entity::Joint(_) => Entity::Joint(next(&mut self.count.joints)),
+            Entity::Equation(_) => Entity::Equation(next(&mut self.count.equations)),
             Entity::Measure(_) => Entity::Measure(next(&mut self.count.measures)),
             Entity::Result(_) => Entity::Result(next(&mut self.count.results)),
             other => other,
@@ -98,6 +99,16 @@ impl<'a> Checker<'a> {
             for import in imports {
                 let (Entity::Joint(k), Entity::Joint(m)) = (import.entity, import.inside) else { continue };
                 set(&mut self.joints, k, child.joints.get(m).copied(), None);
+            }
+        }
+    }
+
+    /// The same of their constraints and drivers.
+    pub(super) fn import_equations(&mut self) {
+        for (imports, child) in self.imports.iter().zip(&self.parts) {
+            for import in imports {
+                let (Entity::Equation(k), Entity::Equation(m)) = (import.entity, import.inside) else { continue };
+                set(&mut self.equations, k, child.equations.get(m).copied(), None);
             }
         }
     }

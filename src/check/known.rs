@@ -321,7 +321,11 @@ pub fn slopes(tree: &Mechanism, function: &str, surroundings: &Surroundings, sou
         Symbol::Param(k) => model.params[k as usize].declared.name.clone(),
         Symbol::Named(_) => argument.text.clone(),
         Symbol::Time | Symbol::Signal { .. } => "t".to_owned(),
-        Symbol::Coordinate { .. } | Symbol::Varied { .. } | Symbol::Shift(_) => "0".to_owned(),
+        Symbol::Coordinate { .. }
+        | Symbol::Varied { .. }
+        | Symbol::Shift(_)
+        | Symbol::Multiplier(_)
+        | Symbol::VariedMultiplier { .. } => "0".to_owned(),
     });
     Some([printer.text(first), printer.text(second)])
 }

@@ -73,10 +73,13 @@ impl Checker<'_> {
         from
     }
 
-    /// Leaves of a mechanism that is led what leads it: its analysis is of another time.
+    /// Leaves of a mechanism that is led what leads it: its analysis is of another time, and forces have no part in it.
     pub(super) fn leave_what_leads(&mut self) {
         if self.lead.is_some() {
             self.model.measures.clear();
+            self.model.masses.clear();
+            self.model.loads.clear();
+            self.model.gravity = None;
             self.model.outcomes.clear();
             self.model.reductions.clear();
             self.model.analysis = None;

@@ -46,7 +46,7 @@ impl Checker<'_> {
         let synonym = Synonym::of(Place::Call, &name.text);
         let is_rate = name.text == "speed" || synonym.is_some_and(|synonym| synonym.means.contains(&"der"));
         let quantity = self.quantity_of(joint).filter(|_| is_rate)?;
-        if !context.measures {
+        if !context.rates {
             return Some(self.in_its_equation(e.span, &quantity));
         }
         let synonym = synonym?;

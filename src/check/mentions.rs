@@ -78,11 +78,14 @@ pub fn name_of(item: &Item) -> Option<&Name> {
         | ItemKind::Body { name, .. }
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
+        | ItemKind::Load { name, .. }
         | ItemKind::Measure { name, .. }
         | ItemKind::Trace { name, .. }
         | ItemKind::Result { name, .. } => Some(name),
         ItemKind::Part(part) => Some(&part.name),
-        ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
+        ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => {
+            None
+        }
     }
 }
 
@@ -110,6 +113,8 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
         }
         ItemKind::Joint { arguments, .. } => arguments.iter().collect(),
         ItemKind::Equation { left, right, .. } => vec![left, right],
+        ItemKind::Gravity { acceleration } => vec![acceleration],
+        ItemKind::Load { force, on, .. } => vec![force, on],
         ItemKind::Analysis { from, to, every } => vec![from, to, every],
     }
 }
@@ -122,6 +127,7 @@ fn parts(feature: &FeatureKind) -> Vec<&Expr> {
         FeatureKind::AxisTo { origin, target } => vec![origin, target],
         FeatureKind::Circle { center, radius } => vec![center, radius],
         FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
+        FeatureKind::Mass { mass, at, inertia } => std::iter::once(mass).chain(at).chain(inertia).collect(),
     }
 }
 

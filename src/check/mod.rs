@@ -14,6 +14,7 @@ mod elements;
 mod entity;
 mod errors;
 mod features;
+mod forces;
 mod formula;
 mod imports;
 mod inputs;
@@ -60,7 +61,9 @@ pub use tables::TableFiles;
 
 use crate::diag::{Diagnostic, Diagnostics};
 use crate::expr::{Dependence, ExprId, Graph, Symbol};
-use crate::model::{Condition, Declared, Dimension, Frame, JointId, Mechanism, Named, NamedId, Param, PartId, PointId};
+use crate::model::{
+    Condition, Declared, Dimension, EquationId, Frame, JointId, Mechanism, Named, NamedId, Param, PartId, PointId,
+};
 use crate::source::{Sources, Span};
 use crate::syntax::ast::{self, Expr, Item, ItemKind, Name, TableRows, WrittenUnit};
 use crate::syntax::normalized;
@@ -102,6 +105,8 @@ pub struct Surroundings {
     pub lead: Option<Lead>,
     /// Names by which all columns are differentiated.
     pub by: Vec<String>,
+    /// Whether what all joints exert and all drivers supply is tabulated.
+    pub reactions: bool,
     /// Whether inputs stay signals in the model, rather than being replaced by what they are.
     pub has_signals: bool,
     /// The paths of parts whose derivatives are by their own equations alone, though they move together with what is around them.
@@ -338,6 +343,8 @@ struct Checker<'a> {
     results: Vec<ResultState<'a>>,
     result_order: Vec<usize>,
     joints: Vec<Option<JointId>>,
+    /// Constraints and drivers; `None` where one is broken.
+    equations: Vec<Option<EquationId>>,
     features: FxHashMap<Frame, Space<Feature>>,
     /// The constant lengths come upon.
     lengths: Lengths<'a>,
@@ -382,6 +389,7 @@ impl<'a> Checker<'a> {
             diagnostics: Diagnostics::default(),
             model: Mechanism {
                 has_signals: surroundings.has_signals,
+                reactions: surroundings.reactions,
                 ..Mechanism::new(Declared { name: tree.name.text.clone(), span: tree.name.span }, tree.docs.clone())
             },
             space: Space::new(),
@@ -418,6 +426,7 @@ impl<'a> Checker<'a> {
             bodies: Vec::new(),
             frames: Vec::new(),
             joints: Vec::new(),
+            equations: Vec::new(),
             features: FxHashMap::default(),
             lengths: Lengths::default(),
             broken_poses: FxHashSet::default(),
@@ -445,9 +454,19 @@ impl<'a> Checker<'a> {
         self.features();
         self.joints();
         self.bind_inputs();
+        // an effort is that of an equation which is there; else measures come first, as the order of symbols, and with it the bits of
+        // rows, has always been
+        let asks_for_efforts = self.asks_for_efforts();
+        if asks_for_efforts {
+            self.equations();
+        }
         self.measure_values();
         self.list_measures();
-        self.equations();
+        if !asks_for_efforts {
+            self.equations();
+        }
+        self.gravity();
+        self.loads();
         self.analysis();
         self.results();
         self.leave_what_leads();
@@ -624,7 +643,7 @@ impl<'a> Checker<'a> {
                             // what is in a part is known when the part is, but for what nothing here asks the number of
                             let part = used.text.split_once('.').and_then(|(part, _)| self.space.get(part));
                             let entity = match entity {
-                                Some(Entity::Body(_) | Entity::Joint(_) | Entity::Ground) => None,
+                                Some(Entity::Body(_) | Entity::Joint(_) | Entity::Equation(_) | Entity::Ground) => None,
                                 entity => part.or(entity),
                             };
                             // no input may stand in what an option says of one, which is told there

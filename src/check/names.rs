@@ -17,6 +17,7 @@ pub(super) struct Count {
     pub inputs: usize,
     pub bodies: usize,
     pub joints: usize,
+    pub equations: usize,
     pub measures: usize,
     pub results: usize,
     pub parts: usize,
@@ -106,7 +107,8 @@ impl Checker<'_> {
                 ItemKind::Input { name, .. } => (name, Entity::Input(next(&mut count.inputs))),
                 ItemKind::Body { name, .. } => (name, Entity::Body(next(&mut count.bodies))),
                 ItemKind::Joint { name, .. } => (name, Entity::Joint(next(&mut count.joints))),
-                ItemKind::Equation { name, .. } => (name, Entity::Equation),
+                ItemKind::Equation { name, .. } => (name, Entity::Equation(next(&mut count.equations))),
+                ItemKind::Load { name, .. } => (name, Entity::Load),
                 ItemKind::Measure { name, .. } => (name, Entity::Measure(next(&mut count.measures))),
                 ItemKind::Trace { name, .. } => (name, Entity::Trace),
                 ItemKind::Part(part) => (&part.name, Entity::Part(next(&mut count.parts))),
@@ -115,7 +117,7 @@ impl Checker<'_> {
                     self.collect_broken(names);
                     continue;
                 }
-                ItemKind::Ground { .. } | ItemKind::Analysis { .. } => continue,
+                ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => continue,
             };
             let callable = matches!(entity, Entity::Function(_) | Entity::Table(_));
             let is_reserved = is_taken(&name.text) || callable && is_called(&name.text) && !gives_way(&name.text);
@@ -207,10 +209,11 @@ impl Checker<'_> {
     }
 
     fn only_once(&mut self, mechanism: &Mechanism) {
-        let (mut ground, mut analysis) = (None, None);
+        let (mut ground, mut gravity, mut analysis) = (None, None, None);
         for item in &mechanism.items {
             let (first, word) = match item.kind {
                 ItemKind::Ground { .. } => (&mut ground, "ground"),
+                ItemKind::Gravity { .. } => (&mut gravity, "gravity"),
                 ItemKind::Analysis { .. } => (&mut analysis, "analysis"),
                 _ => continue,
             };

@@ -282,6 +282,7 @@ impl Checker<'_> {
             judged,
             time: false,
             quantities: false,
+            rates: false,
             measures: false,
             ..context.at("a point", context.argument)
         };

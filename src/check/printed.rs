@@ -51,6 +51,11 @@ impl Checker<'_> {
             self.report(errors::turning_in_hertz(written.name.span, formula.span));
             return None;
         }
+        let joule = unit.factors().zip(&written.factors).find(|((unit, _), _)| unit.word.name == "J");
+        if let Some((_, written)) = joule.filter(|_| own.is(Dimension::ENERGY) && self.is_torque(formula)) {
+            self.report(errors::torque_in_joules(written.name.span, formula.span));
+            return None;
+        }
         Some(Units::of(&unit, angle == 1))
     }
 

@@ -27,8 +27,11 @@ impl Checker<'_> {
             self.report(errors::quantity_in(context.place, &name.text, e.span));
             return None;
         }
+        if QuantityWord::named(&name.text).is_some_and(|quantity| quantity.is_force) {
+            return self.force(e, name, arguments, context);
+        }
         let is_of_measures = QuantityWord::named(&name.text).is_some_and(|quantity| quantity.gives_way);
-        if !context.measures && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
+        if !context.rates && (is_of_measures || name.text == "angle" && arguments.len() == 3) {
             let diagnostic = errors::quantity_of_measures(context.place, &name.text, e.span);
             let diagnostic = match self.rate_of_joint(e, name, arguments, context) {
                 Some(fix) => diagnostic.instead(fix),
@@ -157,6 +160,27 @@ impl Checker<'_> {
 
     /// A joint of the kind that has the quantity.
     fn joint_with(&mut self, quantity: &str, e: &Expr) -> Option<JointId> {
+        let (joint, name) = self.joint_named(quantity, e)?;
+        let kind = self.model[joint].kind;
+        let (fits, wanted) = match quantity {
+            "rotation" => (matches!(kind, JointKind::Revolute(..)), "revolute"),
+            "pressure_angle" | "slip" => {
+                let has_contact =
+                    matches!(kind, JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..));
+                (has_contact, "`point_follower`, `cam` and `flat_follower`")
+            }
+            _ => (matches!(kind, JointKind::Translational(..)), "translational"),
+        };
+        if fits {
+            return Some(joint);
+        }
+        let declared = self.model[joint].declared.clone();
+        self.report(errors::joint_without(quantity, wanted, &declared.name, kind.word(), name.span, declared.span));
+        None
+    }
+
+    /// The joint that an argument names, of whatever kind.
+    pub(super) fn joint_named<'e>(&mut self, quantity: &str, e: &'e Expr) -> Option<(JointId, &'e Name)> {
         let ExprKind::Name(name) = &e.bare().kind else {
             let found = Self::describe(e);
             self.report(errors::wrong_kind(e.span, "a joint", found));
@@ -176,22 +200,7 @@ impl Checker<'_> {
                 return None;
             }
         };
-        let kind = self.model[joint].kind;
-        let (fits, wanted) = match quantity {
-            "rotation" => (matches!(kind, JointKind::Revolute(..)), "revolute"),
-            "pressure_angle" | "slip" => {
-                let has_contact =
-                    matches!(kind, JointKind::PointFollower(..) | JointKind::Cam(..) | JointKind::FlatFollower(..));
-                (has_contact, "`point_follower`, `cam` and `flat_follower`")
-            }
-            _ => (matches!(kind, JointKind::Translational(..)), "translational"),
-        };
-        if fits {
-            return Some(joint);
-        }
-        let declared = self.model[joint].declared.clone();
-        self.report(errors::joint_without(quantity, wanted, &declared.name, kind.word(), name.span, declared.span));
-        None
+        Some((joint, name))
     }
 
     /// A body of that name, or the ground.

@@ -298,6 +298,12 @@ impl<'t, 'c> Writer<'t, 'c> {
                 left: self.formula(left, numbers)?,
                 right: self.formula(right, numbers)?,
             },
+            ItemKind::Gravity { acceleration } => {
+                ItemKind::Gravity { acceleration: self.formula(acceleration, numbers)? }
+            }
+            ItemKind::Load { name, force, on } => {
+                ItemKind::Load { name: own(name), force: self.formula(force, numbers)?, on: self.formula(on, numbers)? }
+            }
             ItemKind::Part(part) => ItemKind::Part(self.part(part, numbers)?),
             other => other.clone(),
         })
@@ -336,6 +342,11 @@ impl<'t, 'c> Writer<'t, 'c> {
                     argument: argument.clone(),
                     at: of(at)?,
                     estimate: estimate.as_ref().map(of).transpose()?,
+                },
+                FeatureKind::Mass { mass, at, inertia } => FeatureKind::Mass {
+                    mass: of(mass)?,
+                    at: at.as_ref().map(&mut of).transpose()?,
+                    inertia: inertia.as_ref().map(of).transpose()?,
                 },
             };
             Ok(Feature { docs: feature.docs.clone(), span: feature.span, name: feature.name.clone(), kind })

@@ -164,7 +164,12 @@ impl Checker<'_> {
         let changes = |symbol: &Symbol| match symbol {
             Symbol::Param(_) | Symbol::Shift(_) => false,
             Symbol::Named(k) => !is_reduction(*k),
-            Symbol::Time | Symbol::Signal { .. } | Symbol::Coordinate { .. } | Symbol::Varied { .. } => true,
+            Symbol::Time
+            | Symbol::Signal { .. }
+            | Symbol::Coordinate { .. }
+            | Symbol::Varied { .. }
+            | Symbol::Multiplier(_)
+            | Symbol::VariedMultiplier { .. } => true,
         };
         !symbols.iter().any(changes)
     }

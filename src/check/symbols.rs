@@ -63,6 +63,8 @@ pub enum NameKind {
     Constraint,
     /// `driver`
     Driver,
+    /// `load`
+    Load,
     /// `measure`
     Measure,
     /// `trace`
@@ -242,6 +244,7 @@ impl Walk<'_> {
             ItemKind::Joint { name, .. } => (name, NameKind::Joint),
             ItemKind::Equation { name, driver: true, .. } => (name, NameKind::Driver),
             ItemKind::Equation { name, .. } => (name, NameKind::Constraint),
+            ItemKind::Load { name, .. } => (name, NameKind::Load),
             ItemKind::Measure { name, .. } => (name, NameKind::Measure),
             ItemKind::Trace { name, .. } => (name, NameKind::Trace),
             ItemKind::Part(part) => (&part.name, NameKind::Part),
@@ -261,7 +264,7 @@ impl Walk<'_> {
                 }
                 return None;
             }
-            ItemKind::Analysis { .. } => return None,
+            ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => return None,
         };
         let id = self.declare(name, kind, item.span, None);
         self.names.entry(name.text.clone()).or_insert(id);
@@ -278,7 +281,7 @@ impl Walk<'_> {
                 FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => NameKind::Axis,
                 FeatureKind::Circle { .. } => NameKind::Circle,
                 FeatureKind::Curve { .. } => NameKind::Curve,
-                FeatureKind::Broken => NameKind::Broken,
+                FeatureKind::Broken | FeatureKind::Mass { .. } => NameKind::Broken,
             };
             let id = self.declare(&feature.name, kind, feature.span, Some(owner));
             // two grounds are one, for those who look for a point
@@ -341,10 +344,11 @@ impl Walk<'_> {
                     self.formula(argument, plain);
                 }
             }
-            ItemKind::Equation { left, right, .. } => {
+            ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
                 self.formula(left, plain);
                 self.formula(right, plain);
             }
+            ItemKind::Gravity { acceleration } => self.formula(acceleration, plain),
             ItemKind::Analysis { from, to, every } => {
                 for time in [from, to, every] {
                     self.formula(time, plain);
@@ -383,6 +387,15 @@ impl Walk<'_> {
                     self.read(at, Scope { argument: Some((&argument.text, declared)), ..own }, Wanted::Point);
                     if let Some(estimate) = estimate {
                         self.formula(estimate, own);
+                    }
+                }
+                FeatureKind::Mass { mass, at, inertia } => {
+                    self.formula(mass, own);
+                    if let Some(at) = at {
+                        self.read(at, own, Wanted::Point);
+                    }
+                    if let Some(inertia) = inertia {
+                        self.formula(inertia, own);
                     }
                 }
                 FeatureKind::Broken => {}

@@ -71,9 +71,14 @@ pub(super) enum Command {
         mechc run linkage.mech --at 0.25 --at '1/3' --format json\n  mechc run linkage.mech --set crank_length=60mm"
     )]
     Run(RunArguments),
-    /// The mechanism as a picture, still or moving
+    /// The mechanism as a live page, or as a picture, still or moving
     #[command(
-        long_about = "The mechanism as a picture, still or moving.\n\n\
+        long_about = "The mechanism as a live page, or as a picture, still or moving.\n\n\
+        Without -o, a page is served at an address of this machine, which is printed: nobody who has not its last part is answered. The page \
+        follows the file, and those that it uses. While the text is wrong the last picture stays, with the messages. Every param has a \
+        slider, which leads the mechanism along its branch, as `mechc run --lead --set` does. An input's slider moves it by hand while time \
+        stands still, up to a dead point. A crank can be turned in the picture, and a point that a param is moved. What was found goes \
+        back into the file if that is asked for. Ctrl-C ends it.\n\n\
         Bodies are drawn as links, joints and drivers as symbols in the manner of ISO 3952, wheels with teeth that mesh; symbols are as \
         large as the extent of the whole motion asks for. Traces of the file are drawn, and those of `--trace`.\n\n\
         Without --at, OUT.svg moves, over and over, without a script: as a picture of a README or a slide. One run takes 6 s; a motion \
@@ -93,7 +98,7 @@ pub(super) enum Command {
         text draws it: what is left free as dashed arrows, redundant joints in rings. One that cannot be assembled is shown with \
         everything closed but the joint that stays open, and a dashed line between the two halves of that; lengths that are too short or too \
         long are red. `mechc explain view` has the page of all this.",
-        after_help = "Examples:\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
+        after_help = "Examples:\n  mechc view linkage.mech\n  mechc view linkage.mech --open\n  mechc view linkage.mech -o linkage.svg\n  mechc view linkage.mech -o start.svg --at 0 --labels\n  \
         mechc view linkage.mech -o strobe.svg --at 0 --at 0.1 --at 0.2 --trace coupler.pen\n  \
         mechc view linkage.mech -o slide.svg --at 0.25 --vectors --size 1280x720 --theme light\n  \
         mechc view linkage.mech -o plots.svg\n  mechc view linkage.mech -o frames/%04d.svg --every 40ms\n  \
@@ -362,7 +367,7 @@ pub(super) enum Stage {
 }
 
 /// When an analysis begins and ends, over what the file says.
-#[derive(Args, Debug, Default)]
+#[derive(Args, Clone, Debug, Default)]
 pub(super) struct Interval {
     /// First time, in seconds or with a unit
     #[arg(long, value_name = "T", allow_hyphen_values = true)]
@@ -406,6 +411,10 @@ pub(super) struct RunArguments {
     #[arg(long, value_name = "NAME")]
     pub by: Vec<String>,
 
+    /// Tabulate what every joint exerts and every driver and constraint supplies: `NAME.fx`, `NAME.fy`, `NAME.torque`, `NAME.effort`
+    #[arg(long)]
+    pub reactions: bool,
+
     /// Assemble with the file's own values, and go over to those of `--set` along the branch
     #[arg(long)]
     pub lead: bool,
@@ -433,9 +442,17 @@ pub(super) struct ViewArguments {
     #[command(flatten)]
     pub input: Input,
 
-    /// Where the picture goes; its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
+    /// Where the picture goes; without it a page is served that follows the file. Its ending says what is drawn (.svg, .html, .dxf), `%04d` in its name a film's pictures, `plots.svg` plots
     #[arg(short, long, value_name = "OUT")]
     pub output: Option<String>,
+
+    /// Open the page that follows the file in the browser
+    #[arg(long, conflicts_with = "output")]
+    pub open: bool,
+
+    /// The port of the page that follows the file; one that is free if not given
+    #[arg(long, value_name = "PORT", conflicts_with = "output")]
+    pub port: Option<u16>,
 
     /// A slider on the page for a parameter: N values from A to B, each solved beforehand: `--vary rod_length=120mm..180mm:13`. Twice
     /// at most

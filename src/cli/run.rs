@@ -24,7 +24,12 @@ pub(super) fn run(arguments: &RunArguments, reporter: &mut Reporter) -> Result<(
     // the process ends with the command: to take a large mechanism apart first would only take time
     let parsed = ManuallyDrop::new(input::parsed(&arguments.input, reporter)?);
     timings.end(Phase::Parse);
-    let choice = Choice { by: arguments.by.clone(), lead: arguments.lead, ..input::choice(&arguments.input) };
+    let choice = Choice {
+        by: arguments.by.clone(),
+        lead: arguments.lead,
+        reactions: arguments.reactions,
+        ..input::choice(&arguments.input)
+    };
     let compiled = input::compiled_as(&parsed, &choice, arguments.allow_redundant, reporter, &mut timings)?;
     let compiled = ManuallyDrop::new(compiled);
     let times = times::asked((&arguments.interval, &arguments.at), compiled.analysis(), &mut reporter.sources)?;

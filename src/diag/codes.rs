@@ -79,6 +79,8 @@ catalogue! {
         E0309 Error "a number and a condition confused"
         E0310 Error "a derivative where it may not stand"
         E0311 Error "an equation in which no body takes part"
+        E0312 Error "a mass or a force where it may not stand"
+        E0313 Error "a load on something else than a quantity of positions"
         E0318 Error "points of two frames in one formula"
         E0322 Error "a result or reduction where it may not stand, or something else in its place"
     }
@@ -100,9 +102,12 @@ catalogue! {
         E0415 Error "a periodic table whose ends differ"
         E0416 Error "a row of a table or of samples that is not all numbers"
         E0417 Error "an argument out of a table's range"
+        E0418 Error "a mass or moment of inertia below zero"
+        E0419 Error "a load whose work is no energy"
         E0422 Error "a time of a result that is not within the analysis"
         W0401 Warning "an angle that was probably meant in degrees"
         W0402 Warning "a length that has lost its unit"
+        W0403 Warning "gravity that does not count"
     }
     "degrees of freedom and the start" {
         E0501 Error "an empty mechanism"

@@ -370,7 +370,7 @@ impl Scene for SolverScene<'_> {
                 None => at(format!("at.along.by_signal[{by}][{of}]")),
                 Some(param) => Operand::of(format!("by[{param}][{of}]"), &["by"]),
             },
-            Holds::Time | Holds::Appended(_) | Holds::Varied => {
+            Holds::Time | Holds::Appended(_) | Holds::Varied | Holds::Multiplier | Holds::Reaction(_) => {
                 debug_assert!(false, "no code has a place for {held:?}");
                 Operand::Number(f64::NAN)
             }

@@ -68,6 +68,15 @@ pub enum Symbol {
         /// By what; the owner of the graph gives these numbers.
         variation: u32,
     },
+    /// The Lagrange multiplier of an equation, by the number of its row.
+    Multiplier(u32),
+    /// Its derivative by something else than time.
+    VariedMultiplier {
+        /// Number of the row.
+        row: u32,
+        /// By what; the owner of the graph gives these numbers.
+        variation: u32,
+    },
 }
 
 /// The number of the signal that time is where inputs are signals: its rate is 1, but along a way on which it is one of them.
@@ -209,6 +218,10 @@ impl Dependence {
     pub const TIME: Dependence = Dependence(2);
     /// On named symbols.
     pub const NAMED: Dependence = Dependence(4);
+    /// On multipliers.
+    pub const MULTIPLIERS: Dependence = Dependence(1024);
+    /// On what multipliers are differentiated to.
+    pub const VARIED_MULTIPLIERS: Dependence = Dependence(2048);
 
     /// On the coordinates' derivatives of one order.
     #[must_use]
@@ -260,6 +273,8 @@ impl Dependence {
             Symbol::Named(_) => Self::NAMED,
             Symbol::Coordinate { order, .. } => Self::coordinates(order),
             Symbol::Varied { order, .. } => Self::varied(order),
+            Symbol::Multiplier(_) => Self::MULTIPLIERS,
+            Symbol::VariedMultiplier { .. } => Self::VARIED_MULTIPLIERS,
         }
     }
 }

@@ -189,9 +189,9 @@ fn name_for(item: &Item, quantity: Span, dimension: Dimension) -> &'static str {
         (Dimension::LENGTH, "length"),
         (Dimension::TIME, "duration"),
         (Dimension::RATE, "rate"),
-        (Dimension { length: 0.0, time: -2.0 }, "angular_acceleration"),
-        (Dimension { length: 1.0, time: -1.0 }, "speed"),
-        (Dimension { length: 1.0, time: -2.0 }, "acceleration"),
+        (Dimension::ANGULAR_ACCELERATION, "angular_acceleration"),
+        (Dimension::SPEED, "speed"),
+        (Dimension::ACCELERATION, "acceleration"),
     ];
     match &item.kind {
         ItemKind::Analysis { every, .. } if every.span.start <= quantity.start => "time_step",

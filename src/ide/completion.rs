@@ -18,7 +18,9 @@ use super::workspace::is_mech;
 use super::written::holds_letters;
 use crate::stages::Checked;
 use crate::syntax::ast::Mechanism;
-use crate::vocabulary::{FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, Word};
+use crate::vocabulary::{
+    FUNCTIONS, Group, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, Word, is_before_a_name,
+};
 use crate::world::{World, beside};
 use cursor::{Block, Cursor};
 use proposals::Whole;
@@ -117,7 +119,7 @@ impl Here<'_> {
         let fits = |keyword: &&Keyword| match (block, keyword.role) {
             (Block::File, Role::Declaration | Role::Opener) => matches!(keyword.word.name, "mechanism" | "use"),
             (Block::Mechanism, Role::Declaration | Role::Opener) => !matches!(keyword.word.name, "mechanism" | "use"),
-            (Block::Features, Role::Feature) => true,
+            (Block::Features, Role::Feature | Role::FeatureOpener) => true,
             _ => false,
         };
         let mut items: Vec<Item> = KEYWORDS.iter().filter(fits).map(declaration).collect();
@@ -138,6 +140,9 @@ impl Here<'_> {
             "body" | "curve" => &["at"],
             "axis" if !cursor.has("along") && !cursor.has("to") => &["along", "to"],
             "circle" => &["radius"],
+            "mass" if cursor.has("at") => &["inertia"],
+            "mass" => &["at", "inertia"],
+            "load" if !cursor.has("on") => &["on"],
             "measure" | "trace" | "result" if !cursor.has("in") => &["in"],
             "part" if cursor.has("at") => &["mirrored"],
             "part" if cursor.has("on") => &["at", "mirrored"],
@@ -158,7 +163,9 @@ impl Here<'_> {
         let is_behind_colon = cursor.last() == Some(":");
         match (cursor.head(), cursor.last()) {
             // a new name
-            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && head != "analysis" => Vec::new(),
+            (head, Some(last)) if head == last && cursor.declaration().len() == 1 && is_before_a_name(head) => {
+                Vec::new()
+            }
             ("analysis", Some("analysis")) => self.joining(),
             ("measure" | "trace" | "result", Some("in")) => units::printed(),
             ("joint", _) if is_behind_colon => self.joints(),
@@ -324,10 +331,12 @@ fn is_drawn(head: &str) -> bool {
 
 /// The words that a formula of a declaration may call.
 fn called(head: &str) -> impl Iterator<Item = &'static Word> {
-    let has_quantities = matches!(head, "measure" | "trace" | "result" | "driver" | "constraint" | "part");
+    let has_quantities = matches!(head, "measure" | "trace" | "result" | "driver" | "constraint" | "load" | "part");
+    let has_forces = matches!(head, "measure" | "result");
     let has_reductions = head == "result";
     let is_drawn = is_drawn(head);
-    let quantities = QUANTITIES.iter().filter(move |_| has_quantities).map(|quantity| &quantity.word);
+    let quantities = QUANTITIES.iter().filter(move |quantity| has_quantities && (has_forces || !quantity.is_force));
+    let quantities = quantities.map(|quantity| &quantity.word);
     let reductions = REDUCTIONS.iter().filter(move |_| has_reductions).map(|reduction| &reduction.word);
     let is_there = move |function: &&crate::vocabulary::Function| match function.group {
         Group::Points => is_drawn,

@@ -23,6 +23,8 @@ pub enum LensKind {
     Run(String),
     /// `mechc check` of it.
     Check(String),
+    /// `mechc view` of it.
+    View(String),
     /// What a result came to.
     Result(String),
 }
@@ -39,7 +41,8 @@ pub fn lenses(snapshot: &Snapshot, path: &Path) -> Option<Vec<Lens>> {
         let range = mechanism.span.start..mechanism.span.end;
         let name = &mechanism.name;
         let of = |kind: LensKind| Lens { range: range.clone(), kind };
-        lenses.extend([of(LensKind::Run(name.clone())), of(LensKind::Check(name.clone()))]);
+        let own = [LensKind::View(name.clone()), LensKind::Run(name.clone()), LensKind::Check(name.clone())];
+        lenses.extend(own.map(of));
         let moved = moved.iter().flat_map(|all| all.iter()).find(|moved| moved.mechanism == *name);
         lenses.extend(
             moved.map(|moved| of_results(checked, moved, is_of_before || moved.is_cut_short)).unwrap_or_default(),
@@ -73,6 +76,7 @@ mod tests {
 
     fn shown(lenses: &[Lens]) -> Vec<String> {
         let line = |lens: &Lens| match &lens.kind {
+            LensKind::View(name) => format!("view {name}"),
             LensKind::Run(name) => format!("run {name}"),
             LensKind::Check(name) => format!("check {name}"),
             LensKind::Result(title) => title.clone(),
@@ -87,12 +91,12 @@ mod tests {
         let text = FOUR_BAR.replacen("    analysis", &format!("{results}    analysis"), 1);
         let (snapshot, place) = at_cursor(&format!("{text}$0"));
         let now = |snapshot: &crate::ide::Snapshot| shown(&lenses(snapshot, &place.path).expect("lenses"));
-        assert_eq!(now(&snapshot), ["run four_bar", "check four_bar"]);
+        assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar"]);
         snapshot.moved(&place.path, &Cancel::default).expect("it moves");
-        assert_eq!(now(&snapshot), ["run four_bar", "check four_bar", "60.4876 deg", "no value"]);
+        assert_eq!(now(&snapshot), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg", "no value"]);
         let edited = snapshot.with_text(&place.path, Some(text.replacen("swing", "swung", 1).into()));
-        assert_eq!(now(&edited), ["run four_bar", "check four_bar", "no value …"]);
+        assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "no value …"]);
         let edited = edited.with_text(&place.path, Some(text.replacen("60 deg +", "60 dg +", 1).into()));
-        assert_eq!(now(&edited), ["run four_bar", "check four_bar", "60.4876 deg …", "no value …"]);
+        assert_eq!(now(&edited), ["view four_bar", "run four_bar", "check four_bar", "60.4876 deg …", "no value …"]);
     }
 }

@@ -256,11 +256,14 @@ pub(super) fn declared_name(item: &Item) -> Option<&Name> {
         | ItemKind::Body { name, .. }
         | ItemKind::Joint { name, .. }
         | ItemKind::Equation { name, .. }
+        | ItemKind::Load { name, .. }
         | ItemKind::Measure { name, .. }
         | ItemKind::Trace { name, .. }
         | ItemKind::Result { name, .. } => Some(name),
         ItemKind::Part(part) => Some(&part.name),
-        ItemKind::Ground { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => None,
+        ItemKind::Ground { .. } | ItemKind::Gravity { .. } | ItemKind::Broken { .. } | ItemKind::Analysis { .. } => {
+            None
+        }
     }
 }
 
@@ -277,10 +280,11 @@ pub(super) fn kind_of(item: &Item) -> NameKind {
         ItemKind::Joint { .. } => NameKind::Joint,
         ItemKind::Equation { driver: true, .. } => NameKind::Driver,
         ItemKind::Equation { .. } => NameKind::Constraint,
+        ItemKind::Load { .. } => NameKind::Load,
         ItemKind::Measure { .. } => NameKind::Measure,
         ItemKind::Trace { .. } => NameKind::Trace,
         ItemKind::Result { .. } => NameKind::Result,
-        ItemKind::Broken { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
+        ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
     }
 }
 
@@ -310,7 +314,10 @@ pub(super) fn formulas(item: &Item) -> Vec<&Expr> {
             all.extend(pose.iter().flat_map(DrawnPose::parts).chain(features.iter().flat_map(of_feature)));
         }
         ItemKind::Joint { arguments, .. } => all.extend(arguments),
-        ItemKind::Equation { left, right, .. } => all.extend([left, right]),
+        ItemKind::Equation { left, right, .. } | ItemKind::Load { force: left, on: right, .. } => {
+            all.extend([left, right]);
+        }
+        ItemKind::Gravity { acceleration } => all.push(acceleration),
         ItemKind::Analysis { from, to, every } => all.extend([from, to, every]),
         ItemKind::Table { .. } | ItemKind::Broken { .. } => {}
     }
@@ -326,6 +333,7 @@ pub(super) fn of_feature(feature: &Feature) -> Vec<&Expr> {
         }
         FeatureKind::Circle { center, radius } => vec![center, radius],
         FeatureKind::Curve { at, estimate, .. } => std::iter::once(at).chain(estimate).collect(),
+        FeatureKind::Mass { mass, at, inertia } => std::iter::once(mass).chain(at).chain(inertia).collect(),
         FeatureKind::Broken => Vec::new(),
     }
 }

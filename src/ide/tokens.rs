@@ -91,7 +91,7 @@ fn of_name(kind: NameKind) -> Option<TokenKind> {
         NameKind::Part | NameKind::Prefix => TokenKind::Part,
         NameKind::Ground | NameKind::Body => TokenKind::Body,
         NameKind::Point | NameKind::Axis | NameKind::Circle | NameKind::Curve => TokenKind::Feature,
-        NameKind::Joint | NameKind::Constraint | NameKind::Driver => TokenKind::Equation,
+        NameKind::Joint | NameKind::Constraint | NameKind::Driver | NameKind::Load => TokenKind::Equation,
         NameKind::Function | NameKind::Table => TokenKind::Function,
         NameKind::Argument => TokenKind::Argument,
         NameKind::Param | NameKind::Input | NameKind::Measure | NameKind::Trace | NameKind::Result => TokenKind::Value,

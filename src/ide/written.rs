@@ -1,6 +1,6 @@
 //! What stands around a byte of a text, by its characters alone: so it is known in a text that is half typed too.
 
-use crate::vocabulary::{Keyword, Role};
+use crate::vocabulary::Keyword;
 use std::ops::Range;
 
 /// Whether a character is one of a name.
@@ -138,7 +138,7 @@ fn declaration_before(text: &str, offset: usize) -> usize {
         let line = &text[start..];
         let first = line.trim_start().split(|c: char| !is_of_word(c)).next().unwrap_or_default();
         let begins =
-            Keyword::named(first).is_some_and(|keyword| keyword.begins_declaration() || keyword.role == Role::Opener);
+            Keyword::named(first).is_some_and(|keyword| keyword.begins_declaration() || keyword.role.is_opener());
         if begins || start == 0 {
             return start;
         }

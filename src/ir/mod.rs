@@ -24,6 +24,7 @@
 
 mod equations_of;
 mod features;
+mod forces;
 mod ids;
 mod print;
 mod results;
@@ -38,6 +39,7 @@ mod variations;
 
 pub use crate::vocabulary::JointKind;
 pub use features::{Axis, Circle, Point};
+pub use forces::{Forces, Reaction};
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
@@ -88,6 +90,8 @@ pub struct ConstraintSystem {
     pub phi_q: SparseRows,
     /// The right sides of the equations that follow from `Φ = 0`.
     right_sides: Vec<RightSide>,
+    /// What holds the motion, where somebody asks for it.
+    pub forces: Option<Forces>,
     /// Derivatives by inputs and parameters, where there are any.
     pub variations: Option<Box<Variations>>,
     /// What is tabulated beside the coordinates.
@@ -454,6 +458,7 @@ impl ConstraintSystem {
             rows: Vec::new(),
             phi_q: SparseRows::new(),
             right_sides: Vec::new(),
+            forces: None,
             variations: None,
             measures: Vec::new(),
             results: Results::default(),
@@ -528,6 +533,7 @@ impl ConstraintSystem {
     pub fn leave_out(&mut self, rows: &[usize], checks: Vec<Check>) {
         let stays = |k: &usize| rows.binary_search(k).is_err();
         let kept: Vec<usize> = (0..self.rows.len()).filter(stays).collect();
+        self.renumber_multipliers(&kept);
         self.rows = kept.iter().map(|&row| self.rows[row]).collect();
         self.phi_q = self.phi_q.of_rows(&kept);
         self.right_sides.iter_mut().for_each(|side| side.keep(&kept));

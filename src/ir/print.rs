@@ -25,6 +25,10 @@ impl ConstraintSystem {
                 let of = self.symbol_name(Symbol::Coordinate { index, order });
                 self.variation_name(&of, variation)
             }
+            Symbol::Multiplier(row) => format!("lambda of {}", self.row_name(row as usize)),
+            Symbol::VariedMultiplier { row, variation } => {
+                self.variation_name(&self.symbol_name(Symbol::Multiplier(row)), variation)
+            }
         }
     }
 

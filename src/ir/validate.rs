@@ -158,7 +158,7 @@ impl ConstraintSystem {
                 self.has_signals && order == 0 && self.inputs.iter().any(|of| of.index == index)
             }
             Symbol::Coordinate { index, order } => order == 0 && (index as usize) < self.coordinates.len(),
-            Symbol::Named(_) | Symbol::Varied { .. } => false,
+            Symbol::Named(_) | Symbol::Varied { .. } | Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => false,
         }
     }
 }

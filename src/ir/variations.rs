@@ -58,6 +58,9 @@ pub struct Variation {
     /// The right sides for `q`, `q̇` and `q̈`, one entry per row, of the part if it is of one [unit of the row, per time, per unit of the
     /// variables].
     pub rights: [Vec<ExprId>; 3],
+    /// The right sides of the equations for the multipliers, one entry per coordinate, where somebody asks for these [unit of the
+    /// coordinate's force per unit of the variable]. Only those by one variable have them.
+    pub forces: Vec<ExprId>,
 }
 
 /// A derivative that is a column of its own.
@@ -143,6 +146,10 @@ impl Variations {
                 let variation = self.number(first, Some(variable));
                 Some(graph.symbol(Symbol::Varied { index, order, variation }))
             }
+            Symbol::Multiplier(row) => {
+                let variation = self.number(variable, None);
+                Some(graph.symbol(Symbol::VariedMultiplier { row, variation }))
+            }
             _ => None,
         })
     }
@@ -162,7 +169,7 @@ impl Variations {
             self.number(b, None);
         }
         let number = self.list.len() as u32;
-        self.list.push(Variation { by, scope: self.scope_of(by.0), rights: Default::default() });
+        self.list.push(Variation { by, scope: self.scope_of(by.0), rights: Default::default(), forces: Vec::new() });
         self.numbers.insert(by, number);
         number
     }
@@ -181,7 +188,7 @@ impl Variations {
     }
 
     /// The right sides of all variations that have none yet, for rows of `Φ`.
-    fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId]) {
+    fn write_rights(&mut self, graph: &mut Graph, phi: &[ExprId], open_forces: &[ExprId]) {
         for scope in &mut self.scopes {
             scope.derive(graph, &self.leaves);
         }
@@ -215,6 +222,10 @@ impl Variations {
                 };
                 let slopes = without_leaves(graph, &self.leaves, &slopes);
                 self.list[number].rights[order] = slopes.into_iter().map(|slope| graph.neg(slope)).collect();
+            }
+            if second.is_none() && self.list[number].scope.is_none() {
+                let is_solved_for = |symbol| matches!(symbol, Symbol::Multiplier(_));
+                self.list[number].forces = self.along(graph, open_forces, first, &is_solved_for);
             }
         }
     }
@@ -278,16 +289,18 @@ impl ConstraintSystem {
     /// The right sides of the variations.
     pub fn derive_variations(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        let open_forces = self.open_forces();
         if let Some(variations) = &mut self.variations {
-            variations.write_rights(&mut self.graph, &phi);
+            variations.write_rights(&mut self.graph, &phi, &open_forces);
         }
     }
 
     /// The right sides of the variations that only results need.
     pub fn derive_variations_of_results(&mut self) {
         let phi: Vec<ExprId> = self.rows.iter().map(|row| row.phi).collect();
+        let open_forces = self.open_forces();
         if let Some(variations) = &mut self.results.variations {
-            variations.write_rights(&mut self.graph, &phi);
+            variations.write_rights(&mut self.graph, &phi, &open_forces);
         }
     }
 

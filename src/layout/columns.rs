@@ -55,6 +55,8 @@ pub enum ColumnKind {
     Body,
     /// A coordinate that a joint brings along, or its derivative.
     Joint,
+    /// What a joint exerts, or a constraint or driver supplies.
+    Reaction,
     /// What the text measures or traces.
     Measure,
     /// A derivative of that.
@@ -77,6 +79,11 @@ fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
     Some(match holds {
         Holds::Time => Column { name: "t".to_owned(), unit: ColumnUnit::si("s"), kind: ColumnKind::Time },
         Holds::Coordinate { index, order } => of_coordinate(&system.coordinates[index], order),
+        Holds::Reaction(index) => {
+            let of = &system.reactions()[index];
+            let unit = ColumnUnit::si(of.unit.clone());
+            Column { name: of.name.clone(), unit, kind: ColumnKind::Reaction }
+        }
         Holds::Measure { index, order } => {
             let measure = &system.measures[index];
             let name = measure.name.clone() + ENDINGS[order].0;
@@ -88,7 +95,7 @@ fn column(system: &ConstraintSystem, holds: Holds) -> Option<Column> {
             let unit = ColumnUnit { text: of.unit.clone(), scale: of.scale };
             Column { name: of.name.clone(), unit, kind: ColumnKind::Variation }
         }
-        Holds::Slope { .. } | Holds::Varied => return None,
+        Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => return None,
     })
 }
 

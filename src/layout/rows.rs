@@ -9,6 +9,8 @@ enum Stretch {
     Time,
     /// All coordinates, differentiated so many times by time.
     Coordinates(usize),
+    /// What joints exert and drivers supply.
+    Reactions,
     /// The measures that can be differentiated so many times by time, likewise.
     Measures(usize),
     /// Derivatives that were asked for as columns of their own.
@@ -17,12 +19,15 @@ enum Stretch {
     BySignal,
     /// The variations: for each `q`, `q̇` and `q̈`, one behind the other.
     Varied,
+    /// The multipliers, where forces are asked for; behind them how these vary, variation by variation.
+    Multipliers,
 }
 
 /// The stretches of the table, in their order.
-const PRINTED: [Stretch; 8] = [
+const PRINTED: [Stretch; 9] = [
     Stretch::Time,
     Stretch::Coordinates(0),
+    Stretch::Reactions,
     Stretch::Measures(0),
     Stretch::Coordinates(1),
     Stretch::Measures(1),
@@ -32,7 +37,7 @@ const PRINTED: [Stretch; 8] = [
 ];
 
 /// What only measures need, behind the table.
-const UNPRINTED: [Stretch; 3] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied];
+const UNPRINTED: [Stretch; 4] = [Stretch::Coordinates(3), Stretch::BySignal, Stretch::Varied, Stretch::Multipliers];
 
 /// What a column holds.
 #[derive(Clone, Copy, PartialEq, Eq, Debug)]
@@ -46,6 +51,8 @@ pub enum Holds {
         /// How many times.
         order: usize,
     },
+    /// What a joint exerts or a driver supplies, by its place among all of these.
+    Reaction(usize),
     /// A measure, likewise.
     Measure {
         /// Its number.
@@ -64,6 +71,8 @@ pub enum Holds {
     },
     /// A part of a variation.
     Varied,
+    /// A multiplier, or how one varies.
+    Multiplier,
 }
 
 /// What the columns of the table hold, in order.
@@ -91,10 +100,12 @@ impl Stretch {
             Stretch::Time => 1,
             Stretch::Coordinates(3) if system.jerk().is_none() => 0,
             Stretch::Coordinates(_) => n,
+            Stretch::Reactions => system.reactions().len(),
             Stretch::Measures(order) => measures_with(system, order).count(),
             Stretch::Appended => system.appended().len(),
             Stretch::BySignal => n * (system.by_inputs().len() + system.by_params().len()),
             Stretch::Varied => 3 * n * system.variations().len(),
+            Stretch::Multipliers => system.needed_forces().len() * (1 + system.variations().len()),
         }
     }
 
@@ -105,6 +116,7 @@ impl Stretch {
             Stretch::Coordinates(order) => {
                 (0..system.coordinates.len()).map(|index| Holds::Coordinate { index, order }).collect()
             }
+            Stretch::Reactions => (0..system.reactions().len()).map(Holds::Reaction).collect(),
             Stretch::Measures(order) => {
                 measures_with(system, order).map(|index| Holds::Measure { index, order }).collect()
             }
@@ -114,6 +126,7 @@ impl Stretch {
                 (0..self.length(system)).map(|place| Holds::Slope { of: place % n, by: place / n }).collect()
             }
             Stretch::Varied => vec![Holds::Varied; self.length(system)],
+            Stretch::Multipliers => vec![Holds::Multiplier; self.length(system)],
         }
     }
 }
@@ -123,12 +136,16 @@ impl Stretch {
 pub struct RowLayout {
     /// First column of `q`, `q̇`, `q̈`, `q⃛`.
     pub coordinates: [u32; 4],
+    /// First column of what joints exert and drivers supply.
+    pub reactions: u32,
     /// First column of the measures, and of their first and second derivatives.
     pub measures: [u32; 3],
     /// First of the derivatives that stand behind all other columns of the table.
     pub appended: u32,
     /// First column of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
     pub varied: u32,
+    /// First column of the multipliers; behind them how these vary, variation by variation.
+    pub multipliers: u32,
     /// Whether there are columns for `q⃛`.
     pub has_jerk: bool,
     /// First column of the derivatives of `q` by each signal and parameter.
@@ -145,9 +162,11 @@ impl RowLayout {
     pub fn new(system: &ConstraintSystem) -> RowLayout {
         let mut layout = RowLayout {
             coordinates: [0; 4],
+            reactions: 0,
             measures: [0; 3],
             appended: 0,
             varied: 0,
+            multipliers: 0,
             has_jerk: system.jerk().is_some(),
             by_signal: 0,
             printed: PRINTED.iter().map(|stretch| stretch.length(system)).sum(),
@@ -158,10 +177,12 @@ impl RowLayout {
             match stretch {
                 Stretch::Time => {}
                 Stretch::Coordinates(order) => layout.coordinates[order] = first,
+                Stretch::Reactions => layout.reactions = first,
                 Stretch::Measures(order) => layout.measures[order] = first,
                 Stretch::Appended => layout.appended = first,
                 Stretch::BySignal => layout.by_signal = first,
                 Stretch::Varied => layout.varied = first,
+                Stretch::Multipliers => layout.multipliers = first,
             }
             layout.stride += stretch.length(system);
         }

@@ -34,7 +34,7 @@ impl Lowering<'_> {
 
     /// Where a joint takes hold (m), in the ground's frame: of its second point, of the second axis' point, of the second circle's centre,
     /// of the contact.
-    fn place(&mut self, joint: JointId) -> Option<Vector> {
+    pub(super) fn place(&mut self, joint: JointId) -> Option<Vector> {
         let model = self.model;
         let point = match model[joint].kind {
             JointKind::Revolute(_, q) | JointKind::Weld(_, q, _) | JointKind::RevoluteRevolute(_, q, _) => q,

@@ -4,6 +4,7 @@
 
 mod contacts;
 mod features;
+mod forces;
 mod frames;
 mod gears;
 mod inputs;
@@ -19,7 +20,7 @@ mod uses;
 mod variations;
 mod velocities;
 
-use crate::expr::{Comparison, ExprId, Graph, Symbol, TIME_SIGNAL};
+use crate::expr::{Comparison, Dependence, ExprId, Graph, Symbol, TIME_SIGNAL};
 use crate::ir::{
     self, Body, Condition, ConstraintSystem, Coordinate, CoordinateKind, Declaration, DeclarationId, DeclarationKind,
     Fit, IdVec, Measure, OpenContact, Owner, Param, Row, RowUnit, Units, Variations, Watch,
@@ -116,6 +117,13 @@ struct Lowering<'m> {
     coordinates: Vec<Coordinate>,
     rows: Vec<Row>,
     declarations: IdVec<DeclarationId, Declaration>,
+    /// By constraint or driver of the model, its declaration.
+    of_equations: Vec<DeclarationId>,
+    /// By named symbol, whether it holds forces: these are named when there are rows.
+    of_forces: Vec<bool>,
+    has_rows: bool,
+    /// What joints exert, as far as it has been asked for.
+    reactions: FxHashMap<JointId, forces::Reaction>,
     conditions: Vec<Condition>,
     known_conditions: FxHashSet<ExprId>,
     watches: Vec<Watch>,
@@ -181,6 +189,10 @@ impl<'m> Lowering<'m> {
             coordinates: Vec::new(),
             rows: Vec::new(),
             declarations: IdVec::default(),
+            of_equations: vec![DeclarationId::from(0); model.equations.len()],
+            of_forces: forces::of_forces(model),
+            has_rows: false,
+            reactions: FxHashMap::default(),
             conditions: Vec::new(),
             known_conditions: FxHashSet::default(),
             watches: Vec::new(),
@@ -201,10 +213,12 @@ impl Lowering<'_> {
         self.body_coordinates();
         self.joint_rows();
         self.equation_rows();
+        self.name_forces();
         self.rows_of_scopes();
         self.conditions();
         let mut system = ConstraintSystem::empty(model.declared.name.clone(), model.declared.span);
         system.points = self.points();
+        system.forces = self.forces();
         system.measures = self.measures();
         system.parts = self.part_starts();
         system.asking_parts = self.asking_parts();
@@ -230,6 +244,8 @@ impl Lowering<'_> {
     fn ask_of_the_whole(&mut self, system: &mut ConstraintSystem) {
         self.graph = std::mem::take(&mut system.graph);
         self.coordinates.clone_from(&system.coordinates);
+        self.rows.clone_from(&system.rows);
+        self.declarations = system.declarations.clone();
         self.variations = system.variations.as_deref().map(Variations::without_columns);
         system.results = self.results();
         system.graph = std::mem::take(&mut self.graph);
@@ -249,20 +265,35 @@ impl Lowering<'_> {
     /// Named symbols up to one, in their order: each speaks only of those before it.
     fn named_up_to(&mut self, end: usize) {
         for k in self.named.len()..end {
-            let id = match self.model.named[k] {
-                Named::Quantity(view, quantity) => self.quantity(view, quantity),
-                Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
-                Named::Derivative(inner) => {
-                    let inner = self.formula(inner);
-                    ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
-                }
-                Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
-                Named::Held(part, bound) => self.held(part, bound),
-                Named::Reduction(k) => self.reduced(k),
-                // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
-                Named::Argument => self.graph.constant(0.0),
-            };
+            let id = self.named(k);
             self.named.push(id);
+        }
+    }
+
+    /// Names what holds forces, as there are rows now.
+    fn name_forces(&mut self) {
+        self.has_rows = true;
+        for k in (0..self.named.len()).filter(|&k| self.of_forces[k]).collect::<Vec<usize>>() {
+            self.named[k] = self.named(k);
+        }
+    }
+
+    fn named(&mut self, k: usize) -> ExprId {
+        match self.model.named[k] {
+            // of these nothing is asked before there are rows
+            _ if self.of_forces[k] && !self.has_rows => self.graph.constant(0.0),
+            Named::Quantity(view, quantity) => self.quantity(view, quantity),
+            Named::Force(view, force) => self.force(view, force),
+            Named::Exists(view, quantity) => self.seen_from(view, |l| l.existence(quantity)),
+            Named::Derivative(inner) => {
+                let inner = self.formula(inner);
+                ConstraintSystem::time_derivatives(&mut self.graph, &[inner], 3)[0]
+            }
+            Named::By(inner, variable, part) => self.derivative_within(k, inner, variable, part),
+            Named::Held(part, bound) => self.held(part, bound),
+            Named::Reduction(k) => self.reduced(k),
+            // a curve's formulas are carried over for each contact; else only formulas that nobody uses hold it
+            Named::Argument => self.graph.constant(0.0),
         }
     }
 
@@ -398,6 +429,7 @@ impl Lowering<'_> {
                     EquationForm::Distance(p, q, _) => vec![p, q],
                 };
                 let entry = (self.equation_row(equation.form), unit_of(equation));
+                self.of_equations[number] = self.declarations.next_id();
                 self.declare(&equation.declared, kind, &[entry], &points);
                 if let Some(declaration) = self.declarations.last_mut() {
                     declaration.written = Some(equation.written);
@@ -489,6 +521,10 @@ impl Lowering<'_> {
     fn along_the_motion(&mut self, id: ExprId) -> Option<ExprId> {
         let dependence = self.graph.dependence(id);
         if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
+            return None;
+        }
+        // forces jump where loads do, and nobody differentiates them
+        if dependence.on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS)) {
             return None;
         }
         Some(ConstraintSystem::time_derivatives(&mut self.graph, &[id], 3)[0])

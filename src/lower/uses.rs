@@ -56,7 +56,7 @@ fn of_formulas(model: &Mechanism, formulas: &[ExprId], points: &mut Vec<PointId>
                 Named::Quantity(_, quantity) => of_quantity(model, quantity, points),
                 // it speaks only of symbols before it
                 Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => open.push(inner),
-                Named::Argument | Named::Reduction(_) | Named::Exists(..) => {}
+                Named::Argument | Named::Reduction(_) | Named::Exists(..) | Named::Force(..) => {}
             }
         }
     }

@@ -16,6 +16,8 @@ pub(super) struct Client {
     abilities: Vec<Ability>,
     /// Whether it has the commands `mechc.run` and `mechc.check`, each called with a URI and the name of a mechanism.
     pub can_run: bool,
+    /// Whether it has the command that shows a page.
+    pub can_view: bool,
     /// What it can be told to ask for again.
     pub refreshes: Refreshes,
 }
@@ -66,6 +68,7 @@ impl Client {
             pulls_diagnostics: is("/capabilities/textDocument/diagnostic")
                 && is("/capabilities/workspace/diagnostics/refreshSupport"),
             abilities: ABILITIES.iter().filter(|(_, path)| is(path)).map(|(ability, _)| *ability).collect(),
+            can_view: has_command("mechc.view"),
             can_run: has_command("mechc.run") && has_command("mechc.check"),
             refreshes: Refreshes {
                 hints: is("/capabilities/workspace/inlayHint/refreshSupport"),

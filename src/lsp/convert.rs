@@ -149,7 +149,7 @@ pub(super) fn symbol_kind(kind: NameKind) -> lsp::SymbolKind {
         NameKind::Function => lsp::SymbolKind::Function,
         NameKind::Argument | NameKind::Measure | NameKind::Trace | NameKind::Result => lsp::SymbolKind::Variable,
         NameKind::Table => lsp::SymbolKind::Array,
-        NameKind::Input | NameKind::Driver => lsp::SymbolKind::Event,
+        NameKind::Input | NameKind::Driver | NameKind::Load => lsp::SymbolKind::Event,
         NameKind::Ground | NameKind::Body => lsp::SymbolKind::Class,
         NameKind::Part => lsp::SymbolKind::Object,
         NameKind::Point | NameKind::Axis | NameKind::Circle | NameKind::Curve => lsp::SymbolKind::Field,

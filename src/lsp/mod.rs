@@ -21,6 +21,7 @@ mod server;
 mod stages;
 mod transport;
 mod uri;
+mod views;
 
 pub use log::Log;
 pub use server::{Ended, serve};

@@ -8,6 +8,7 @@ use super::lines::Position;
 use super::log::Log;
 use super::pool::{Kind, Pool, caught};
 use super::stages::{Found, Shown};
+use super::views::{Event, Meant, Views};
 use crate::cancel::Cancel;
 use crate::ide::{self, Snapshot, Stage};
 use crate::world::World;
@@ -24,6 +25,9 @@ const MOTION_LIMIT: Duration = Duration::from_secs(10);
 
 /// The request for diagnostics, which may have to wait for them.
 pub(super) const PULL: &str = "textDocument/diagnostic";
+
+/// The requests of live pages: their address for a browser, or the page for a panel; what a panel asks and writes.
+pub(super) const VIEWS: [&str; 4] = ["mechc/view", "mechc/view/panel", "mechc/view/ask", "mechc/view/write"];
 
 /// A motion is followed once nobody has typed for so long: what has begun does not end at once, and takes from the next keystroke's words.
 const MOTION_DELAY: Duration = Duration::from_millis(250);
@@ -50,6 +54,9 @@ pub enum Ended {
 pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
     let Connection { sender, receiver } = connection;
     let (done, tasks) = unbounded();
+    let snapshot = Snapshot::new(world);
+    let (tell, events) = unbounded();
+    let views = Views::new(snapshot.buffers().clone(), tell);
     let mut server = Server {
         client: Client::of(&Value::Null),
         state: State::New,
@@ -58,19 +65,20 @@ pub fn serve(connection: Connection, world: Arc<dyn World>, log: Log) -> Ended {
         pool: Pool::new(),
         log,
         documents: Documents::default(),
-        snapshot: Snapshot::new(world),
+        snapshot,
         shown: BTreeMap::new(),
         edited: None,
         revision: 0,
         motions: Vec::new(),
         search: Cancel::default(),
         due: Vec::new(),
+        views,
         pending: HashMap::new(),
         pulls: Vec::new(),
         next_id: 0,
         folders: Vec::new(),
     };
-    server.run(&receiver, &tasks)
+    server.run(&receiver, &tasks, &events)
 }
 
 /// How far a session has come.
@@ -84,6 +92,8 @@ enum State {
 /// What the pool has done.
 enum Task {
     Answered(RequestId, Result<Value, Failure>),
+    /// What a live page asked for is known.
+    Viewed(RequestId, Result<Value, String>),
     /// The files of the client's folders.
     Files(Vec<Arc<Path>>),
     /// A motion of a revision is begun, with what ends it.
@@ -134,6 +144,8 @@ struct Server {
     due: Vec<(Arc<Path>, Instant)>,
     pending: HashMap<RequestId, Pending>,
     pulls: Vec<Pull>,
+    /// The live pages.
+    views: Views,
     /// Of the server's own requests.
     next_id: i32,
     /// What the client has open.
@@ -141,7 +153,7 @@ struct Server {
 }
 
 impl Server {
-    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>) -> Ended {
+    fn run(&mut self, receiver: &Receiver<Message>, tasks: &Receiver<Task>, events: &Receiver<Event>) -> Ended {
         loop {
             select! {
                 recv(receiver) -> message => match message {
@@ -159,6 +171,7 @@ impl Server {
                     }
                 },
                 recv(tasks) -> task => task.map_or((), |task| self.task(task)),
+                recv(events) -> event => event.map_or((), |event| self.event(event)),
                 default(self.patience()) => {}
             }
             self.end_long_motions();
@@ -204,12 +217,79 @@ impl Server {
                 self.answer(id, Value::Null);
             }
             (State::Running, PULL) => self.pull(id, &params),
+            (State::Running, name) if VIEWS.contains(&name) => self.view(id, name, &params),
             (State::Running, name) => match TABLE.iter().find(|method| method.name == name) {
                 Some(method) => self.begin(id, method, params),
                 None => self.refuse(id, ErrorCode::MethodNotFound, &format!("there is no method `{name}`")),
             },
             (State::ShutDown, _) => self.refuse(id, ErrorCode::InvalidRequest, "it is shut down"),
         }
+    }
+
+    /// A request of a live page.
+    fn view(&mut self, id: RequestId, name: &str, params: &Value) {
+        let Some(uri) = params.pointer("/textDocument/uri").and_then(Value::as_str) else {
+            self.refuse(id, ErrorCode::InvalidParams, "it names no text");
+            return;
+        };
+        let mechanism = params.get("mechanism").and_then(Value::as_str).map(str::to_owned);
+        let meant = Meant { path: self.file_of(uri), uri: uri.to_owned(), mechanism };
+        let done = self.done.clone();
+        let answer = {
+            let id = id.clone();
+            move |answer| {
+                let _ = done.send(Task::Viewed(id, answer));
+            }
+        };
+        match name {
+            "mechc/view/panel" => {
+                let panel = self.views.panel(meant);
+                self.answer(id, panel);
+            }
+            "mechc/view/ask" => self.views.ask(meant, &params["asked"], answer),
+            "mechc/view/write" => self.views.write(meant, &params["asked"], answer),
+            _ => answer(self.views.address(meant)),
+        }
+    }
+
+    /// The cursor of the client is elsewhere.
+    fn pointed(&mut self, params: &Value) -> Option<()> {
+        let path = self.file_of(params.get("textDocument")?.get("uri")?.as_str()?);
+        let document = self.documents.get(&path)?;
+        let at = document.offset(position(params.get("position")?)?, self.client.encoding) as usize;
+        let before = document.text().get(..at)?;
+        self.views.point(&path, Some(before.encode_utf16().count() as u32));
+        Some(())
+    }
+
+    /// Has the client change what differs between a text and another one.
+    fn write(&mut self, path: &Path, text: &str) {
+        let Some(document) = self.documents.get(path) else { return };
+        let (range, new) = super::views::difference(document.text(), text);
+        let [start, end] = [range.start, range.end].map(|at| self.range_end(document, at));
+        let edit = json!({ "range": { "start": start, "end": end }, "newText": new });
+        let uri = document.uri.clone();
+        self.ask_with("workspace/applyEdit", json!({ "label": "mechc view", "edit": { "changes": { uri: [edit] } } }));
+    }
+
+    /// Has the client show a place of a file (UTF-16).
+    fn show(&mut self, path: &Path, at: u32) {
+        let Some(document) = self.documents.get(path) else { return };
+        let mut left = at as usize;
+        let letters = document.text().chars().take_while(|c| {
+            let is_before = left > 0;
+            left = left.saturating_sub(c.len_utf16());
+            is_before
+        });
+        let place = self.range_end(document, letters.map(char::len_utf8).sum::<usize>() as u32);
+        let uri = document.uri.clone();
+        let selection = json!({ "start": place, "end": place });
+        self.ask_with("window/showDocument", json!({ "uri": uri, "takeFocus": false, "selection": selection }));
+    }
+
+    fn range_end(&self, document: &Document, at: u32) -> Value {
+        let (line, character) = document.position(at, self.client.encoding);
+        json!({ "line": line, "character": character })
     }
 
     /// Hands a request to the pool.
@@ -254,6 +334,7 @@ impl Server {
             }
             "workspace/didChangeWatchedFiles" => self.changed_behind(&params),
             "$/cancelRequest" => self.cancelled(&params),
+            "mechc/cursor" => self.pointed(&params),
             _ => Some(()),
         };
         if done.is_none() {
@@ -310,6 +391,7 @@ impl Server {
     fn closed(&mut self, params: &Value) -> Option<()> {
         let uri = params.get("textDocument")?.get("uri")?.as_str()?;
         let path = self.documents.close(uri)?;
+        self.views.close(&path);
         self.shown.remove(&path)?;
         self.answer_pulls(Some(&path));
         if !self.client.pulls_diagnostics {
@@ -383,6 +465,7 @@ impl Server {
         let before = self.snapshot.clone();
         self.snapshot = self.snapshot.with_text(path, text);
         self.revision += 1;
+        self.views.turn_to(self.snapshot.buffers().clone());
         // the edited text first
         let others: Vec<Arc<Path>> = self.documents.paths().filter(|other| *other != path).cloned().collect();
         for path in std::iter::once(path).chain(&others) {
@@ -455,6 +538,8 @@ impl Server {
     fn task(&mut self, task: Task) {
         match task {
             Task::Answered(id, answer) => self.answered(id, answer),
+            Task::Viewed(id, Ok(answer)) => self.answer(id, answer),
+            Task::Viewed(id, Err(why)) => self.refuse(id, ErrorCode::RequestFailed, &why),
             Task::Files(files) => {
                 self.log.did(|| format!("{} files are in the folders", files.len()));
                 self.snapshot = self.snapshot.with_files(files);
@@ -469,6 +554,15 @@ impl Server {
                     self.take(&path, stage, found);
                 }
             }
+        }
+    }
+
+    /// What a live page has for the client.
+    fn event(&mut self, event: Event) {
+        match event {
+            Event::Tell(method, params) => self.send(Notification { method: method.to_owned(), params }),
+            Event::Write(path, text) => self.write(&path, &text),
+            Event::Show(path, at) => self.show(&path, at),
         }
     }
 

@@ -3,12 +3,14 @@
 //! Pure data, without meaning for mechanics yet: that a joint has equations is the business of `lower`. What stands
 //! here has been found sound; nothing after `check` fails on it.
 
+mod forces;
 mod placement;
 mod print;
 mod quotients;
 mod results;
 
 pub use crate::vocabulary::{CompoundUnit, Dimension};
+pub use forces::{Force, Load, Mass};
 pub use placement::Placement;
 pub use quotients::quotient;
 
@@ -73,6 +75,8 @@ ids! {
     CurveId Curve curves add_curve;
     /// A joint.
     JointId Joint joints add_joint;
+    /// A constraint or driver.
+    EquationId Equation equations add_equation;
     /// What a `Symbol::Named` of the graph stands for.
     NamedId Named named add_named;
 }
@@ -103,6 +107,8 @@ pub struct Mechanism {
     pub asked_in_parts: Vec<(PartId, Span)>,
     /// The numbers of those that all columns are differentiated by, in the order of the columns.
     pub by: Vec<u32>,
+    /// Whether what all joints exert and all drivers supply is tabulated.
+    pub reactions: bool,
     /// Whether formulas hold inputs as signals, rather than what these are.
     pub has_signals: bool,
     /// In order of declaration.
@@ -119,6 +125,12 @@ pub struct Mechanism {
     pub joints: Vec<Joint>,
     /// Constraints and drivers, in order of declaration.
     pub equations: Vec<Equation>,
+    /// The masses of bodies, in order of declaration.
+    pub masses: Vec<Mass>,
+    /// The acceleration of free fall (m/s²) in the ground's frame, where the outermost mechanism has it.
+    pub gravity: Option<[ExprId; 2]>,
+    /// In order of declaration.
+    pub loads: Vec<Load>,
     /// In order of declaration.
     pub measures: Vec<Measure>,
     /// Traces, each of which is two of the measures, in order of declaration.
@@ -151,6 +163,7 @@ impl Mechanism {
             variables: Vec::new(),
             asked_in_parts: Vec::new(),
             by: Vec::new(),
+            reactions: false,
             has_signals: false,
             bodies: Vec::new(),
             points: Vec::new(),
@@ -159,6 +172,9 @@ impl Mechanism {
             curves: Vec::new(),
             joints: Vec::new(),
             equations: Vec::new(),
+            masses: Vec::new(),
+            gravity: None,
+            loads: Vec::new(),
             measures: Vec::new(),
             traces: Vec::new(),
             outcomes: Vec::new(),
@@ -172,6 +188,11 @@ impl Mechanism {
     /// The ids of the bodies, in order.
     pub fn body_ids(&self) -> impl Iterator<Item = BodyId> {
         (0..self.bodies.len() as u32).map(BodyId)
+    }
+
+    /// The ids of the constraints and drivers, in order.
+    pub fn equation_ids(&self) -> impl Iterator<Item = EquationId> + use<> {
+        (0..self.equations.len() as u32).map(EquationId)
     }
 
     /// The ids of the joints, in order.
@@ -633,6 +654,8 @@ pub enum Named {
     Exists(Option<PartId>, Quantity),
     /// A number for the whole analysis, by its place among the reductions.
     Reduction(u32),
+    /// A force or torque, as it is seen from the ground of a part.
+    Force(Option<PartId>, Force),
     /// The argument of a curve; or of a user's function, where its formula is read on its own.
     Argument,
 }

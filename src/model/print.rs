@@ -1,7 +1,7 @@
 //! The model as readable text: names resolved, values in SI.
 
 use super::{
-    AxisId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
+    AxisId, BodyId, CircleId, Direction, EquationForm, Frame, JointKind, Mechanism, Named, PointId, Profile, Quantity,
     Reduction, Side,
 };
 use crate::expr::{ExprId, Printer, Symbol, number};
@@ -71,6 +71,15 @@ impl Text<'_> {
         }
     }
 
+    fn write_masses(&self, f: &mut std::fmt::Formatter<'_>, body: BodyId) -> std::fmt::Result {
+        let text = |id: ExprId| self.formula_text(id);
+        for of in self.model.masses.iter().filter(|mass| mass.body == body) {
+            let at = self.point_text(of.at, &text);
+            writeln!(f, "    mass {} at {at} inertia {}", text(of.mass), text(of.inertia))?;
+        }
+        Ok(())
+    }
+
     /// A formula of the model as text.
     fn formula_text(&self, id: ExprId) -> String {
         self.print(id, false)
@@ -89,6 +98,7 @@ impl Text<'_> {
             Symbol::Named(k) => match self.model.named[k as usize] {
                 Named::Quantity(_, quantity) => self.quantity_text(quantity, &text),
                 Named::Derivative(inner) => format!("der({})", self.formula_text(inner)),
+                Named::Force(_, force) => force.written(self.model),
                 Named::Exists(_, quantity) => format!("exists {}", self.quantity_text(quantity, &text)),
                 Named::Held(_, inner) => self.formula_text(inner),
                 Named::By(inner, variable, _) => {
@@ -103,6 +113,7 @@ impl Text<'_> {
             },
             Symbol::Shift(_) => "0".to_owned(),
             Symbol::Coordinate { .. } | Symbol::Varied { .. } => "q".to_owned(),
+            Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => "lambda".to_owned(),
         })
         .with_names(&self.names);
         if whole { printer.definition(id) } else { printer.text(id) }
@@ -205,12 +216,15 @@ impl Mechanism {
                 EquationForm::Distance(_, _, distance) => list.push(distance),
             }
         }
+        list.extend(self.masses.iter().flat_map(|mass| [mass.mass, mass.inertia]));
+        list.extend(self.gravity.into_iter().flatten());
+        list.extend(self.loads.iter().map(|load| load.force));
         list.extend(self.measures.iter().map(|measure| measure.value));
         list.extend(self.outcomes.iter().map(|outcome| outcome.value));
         list.extend(self.reductions.iter().map(|reduction| reduction.of));
         list.extend(self.named.iter().filter_map(|named| match named {
             Named::Derivative(inner) | Named::By(inner, ..) | Named::Held(_, inner) => Some(*inner),
-            Named::Quantity(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
+            Named::Quantity(..) | Named::Force(..) | Named::Exists(..) | Named::Reduction(_) | Named::Argument => None,
         }));
         list
     }
@@ -247,6 +261,7 @@ impl std::fmt::Display for Mechanism {
             let [x, y, phi] = body.pose.map(|part| text.formula_text(part));
             writeln!(f, "\nbody {} at ({x}, {y}, {phi})", body.declared.name)?;
             text.write_features(f, Frame::Body(id))?;
+            text.write_masses(f, id)?;
         }
         for (part, frame) in self.parts.iter().zip(self.part_frames()) {
             let [x, y, phi] = part.pose.map(|id| text.formula_text(id));
@@ -270,6 +285,18 @@ impl std::fmt::Display for Mechanism {
                 }
             };
             writeln!(f, "  {kind} {}: {left} = {right}", equation.declared.name)?;
+        }
+        if let Some(gravity) = self.gravity {
+            let [x, y] = gravity.map(|id| text.formula_text(id));
+            writeln!(f, "\ngravity ({x}, {y})")?;
+        }
+        if !self.loads.is_empty() {
+            writeln!(f, "\nloads")?;
+        }
+        for load in &self.loads {
+            let side = |id: ExprId| text.formula_text(id);
+            let (force, on) = (side(load.force), text.quantity_text(load.on, &side));
+            writeln!(f, "  {}: {force} on {on}", load.declared.name)?;
         }
         if !self.measures.is_empty() {
             writeln!(f, "\nmeasures")?;

@@ -45,6 +45,7 @@ impl Program {
             system.rows.iter().map(|row| layout.place(Stage::Position, system.graph.terms(row.phi))).collect();
         let (at_position, comparisons) = (layout.register_of.clone(), layout.comparisons.clone());
         outputs.right_sides = layout.right_sides(system);
+        outputs.forces = layout.place(Stage::Forces, system.needed_forces().iter().copied());
         let mut varied = |list: &[ExprId]| layout.place(Stage::Variation, list.iter().copied());
         let slopes = &system.check_slopes;
         outputs.check_slopes = PlacedCheckSlopes {
@@ -59,7 +60,9 @@ impl Program {
         for variation in system.variations() {
             let rights = variation.rights.each_ref();
             outputs.variations.push(rights.map(|rights| layout.place(Stage::Variation, rights.iter().copied())));
+            outputs.varied_forces.push(layout.place(Stage::Variation, variation.forces.iter().copied()));
         }
+        outputs.reactions = layout.place(Stage::Measures, system.reactions().iter().map(|of| of.value));
         outputs.measures = layout.place(Stage::Measures, system.measures.iter().map(|m| m.value));
         outputs.measures_d = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.first));
         outputs.measures_dd = layout.place(Stage::Measures, system.measures.iter().filter_map(|m| m.second));
@@ -110,17 +113,19 @@ impl<'s> Layout<'s> {
             signals,
             system.by_params().len(),
             system.variations().len(),
+            if system.forces.is_some() { system.rows.len() } else { 0 },
         ];
         Layout::of(&system.graph, counts.map(|count| count as u32))
     }
 
     /// For formulas of a graph over so many parameters, coordinates, signals, parameters by which the coordinates are differentiated, and
-    /// variations of the coordinates.
-    pub fn of(graph: &'s Graph, [params, n, signals, by_param, variations]: [u32; 5]) -> Layout<'s> {
+    /// variations of the coordinates; and so many multipliers.
+    pub fn of(graph: &'s Graph, [params, n, signals, by_param, variations, multipliers]: [u32; 6]) -> Layout<'s> {
         let coordinates = [0, 1, 2, 3].map(|order| params + 1 + order * n);
         let signals_at = params + 1 + 4 * n;
         let by_signal = signals_at + 3 * signals;
         let varied = by_signal + n * (signals + by_param);
+        let multipliers_at = varied + 3 * n * variations;
         Layout {
             graph,
             register_of: vec![NONE; graph.len()],
@@ -141,8 +146,9 @@ impl<'s> Layout<'s> {
                 by_signal,
                 count: signals,
                 varied,
+                multipliers: multipliers_at,
             },
-            next: varied + 3 * n * variations,
+            next: multipliers_at + multipliers * (1 + variations),
         }
     }
 
@@ -371,6 +377,8 @@ impl<'s> Layout<'s> {
             Symbol::Coordinate { index, order } => self.inputs.coordinates[order as usize] + index,
             Symbol::Shift(_) => self.constant(0.0),
             Symbol::Varied { index, order, variation } => self.inputs.varied(variation, u32::from(order)) + index,
+            Symbol::Multiplier(row) => self.inputs.multipliers + row,
+            Symbol::VariedMultiplier { row, variation } => self.inputs.varied_multipliers(variation) + row,
             Symbol::Named(_) => unreachable!("lowering leaves no named symbol"),
         }
     }

@@ -10,7 +10,7 @@ impl Program {
     #[must_use]
     pub fn of_formulas(graph: &Graph, counts: [usize; 3], roots: &[ExprId]) -> (Program, Vec<Register>) {
         let [params, coordinates, variations] = counts.map(|count| count as u32);
-        let mut layout = Layout::of(graph, [params, coordinates, 0, 0, variations]);
+        let mut layout = Layout::of(graph, [params, coordinates, 0, 0, variations, 0]);
         let registers = layout.place(Stage::Measures, roots.iter().copied());
         (layout.finish(Outputs::default()), registers)
     }

@@ -38,7 +38,7 @@ impl Stage {
     /// A measure takes the branch it is on.
     #[must_use]
     pub fn can_switch(self) -> bool {
-        !matches!(self, Stage::Prologue | Stage::Variation | Stage::Measures | Stage::Rims)
+        !matches!(self, Stage::Prologue | Stage::Forces | Stage::Variation | Stage::Measures | Stage::Rims)
     }
 }
 
@@ -57,6 +57,8 @@ pub enum Stage {
     Acceleration,
     /// The right side of the jerk equation; needs `q̈`.
     Jerk,
+    /// What the multipliers have to hold; needs `q̈`. At a jump of a load the later side counts.
+    Forces,
     /// The right sides of the variations, each of which needs `q̇`, `q̈` and the variations before it. A branch is the one that the
     /// equations are on.
     Variation,
@@ -67,13 +69,14 @@ pub enum Stage {
 }
 
 /// All stages, in the order in which they may be run.
-pub const STAGES: [Stage; 9] = [
+pub const STAGES: [Stage; 10] = [
     Stage::Prologue,
     Stage::Time,
     Stage::Position,
     Stage::Velocity,
     Stage::Acceleration,
     Stage::Jerk,
+    Stage::Forces,
     Stage::Variation,
     Stage::Measures,
     Stage::Rims,
@@ -149,6 +152,8 @@ pub struct Inputs {
     pub count: u32,
     /// First of the variations: for each `q`, `q̇` and `q̈`, one behind the other.
     pub varied: Register,
+    /// First multiplier, one for each equation where forces are asked for; behind them how these vary, variation by variation.
+    pub multipliers: Register,
 }
 
 /// How equations that were left out change.
@@ -167,6 +172,12 @@ impl Inputs {
     #[must_use]
     pub fn varied(&self, variation: u32, order: u32) -> Register {
         self.varied + (3 * variation + order) * self.n
+    }
+
+    /// First register of how the multipliers vary.
+    #[must_use]
+    pub fn varied_multipliers(&self, variation: u32) -> Register {
+        self.multipliers + (1 + variation) * self.n
     }
 }
 
@@ -198,12 +209,18 @@ pub struct Outputs {
     pub phi_q: Vec<Register>,
     /// The right sides of the equations for the derivatives of `q`, in the order of what these are by.
     pub right_sides: Vec<PlacedSide>,
+    /// `p` of `Φ_qᵀ λ = p`, `n`, or none where nobody asks for forces.
+    pub forces: Vec<Register>,
     /// The right sides of each variation of `q`, `q̇` and `q̈`, `n` each.
     pub variations: Vec<[Vec<Register>; 3]>,
+    /// Likewise of the multipliers; none of variations that have none.
+    pub varied_forces: Vec<Vec<Register>>,
     /// By part of whose own equations there are variations: the entries of its matrix, row by row.
     pub scopes: Vec<Vec<Register>>,
     /// Derivatives that stand behind all other columns.
     pub appended: Vec<Register>,
+    /// What joints exert and drivers supply, where that is tabulated.
+    pub reactions: Vec<Register>,
     /// Measures' values.
     pub measures: Vec<Register>,
     /// Measures' first derivatives, where they have one.
@@ -272,11 +289,11 @@ impl Outputs {
 
     /// Shows every register of a result.
     fn all(&self, mut show: impl FnMut(Register)) {
-        let lists = [&self.estimates, &self.phi, &self.phi_q];
+        let lists = [&self.estimates, &self.phi, &self.phi_q, &self.forces];
         let more = [&self.measures, &self.measures_d, &self.measures_dd, &self.conditions, &self.checks, &self.watches];
-        let more = more.into_iter().chain([&self.appended, &self.check_slopes.coordinates]);
+        let more = more.into_iter().chain([&self.appended, &self.reactions, &self.check_slopes.coordinates]);
         let slopes = self.check_slopes.signals.iter().chain(&self.check_slopes.params);
-        let varied = self.variations.iter().flatten();
+        let varied = self.variations.iter().flatten().chain(&self.varied_forces);
         let sides = self.right_sides.iter().map(|side| &side.entries);
         let more_lists = sides.chain(&self.terms).chain(varied).chain(slopes);
         lists.into_iter().chain(more).chain(more_lists).flatten().for_each(|&register| show(register));

@@ -2,13 +2,13 @@
 
 use super::elimination::{Factors, Line};
 use super::finish::finish;
-use super::groups::Groups;
+use super::groups::{Groups, Wanted};
 use super::order::{BlockEntry, Order};
 use super::tape::Value;
 use super::tear::{Tearing, tear};
 use super::terms::Terms;
 use super::{Component, Instruction, MOST_OPERATIONS, Pivot, Purpose, Segment, Solver, Tear, Turn, Values};
-use crate::expr::{ExprId, Symbol};
+use crate::expr::Symbol;
 use crate::ir::ConstraintSystem;
 use crate::layout::RowLayout;
 use crate::program::{Program, Register};
@@ -30,24 +30,24 @@ pub(super) fn build(
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
-    let (measures, appended) = (groups.measures(system), groups.appended(system));
+    let wanted = groups.wanted(system);
     let across = groups.blocks.len();
     let mut builder = Builder::new(determined, program, values, &groups, purpose);
-    builder.joined = joined(system, &builder.layout, &measures[across], &appended[across]);
+    builder.joined = joined(system, &builder.layout, &wanted[across]);
     let mut all = Component::default();
     for (group, blocks) in groups.blocks.iter().enumerate() {
         builder.terms.begin();
-        for &block in blocks {
-            builder.block(&determined.blocks()[block]);
-        }
-        builder.outputs(&measures[group], &appended[group]);
+        let blocks = blocks.iter().map(|&block| &determined.blocks()[block]);
+        let solved: Vec<(&Block, Factors)> = blocks.map(|block| (block, builder.block(block))).collect();
+        builder.forces(&solved);
+        builder.outputs(&wanted[group]);
         all.append(builder.finish(), purpose);
         if all.instructions.len() > MOST_OPERATIONS {
             return None;
         }
     }
     builder.terms.begin_across();
-    builder.outputs(&measures[across], &appended[across]);
+    builder.outputs(&wanted[across]);
     all.append(builder.finish(), purpose);
     let Builder { weights, tears, pivots, turns, layout, .. } = builder;
     let Component { instructions, segments, registers } = all;
@@ -76,23 +76,19 @@ impl Component {
     }
 }
 
-/// The columns of what some measures and appended columns need beside accelerations: third derivatives, and variations.
-fn joined(system: &ConstraintSystem, layout: &RowLayout, measures: &[usize], appended: &[usize]) -> FxHashSet<u32> {
-    let of_measure = |&k: &usize| {
-        let measure = &system.measures[k];
-        [Some(measure.value), measure.first, measure.second].into_iter().flatten()
-    };
-    let columns = appended.iter().map(|&k| system.appended()[k].value);
-    let formulas: Vec<ExprId> = measures.iter().flat_map(of_measure).chain(columns).collect();
+/// The columns of what is wanted across groups beside accelerations: third derivatives, variations, multipliers.
+fn joined(system: &ConstraintSystem, layout: &RowLayout, wanted: &Wanted) -> FxHashSet<u32> {
     let n = system.coordinates.len() as u32;
     let column = |symbol| match symbol {
         Symbol::Coordinate { index, order: 3 } => Some(layout.coordinates[3] + index),
         Symbol::Varied { index, order, variation } => {
             Some(layout.varied + (3 * variation + u32::from(order)) * n + index)
         }
+        Symbol::Multiplier(row) => Some(layout.multipliers + row),
+        Symbol::VariedMultiplier { row, variation } => Some(layout.multipliers + (1 + variation) * n + row),
         _ => None,
     };
-    system.graph.symbols_of_all(&formulas).into_iter().filter_map(column).collect()
+    system.graph.symbols_of_all(&wanted.formulas(system)).into_iter().filter_map(column).collect()
 }
 
 /// A solver in the making.
@@ -173,7 +169,8 @@ impl<'s, V: Values> Builder<'s, V> {
         self.segments.push(Segment::Once(from..self.terms.tape.instructions.len()));
     }
 
-    fn block(&mut self, block: &Block) {
+    /// Position and rates of a block; gives its factors.
+    fn block(&mut self, block: &Block) -> Factors {
         let factors = if block.explicit { self.explicit(block) } else { self.implicit(block) };
         for &column in &block.columns {
             self.store(0, column);
@@ -183,6 +180,7 @@ impl<'s, V: Values> Builder<'s, V> {
         }
         self.rates(block, &factors);
         self.terms.end_block();
+        factors
     }
 
     /// Notes the pivots of a block that are no numbers, with what the others and their order make of the determinant's sign.
@@ -306,9 +304,13 @@ impl<'s, V: Values> Builder<'s, V> {
     }
 
     /// What is wanted of a component beside its coordinates.
-    fn outputs(&mut self, measures: &[usize], appended: &[usize]) {
+    fn outputs(&mut self, wanted: &Wanted) {
         let outputs = &self.program.outputs;
-        for &k in measures {
+        for &k in &wanted.reactions {
+            let value = self.terms.value(outputs.reactions[k]);
+            self.terms.tape.store(self.layout.reactions + k as u32, value);
+        }
+        for &k in &wanted.measures {
             let (measure, [first, second]) = (&self.system.measures[k], self.measures_before[k]);
             let lists = [
                 Some((&outputs.measures, k as u32)),
@@ -323,7 +325,7 @@ impl<'s, V: Values> Builder<'s, V> {
                 self.terms.tape.store(column + at, value);
             }
         }
-        for &k in appended {
+        for &k in &wanted.appended {
             let value = self.terms.value(outputs.appended[k]);
             self.terms.tape.store(self.layout.appended + k as u32, value);
         }

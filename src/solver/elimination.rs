@@ -123,6 +123,29 @@ impl Factors {
         solution
     }
 
+    /// Solves with the transposed matrix: `right` by columns becomes the solution by rows.
+    pub fn solve_transposed(&self, tape: &mut Tape, mut right: Vec<Value>) -> Vec<Value> {
+        let mut solution = vec![Value::ZERO; right.len()];
+        for ((&(row, column), &inverse), upper) in self.pivots.iter().zip(&self.inverses).zip(&self.upper) {
+            let own = tape.mul(right[column as usize], inverse);
+            solution[row as usize] = own;
+            for &(other, value) in upper {
+                let product = tape.mul(value, own);
+                right[other as usize] = tape.sub(right[other as usize], product);
+            }
+        }
+        if let Some(pair) = &self.pair {
+            pair.solve_transposed(tape, &right, &mut solution);
+        }
+        for (&(row, _), lower) in self.pivots.iter().zip(&self.lower).rev() {
+            for &(other, multiplier) in lower {
+                let product = tape.mul(multiplier, solution[other as usize]);
+                solution[row as usize] = tape.sub(solution[row as usize], product);
+            }
+        }
+        solution
+    }
+
     /// Whether the order of rows with their columns takes an odd number of exchanges to make.
     pub fn is_odd(&self) -> bool {
         is_odd(&self.pivots)
@@ -147,13 +170,30 @@ impl TwoByTwo {
     }
 
     fn solve(&self, tape: &mut Tape, right: &[Value], solution: &mut [Value]) {
+        let right = self.rows.map(|row| right[row as usize]);
+        self.by_cramer(tape, self.entries, right, self.columns, solution);
+    }
+
+    /// As [`TwoByTwo::solve`] with the entries across.
+    fn solve_transposed(&self, tape: &mut Tape, right: &[Value], solution: &mut [Value]) {
         let [[a, b], [c, d]] = self.entries;
-        let [upper, lower] = self.rows.map(|row| right[row as usize]);
+        let right = self.columns.map(|column| right[column as usize]);
+        self.by_cramer(tape, [[a, c], [b, d]], right, self.rows, solution);
+    }
+
+    fn by_cramer(
+        &self,
+        tape: &mut Tape,
+        [[a, b], [c, d]]: [[Value; 2]; 2],
+        [upper, lower]: [Value; 2],
+        unknowns: [u32; 2],
+        solution: &mut [Value],
+    ) {
         let products = [[(d, upper), (b, lower)], [(a, lower), (c, upper)]];
-        for (column, [(x, p), (y, q)]) in self.columns.into_iter().zip(products) {
+        for (unknown, [(x, p), (y, q)]) in unknowns.into_iter().zip(products) {
             let (plus, minus) = (tape.mul(x, p), tape.mul(y, q));
             let difference = tape.sub(plus, minus);
-            solution[column as usize] = tape.mul(difference, self.inverse);
+            solution[unknown as usize] = tape.mul(difference, self.inverse);
         }
     }
 }

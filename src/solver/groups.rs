@@ -10,6 +10,29 @@ pub(super) struct Groups {
     pub blocks: Vec<Vec<usize>>,
     group_of_column: Vec<usize>,
     pub block_of_column: Vec<usize>,
+    group_of_row: Vec<usize>,
+}
+
+/// What is wanted beside the motion, by numbers.
+#[derive(Clone, Default)]
+pub(super) struct Wanted {
+    /// Columns of what joints exert and drivers supply.
+    pub reactions: Vec<usize>,
+    pub measures: Vec<usize>,
+    /// Columns of derivatives.
+    pub appended: Vec<usize>,
+}
+
+impl Wanted {
+    /// All of its formulas.
+    pub fn formulas(&self, system: &ConstraintSystem) -> Vec<ExprId> {
+        let reactions = self.reactions.iter().map(|&k| system.reactions()[k].value);
+        let measures = self.measures.iter().flat_map(|&k| {
+            let measure = &system.measures[k];
+            [Some(measure.value), measure.first, measure.second].into_iter().flatten()
+        });
+        reactions.chain(measures).chain(self.appended.iter().map(|&k| system.appended()[k].value)).collect()
+    }
 }
 
 impl Groups {
@@ -22,11 +45,24 @@ impl Groups {
             }
         }
         let mut parent: Vec<usize> = (0..blocks.len()).collect();
+        let mut join = |a: usize, b: usize| {
+            let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+            parent[a.max(b)] = a.min(b);
+        };
+        let mut block_of_row = vec![0; system.rows.len()];
         for (k, block) in blocks.iter().enumerate() {
             for &row in &block.rows {
+                block_of_row[row as usize] = k;
                 for &(column, _) in system.phi_q.row(row as usize) {
-                    let (a, b) = (root(&mut parent, k), root(&mut parent, block_of_column[column as usize]));
-                    parent[a.max(b)] = a.min(b);
+                    join(k, block_of_column[column as usize]);
+                }
+            }
+        }
+        // a load may speak of others than it works on
+        for (&block, &needed) in block_of_column.iter().zip(system.needed_forces()) {
+            for symbol in system.graph.symbols(needed) {
+                if let Symbol::Coordinate { index, .. } = symbol {
+                    join(block, block_of_column[index as usize]);
                 }
             }
         }
@@ -40,27 +76,26 @@ impl Groups {
             }
             groups[number[root]].push(k);
         }
-        let group_of_column = block_of_column.iter().map(|&block| number[root(&mut parent, block)]).collect();
-        Groups { blocks: groups, group_of_column, block_of_column }
+        let mut group_of = |block: &usize| number[root(&mut parent, *block)];
+        let group_of_column = block_of_column.iter().map(&mut group_of).collect();
+        let group_of_row = block_of_row.iter().map(&mut group_of).collect();
+        Groups { blocks: groups, group_of_column, block_of_column, group_of_row }
     }
 
-    /// The measures of each group, and behind these the ones that join groups.
-    pub fn measures(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
-        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
+    /// What is wanted of each group beside its motion, and last what joins groups.
+    pub fn wanted(&self, system: &ConstraintSystem) -> Vec<Wanted> {
+        let mut wanted = vec![Wanted::default(); self.blocks.len() + 1];
+        for (k, reaction) in system.reactions().iter().enumerate() {
+            wanted[self.of(system, [reaction.value])].reactions.push(k);
+        }
         for (k, measure) in system.measures.iter().enumerate() {
             let formulas = [Some(measure.value), measure.first, measure.second];
-            of_group[self.of(system, formulas.into_iter().flatten())].push(k);
+            wanted[self.of(system, formulas.into_iter().flatten())].measures.push(k);
         }
-        of_group
-    }
-
-    /// The same of the columns of derivatives.
-    pub fn appended(&self, system: &ConstraintSystem) -> Vec<Vec<usize>> {
-        let mut of_group = vec![Vec::new(); self.blocks.len() + 1];
         for (k, column) in system.appended().iter().enumerate() {
-            of_group[self.of(system, [column.value])].push(k);
+            wanted[self.of(system, [column.value])].appended.push(k);
         }
-        of_group
+        wanted
     }
 
     /// The group that some formulas speak of; where there are several, the number behind the last one.
@@ -70,6 +105,7 @@ impl Groups {
             Symbol::Coordinate { index, .. } | Symbol::Varied { index, .. } => {
                 Some(self.group_of_column[index as usize])
             }
+            Symbol::Multiplier(row) | Symbol::VariedMultiplier { row, .. } => Some(self.group_of_row[row as usize]),
             _ => None,
         });
         let first = groups.next();

@@ -21,6 +21,7 @@ mod curve;
 mod elimination;
 mod finish;
 mod folding;
+mod forces;
 mod groups;
 mod instruction;
 mod lanes;

@@ -19,6 +19,19 @@ pub struct Pivoting {
     right: Vec<f64>,
     slopes: Vec<f64>,
     delta: Vec<f64>,
+    /// For the multipliers, where somebody asks for forces.
+    transposed: Option<Transposed>,
+}
+
+/// The transposed matrix: an equation for each coordinate, for unknowns of which each row of `Φ` has one. Its blocks are those of the
+/// matrix, from the last to the first.
+#[derive(Clone, Debug)]
+struct Transposed {
+    tables: BlockTables,
+    /// By entry: its position in the pattern of `Φ_q`.
+    positions: Vec<usize>,
+    /// By entry: its value.
+    slopes: Vec<f64>,
 }
 
 /// The lists that [`Blocks`] borrows.
@@ -64,6 +77,47 @@ impl BlockTables {
         })
     }
 
+    /// Those of the transposed matrix, and by entry its position in the pattern.
+    #[must_use]
+    pub fn transposed(&self) -> (BlockTables, Vec<usize>) {
+        let n = self.rows.len();
+        let mut blocks = Vec::with_capacity(self.sizes.len());
+        let mut at = 0;
+        for size in &self.sizes {
+            blocks.push(at..at + size);
+            at += size;
+        }
+        let backwards = |list: &[usize]| -> Vec<usize> {
+            blocks.iter().rev().flat_map(|block| list[block.clone()].iter().copied()).collect()
+        };
+        let unknowns = backwards(&self.rows);
+        let mut places = vec![0; n];
+        for (place, &row) in unknowns.iter().enumerate() {
+            places[row] = place;
+        }
+        let mut of_column: Vec<Vec<(usize, usize)>> = vec![Vec::new(); n];
+        for row in 0..n {
+            for position in self.starts[row]..self.starts[row + 1] {
+                of_column[self.entries[position]].push((row, position));
+            }
+        }
+        let mut starts = vec![0];
+        for entries in &of_column {
+            starts.push(starts[starts.len() - 1] + entries.len());
+        }
+        let transposed = BlockTables {
+            sizes: self.sizes.iter().rev().copied().collect(),
+            rows: backwards(&self.columns),
+            columns: unknowns,
+            starts,
+            entries: of_column.iter().flatten().map(|&(row, _)| row).collect(),
+            places,
+            units: vec![1.0; n],
+            cells: Vec::new(),
+        };
+        (transposed, of_column.into_iter().flatten().map(|(_, position)| position).collect())
+    }
+
     /// The size of the largest block.
     #[must_use]
     pub fn largest(&self) -> usize {
@@ -101,12 +155,17 @@ impl Pivoting {
     pub fn new(determined: &Determined) -> Option<Pivoting> {
         let tables = BlockTables::new(determined)?;
         let n = tables.rows.len();
+        let transposed = determined.system().forces.as_ref().map(|_| {
+            let (tables, positions) = tables.transposed();
+            Transposed { slopes: vec![0.0; positions.len()], tables, positions }
+        });
         Some(Pivoting {
             work: vec![0.0; work_of(tables.largest())],
             is_negative: vec![false; tables.sizes.len()],
             right: vec![0.0; n],
             slopes: vec![0.0; tables.entries.len()],
             delta: vec![0.0; n],
+            transposed,
             tables,
         })
     }
@@ -149,5 +208,18 @@ impl Pivoting {
         }
         let Pivoting { tables, work, is_negative, right, slopes, .. } = self;
         solve(&tables.blocks(), slopes, right, x, work, is_negative);
+    }
+
+    /// Solves `Φ_qᵀ λ = p` where the position has settled, if somebody asks for forces.
+    pub fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        let Pivoting { transposed, work, is_negative, right, slopes, .. } = self;
+        let Some(Transposed { tables, positions, slopes: across }) = transposed else { return };
+        for (column, value) in right.iter_mut().enumerate() {
+            *value = needed(column);
+        }
+        for (slope, &position) in across.iter_mut().zip(&*positions) {
+            *slope = slopes[position];
+        }
+        solve(&tables.blocks(), across, right, multipliers, work, is_negative);
     }
 }

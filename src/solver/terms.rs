@@ -13,8 +13,9 @@ use rustc_hash::FxHashMap;
 pub(super) struct Terms<'s> {
     program: &'s Program,
     layout: RowLayout,
-    /// The registers of variations.
+    /// The registers of variations, and of multipliers.
     varied: std::ops::Range<Register>,
+    multipliers: std::ops::Range<Register>,
     /// What each register of the program is written by.
     definitions: Vec<Option<(Stage, Op)>>,
     literals: FxHashMap<Register, f64>,
@@ -45,10 +46,14 @@ struct Pair {
 impl<'s> Terms<'s> {
     pub fn new(system: &ConstraintSystem, program: &'s Program, layout: RowLayout) -> Terms<'s> {
         let variations = system.variations().len() as u32;
+        let has_forces = !program.outputs.forces.is_empty();
+        let last_multipliers = if has_forces { variations + 1 } else { 0 };
+        let multipliers = program.inputs.multipliers;
         Terms {
             program,
             layout,
             varied: program.inputs.varied..program.inputs.varied(variations, 0),
+            multipliers: multipliers..multipliers + last_multipliers * program.inputs.n,
             definitions: program.definitions(),
             literals: program.constants().iter().copied().collect(),
             known: vec![(Age::NEVER, Value::ZERO); program.registers()],
@@ -266,6 +271,8 @@ impl<'s> Terms<'s> {
         }
         let column = if self.varied.contains(&register) {
             self.layout.varied + (register - self.varied.start)
+        } else if self.multipliers.contains(&register) {
+            self.layout.multipliers + (register - self.multipliers.start)
         } else {
             let runs = inputs.coordinates.into_iter().zip(self.layout.coordinates);
             let mut columns = runs.filter(|(first, _)| (*first..first + inputs.n).contains(&register));

@@ -37,6 +37,8 @@ pub struct Choice {
     pub samples: Option<PathBuf>,
     /// Inputs and parameters by which all columns are differentiated, each as columns of its own, behind all others.
     pub by: Vec<String>,
+    /// Whether what all joints exert and all drivers supply is tabulated.
+    pub reactions: bool,
 }
 
 /// A mechanism that was checked, whatever is wrong with it.
@@ -149,7 +151,9 @@ impl Checked {
             }
             (Ok(settings), Ok(given)) => {
                 let library = library.clone();
-                let surroundings = Surroundings { settings, library, files, given, by, ..Surroundings::default() };
+                let reactions = choice.reactions;
+                let surroundings =
+                    Surroundings { settings, library, files, given, by, reactions, ..Surroundings::default() };
                 checked_with = surroundings.clone();
                 let (found, said) = check::check(tree, &surroundings, &sources);
                 diagnostics.extend(said);

@@ -197,10 +197,11 @@ fn declaration(item: &Item) -> Declaration {
         ItemKind::Joint { .. } => NameKind::Joint,
         ItemKind::Equation { driver: true, .. } => NameKind::Driver,
         ItemKind::Equation { .. } => NameKind::Constraint,
+        ItemKind::Load { .. } => NameKind::Load,
         ItemKind::Measure { .. } => NameKind::Measure,
         ItemKind::Trace { .. } => NameKind::Trace,
         ItemKind::Result { .. } => NameKind::Result,
-        ItemKind::Broken { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
+        ItemKind::Broken { .. } | ItemKind::Gravity { .. } | ItemKind::Analysis { .. } => NameKind::Broken,
     };
     Declaration { kind, span: item.span, docs: item.docs.clone() }
 }
@@ -211,7 +212,7 @@ fn of_feature(feature: &Feature) -> Declaration {
         FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => NameKind::Axis,
         FeatureKind::Circle { .. } => NameKind::Circle,
         FeatureKind::Curve { .. } => NameKind::Curve,
-        FeatureKind::Broken => NameKind::Broken,
+        FeatureKind::Broken | FeatureKind::Mass { .. } => NameKind::Broken,
     };
     Declaration { kind, span: feature.span, docs: feature.docs.clone() }
 }

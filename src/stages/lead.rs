@@ -35,19 +35,23 @@ pub(super) struct Leading {
 }
 
 impl Leading {
-    /// Where it begins at a time (s), its own inputs being led from the one that the options tell; nothing where its estimates say it, with
+    /// Where it begins at a time (s), its own inputs being led from the one that the options tell, where it stands as is said, or else as it
+    /// assembles; nothing where its estimates say it, with
     /// what is to be said.
     pub fn begin(
         &self,
         (determined, program): (&Arc<Determined>, &Arc<Program>),
         horizon: Horizon,
+        stand: Option<&[f64]>,
         leave_out_redundant: bool,
         options: &LeadOptions,
     ) -> (Option<Vec<f64>>, Diagnostics) {
         let mut starts = Starts {
             surroundings: &self.surroundings,
             sources: &self.sources,
-            leads_params: self.leads_params,
+            stand,
+            // who stands somewhere has got there with the params that are set
+            leads_params: self.leads_params && stand.is_none(),
             leave_out_redundant,
             options,
             alone: FxHashMap::default(),
@@ -113,6 +117,7 @@ type Key = (Span, Vec<u64>, String);
 struct Starts<'s> {
     surroundings: &'s Surroundings,
     sources: &'s Sources,
+    stand: Option<&'s [f64]>,
     leads_params: bool,
     leave_out_redundant: bool,
     options: &'s LeadOptions,
@@ -126,14 +131,22 @@ impl<'s> Starts<'s> {
     fn led_to_what_it_is_told(&mut self, tree: &ast::Mechanism, t: f64) -> Option<Vec<f64>> {
         let times = [self.options.t, t];
         let lead = Some(Lead { times, inputs: Vec::new(), params: self.leads_params });
-        let led = Surroundings { lead, by: Vec::new(), ..self.surroundings.clone() };
+        let led = Surroundings { lead, by: Vec::new(), reactions: false, ..self.surroundings.clone() };
         // of a mechanism whose own inputs have no value there is no way; all else has been said of it
         let (whole, inputs, span) = self.compiled(tree, &led)?;
-        let from = if whole.0.system().parts.is_empty() {
+        let from = if let Some(stand) = self.stand {
+            Some(stand.to_vec())
+        } else if whole.0.system().parts.is_empty() {
             None
         } else {
             let settings = if self.leads_params { Vec::new() } else { self.surroundings.settings.clone() };
-            let own = Surroundings { given: Given::default(), settings, by: Vec::new(), ..self.surroundings.clone() };
+            let own = Surroundings {
+                given: Given::default(),
+                settings,
+                by: Vec::new(),
+                reactions: false,
+                ..self.surroundings.clone()
+            };
             Some(self.assembled(tree, own)?.q)
         };
         // if alone it is nowhere, there is nothing to lead
@@ -291,12 +304,18 @@ impl<'s> Starts<'s> {
             return known.clone();
         }
         let Surroundings { library, files, .. } = self.surroundings.clone();
-        let given = Given::default();
-        let by = Vec::new();
-        let (lead, has_signals) = (None, false);
-        let coupled = Vec::new();
-        let surroundings =
-            Surroundings { settings, library, files, given, by, bound: params, lead, has_signals, coupled };
+        let surroundings = Surroundings {
+            settings,
+            library,
+            files,
+            given: Given::default(),
+            by: Vec::new(),
+            reactions: false,
+            bound: params,
+            lead: None,
+            has_signals: false,
+            coupled: Vec::new(),
+        };
         let alone = self.text_of(start).and_then(|tree| self.assembled(tree, surroundings)).map(Rc::new);
         if let Some(alone) = &alone {
             self.said.extend(alone.remarks.clone());

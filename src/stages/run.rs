@@ -17,13 +17,24 @@ pub struct RunOptions {
     pub tolerance: f64,
     /// Go on beyond bifurcations, along the branch that continues smoothly, with a remark each time.
     pub pass_bifurcations: bool,
+    /// Where a mechanism that is told its inputs is led from; its own start if nothing is said.
+    pub stand: Option<Stand>,
     /// Ends it.
     pub cancel: Cancel,
 }
 
+/// Where a mechanism stands at a time.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Stand {
+    /// When (s).
+    pub t: f64,
+    /// Its coordinates [m, rad].
+    pub q: Vec<f64>,
+}
+
 impl Default for RunOptions {
     fn default() -> RunOptions {
-        RunOptions { tolerance: analysis::TOLERANCE, pass_bifurcations: false, cancel: Cancel::default() }
+        RunOptions { tolerance: analysis::TOLERANCE, pass_bifurcations: false, stand: None, cancel: Cancel::default() }
     }
 }
 
@@ -126,6 +137,21 @@ impl Compiled {
         }
     }
 
+    /// Where it stands at a time (s), followed from the first time of its analysis.
+    ///
+    /// # Errors
+    /// It does not get there.
+    pub fn stand(&self, t: f64, options: &RunOptions) -> Result<Stand, Diagnostics> {
+        let from = self.analysis().map_or(t, |[from, ..]| from.min(t));
+        let (run, said) = self.run(&Times::listed(from, vec![t]), options);
+        let n = self.system().coordinates.len();
+        match run.and_then(|mut run| run.next()) {
+            Some(Ok(row)) => Ok(Stand { t, q: row[1..=n].to_vec() }),
+            Some(Err(why)) => Err((*why).into()),
+            None => Err(said),
+        }
+    }
+
     /// Assembles it at the first time of a horizon, from the file's estimates, or from where the inputs that it is told lead it; with what is to be
     /// said of the way.
     pub(super) fn start(
@@ -157,13 +183,15 @@ impl Compiled {
 
     /// Where the inputs that it is told lead it, and its parts; with what is to be said of the way.
     fn led(&self, horizon: Horizon, options: &RunOptions) -> (Option<Vec<f64>>, Diagnostics) {
-        let RunOptions { tolerance, pass_bifurcations, ref cancel } = *options;
+        let RunOptions { tolerance, pass_bifurcations, ref stand, ref cancel } = *options;
         match self.leading() {
             None => (None, Diagnostics::default()),
             Some((leading, leave_out)) => {
                 let own = self.analysis().map_or(0.0, |[from, ..]| from);
-                let options = LeadOptions { tolerance, pass_bifurcations, t: own, cancel: cancel.clone() };
-                leading.begin((self.determined(), self.program()), horizon, leave_out, &options)
+                let t = stand.as_ref().map_or(own, |stand| stand.t);
+                let options = LeadOptions { tolerance, pass_bifurcations, t, cancel: cancel.clone() };
+                let from = stand.as_ref().map(|stand| stand.q.as_slice());
+                leading.begin((self.determined(), self.program()), horizon, from, leave_out, &options)
             }
         }
     }

@@ -205,7 +205,7 @@ fn same_unit(first: &str, last: &str) -> Option<([f64; 2], String)> {
 }
 
 /// `40 mm`, `-1.5e3`, `90 deg/s`: what a slider can show as it was written.
-fn number_and_unit(text: &str) -> Option<(f64, &str)> {
+pub(super) fn number_and_unit(text: &str) -> Option<(f64, &str)> {
     let ends = (1..=text.len()).rev().filter(|end| text.is_char_boundary(*end));
     // the longest beginning that is a number; words such as `inf` are none
     let is_numeric = |part: &str| part.ends_with(|c: char| c.is_ascii_digit() || c == '.');
@@ -220,13 +220,16 @@ fn number_and_unit(text: &str) -> Option<(f64, &str)> {
 }
 
 /// The SI unit of a dimension, empty for a pure number.
-fn si_unit(dimension: Dimension, ends: [&str; 2]) -> String {
-    let words = ends.iter().flat_map(|end| end.split(|c: char| !c.is_alphabetic()));
-    let is_angle = words.into_iter().any(|word| ANGLES.contains(&word));
-    match Units::si(dimension, is_angle).si {
+pub(super) fn si_unit(dimension: Dimension, ends: [&str; 2]) -> String {
+    match Units::si(dimension, ends.into_iter().any(is_of_angles)).si {
         unit if unit == "1" => String::new(),
         unit => unit.strip_prefix('1').map_or(unit.clone(), str::to_owned),
     }
+}
+
+/// Whether a formula has a word that makes an angle of a pure number.
+pub(super) fn is_of_angles(formula: &str) -> bool {
+    formula.split(|c: char| !c.is_alphabetic()).any(|word| ANGLES.contains(&word))
 }
 
 /// A value as a formula.
@@ -250,7 +253,7 @@ fn grid([first, last]: [f64; 2], count: usize) -> Vec<f64> {
 }
 
 /// With so few digits as who types a number has: 0.3 rather than 0.30000000000000004.
-fn rounded(value: f64) -> f64 {
+pub(super) fn rounded(value: f64) -> f64 {
     format!("{value:.14e}").parse().unwrap_or(value)
 }
 

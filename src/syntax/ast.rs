@@ -147,6 +147,20 @@ pub enum ItemKind {
         /// Right of the `=`.
         right: Expr,
     },
+    /// `gravity (gx, gy)`
+    Gravity {
+        /// A tuple.
+        acceleration: Expr,
+    },
+    /// `load NAME: EXPR on QUANTITY`
+    Load {
+        /// Its name.
+        name: Name,
+        /// The force or torque.
+        force: Expr,
+        /// What it works on.
+        on: Expr,
+    },
     /// `measure NAME = EXPR in UNIT`
     Measure {
         /// Its name.
@@ -330,7 +344,7 @@ pub struct Feature {
     pub docs: Vec<String>,
     /// The whole declaration.
     pub span: Span,
-    /// Its name.
+    /// Its name; empty of a mass, which has none, and where it cannot be read.
     pub name: Name,
     /// Which one.
     pub kind: FeatureKind,
@@ -339,7 +353,7 @@ pub struct Feature {
 /// The kinds of features.
 #[derive(Clone, PartialEq, Debug)]
 pub enum FeatureKind {
-    /// What does not follow the grammar; its name may be empty
+    /// What does not follow the grammar
     Broken,
     /// `point P = (x, y)`, or `point P` alone: that of the mechanism
     Point {
@@ -375,6 +389,15 @@ pub enum FeatureKind {
         at: Expr,
         /// First estimate of the parameter.
         estimate: Option<Expr>,
+    },
+    /// `mass M at (x, y) inertia I`
+    Mass {
+        /// How much.
+        mass: Expr,
+        /// Its centre: a formula of points.
+        at: Option<Expr>,
+        /// Its moment of inertia about that.
+        inertia: Option<Expr>,
     },
 }
 

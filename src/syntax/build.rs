@@ -215,6 +215,12 @@ impl Reader<'_> {
                 left: self.next_expr(&mut inner)?,
                 right: self.next_expr(&mut inner)?,
             },
+            Rule::gravity => ItemKind::Gravity { acceleration: self.next_expr(&mut inner)? },
+            Rule::load => ItemKind::Load {
+                name: self.next_name(&mut inner)?,
+                force: self.next_expr(&mut inner)?,
+                on: self.next_expr(&mut inner)?,
+            },
             Rule::measure => ItemKind::Measure {
                 name: self.next_name(&mut inner)?,
                 value: self.next_expr(&mut inner)?,
@@ -419,6 +425,9 @@ impl Reader<'_> {
         let span = self.span(&pair);
         let docs = self.docs_above(span.start);
         let rule = pair.as_rule();
+        if rule == Rule::mass {
+            return self.mass(pair, docs);
+        }
         let along = pair.clone().into_inner().any(|p| p.as_rule() == Rule::along);
         let mut inner = significant(pair);
         let name = self.next_name(&mut inner)?;
@@ -442,6 +451,18 @@ impl Reader<'_> {
             _ => return Err(self.truncated()),
         };
         Ok(Feature { docs, span, name, kind })
+    }
+
+    /// `mass M at (x, y) inertia I`
+    fn mass(&self, pair: Pair<'_, Rule>, docs: Vec<String>) -> Built<Feature> {
+        let span = self.span(&pair);
+        let has_place = pair.clone().into_inner().any(|part| part.as_rule() == Rule::at);
+        let mut inner = significant(pair);
+        let mass = self.next_expr(&mut inner)?;
+        let at = if has_place { self.last_expr(&mut inner)? } else { None };
+        let kind = FeatureKind::Mass { mass, at, inertia: self.last_expr(&mut inner)? };
+        let nameless = Name { text: String::new(), span: Span { end: span.start + "mass".len() as u32, ..span } };
+        Ok(Feature { docs, span, name: nameless, kind })
     }
 
     /// The formulas of a list, without its commas and brackets.
@@ -525,6 +546,7 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::axis
             | Rule::circle
             | Rule::curve
+            | Rule::mass
             | Rule::mechanism_name
             | Rule::binding
             | Rule::carrier
@@ -532,6 +554,8 @@ fn ends_with_a_token(rule: Rule) -> bool {
             | Rule::joint
             | Rule::driver
             | Rule::constraint
+            | Rule::gravity
+            | Rule::load
             | Rule::measure
             | Rule::trace
             | Rule::result

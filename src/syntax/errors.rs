@@ -336,6 +336,8 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::joint
         | Rule::driver
         | Rule::constraint
+        | Rule::gravity
+        | Rule::load
         | Rule::measure
         | Rule::trace
         | Rule::part
@@ -349,6 +351,8 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::kw_joint
         | Rule::kw_driver
         | Rule::kw_constraint
+        | Rule::kw_gravity
+        | Rule::kw_load
         | Rule::kw_measure
         | Rule::kw_trace
         | Rule::kw_part
@@ -358,10 +362,12 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         | Rule::axis
         | Rule::circle
         | Rule::curve
+        | Rule::mass
         | Rule::kw_point
         | Rule::kw_axis
         | Rule::kw_circle
-        | Rule::kw_curve => "a point, axis, circle or curve",
+        | Rule::kw_curve
+        | Rule::kw_mass => "a point, axis, circle or curve",
         Rule::name | Rule::use_prefix | Rule::name_text | Rule::word | Rule::ground_word => "a name",
         Rule::expression_only
         | Rule::expr
@@ -386,6 +392,7 @@ fn human(rule: Rule, after_operand: bool, end: &str) -> &str {
         Rule::along => "`along`",
         Rule::to => "`to`",
         Rule::radius => "`radius`",
+        Rule::inertia => "`inertia`",
         Rule::from => "`from`",
         Rule::every => "`every`",
         Rule::kw_on => "`on`",

@@ -47,7 +47,12 @@ impl<'a> Intent<'a> {
     pub fn new(text: &'a str, file: FileId, at: usize, found: &'a str, expected: &'a [Rule]) -> Intent<'a> {
         let all = tokens(&text[..at]);
         let opens = |word: &str| Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Opener);
-        let is_opener = |k: usize| opens(all[k].text) && all.get(k + 2).is_some_and(|token| token.text == "=");
+        let word = |k: usize| all.get(k).map_or("", |token| token.text);
+        let is_opener = |k: usize| match all[k].text {
+            "load" => word(k + 2) == ":",
+            "gravity" | "mass" => word(k + 1).starts_with(|c: char| c == '(' || c.is_ascii_digit()),
+            other => opens(other) && word(k + 2) == "=",
+        };
         let is_keyword = |k: usize| begins_declaration(text, all[k]) || is_opener(k);
         let start = (0..all.len()).rev().find(|&k| is_keyword(k)).unwrap_or(0);
         let bodies = all.windows(2).filter(|pair| pair[0].text == "body").map(|pair| pair[1].text).collect();

@@ -70,6 +70,11 @@ impl Move {
                 self.defined(name, left);
                 self.expr(right);
             }
+            ItemKind::Gravity { acceleration } => self.expr(acceleration),
+            ItemKind::Load { name, force, on } => {
+                self.defined(name, force);
+                self.expr(on);
+            }
             ItemKind::Measure { name, value, unit }
             | ItemKind::Trace { name, point: value, unit }
             | ItemKind::Result { name, value, unit } => {
@@ -136,6 +141,11 @@ impl Move {
                 self.defined(argument, at);
                 if let Some(estimate) = estimate {
                     self.expr(estimate);
+                }
+            }
+            FeatureKind::Mass { mass, at, inertia } => {
+                for expr in std::iter::once(mass).chain(at).chain(inertia) {
+                    self.expr(expr);
                 }
             }
         }

@@ -3,7 +3,7 @@
 use super::intended::hyphenated_at;
 use super::tokens::{Token, tokens};
 use crate::diag::nearest;
-use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_ground};
+use crate::vocabulary::{JointWord, Keyword, Place, Role, Synonym, is_before_a_name, is_ground};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -29,7 +29,7 @@ impl<'a> Outline<'a> {
         let mut roles: Vec<Option<Role>> = tokens.iter().map(role).collect();
         for k in 0..tokens.len() {
             // elsewhere it is a name
-            if roles[k] == Some(Role::Opener) && !opens(text, &tokens, &roles, k) {
+            if roles[k].is_some_and(Role::is_opener) && !opens(text, &tokens, &roles, k) {
                 roles[k] = None;
             }
         }
@@ -37,7 +37,7 @@ impl<'a> Outline<'a> {
         for (token, role) in tokens.iter().zip(&roles) {
             is_name = takes_name && !is_name;
             names.push(is_name);
-            takes_name = role.is_some_and(begins) && !["ground", "analysis"].contains(&token.text);
+            takes_name = role.is_some_and(begins) && is_before_a_name(token.text);
         }
         let declared = tokens.iter().zip(&names).filter(|(_, is_name)| **is_name);
         let hyphenated = declared.filter_map(|(token, _)| hyphenated_at(text, token.start)).collect();
@@ -55,7 +55,7 @@ impl<'a> Outline<'a> {
 
     /// Whether a token is the keyword of a feature.
     pub fn is_feature(&self, k: usize) -> bool {
-        self.role(k) == Some(Role::Feature)
+        matches!(self.role(k), Some(Role::Feature | Role::FeatureOpener))
     }
 
     /// The number of the first token at or behind a byte.
@@ -184,7 +184,9 @@ impl<'a> Outline<'a> {
             "ground" => next == "{",
             "analysis" => next == "from",
             "fn" | "curve" => second == "(",
-            "joint" | "driver" | "constraint" | "part" => second == ":",
+            "joint" | "driver" | "constraint" | "part" | "load" => second == ":",
+            // seen by what stands beside it
+            "gravity" | "mass" => true,
             "mechanism" => second == "{",
             "body" => second == "{" || second == "at",
             _ => second == "=" && next != ")",
@@ -281,16 +283,43 @@ impl<'a> Outline<'a> {
 }
 
 fn begins(role: Role) -> bool {
-    matches!(role, Role::Declaration | Role::Opener | Role::Feature)
+    matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
 /// Whether a word that may open a declaration does so at a token: a name stands behind it, and that is defined, or the line begins
 /// here.
 fn opens(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+    if !is_before_a_name(tokens[k].text) {
+        return opens_with_a_formula(text, tokens, roles, k);
+    }
     let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
     let is_word = word(k + 1).starts_with(|c: char| c.is_alphabetic() || c == '_');
     let is_defined = ["=", "[", ":"].contains(&word(k + 2));
+    is_word && (is_defined || begins_line(text, tokens, k) && roles.get(k + 1).is_some_and(Option::is_none))
+}
+
+fn begins_line(text: &str, tokens: &[Token<'_>], k: usize) -> bool {
     let behind = k.checked_sub(1).map_or(0, |before| tokens[before].end());
-    let begins_line = text[behind..tokens[k].start].contains('\n');
-    is_word && (is_defined || begins_line && roles.get(k + 1).is_some_and(Option::is_none))
+    text[behind..tokens[k].start].contains('\n')
+}
+
+/// Whether a word before a formula, as `mass` is, opens a declaration at a token: no name stands between the end of one formula and the
+/// beginning of another.
+fn opens_with_a_formula(text: &str, tokens: &[Token<'_>], roles: &[Option<Role>], k: usize) -> bool {
+    let word = |k: usize| tokens.get(k).map_or("", |token| token.text);
+    let begins_with = |text: &str, is: fn(char) -> bool| text.starts_with(is);
+    let is_of_word = |c: char| c.is_alphanumeric() || c == '_';
+    let is_behind_an_end = k.checked_sub(1).is_some_and(|before| match roles[before] {
+        None => begins_with(word(before), is_of_word) || matches!(word(before), ")" | "]" | "{" | "}"),
+        // a name at the end of a line, as far as anyone can tell
+        Some(Role::Separator | Role::Place) => word(before) == "mirrored" || begins_line(text, tokens, k),
+        Some(role) => role == Role::Side,
+    });
+    let next = word(k + 1);
+    let is_before_a_beginning = match roles.get(k + 1).copied().flatten() {
+        Some(role) if role.is_opener() => !matches!(word(k + 2), "=" | ":" | "["),
+        Some(_) => matches!(next, "if" | "not" | "ground"),
+        None => begins_with(next, |c| c.is_alphanumeric() || matches!(c, '_' | '(' | '-' | '.')),
+    };
+    is_behind_an_end && is_before_a_beginning
 }

@@ -98,6 +98,13 @@ impl Page<'_> {
         self.at_most(LONGEST)
     }
 
+    /// The data of a page that is told them later: the JSON, in which the table is missing, and the table's columns.
+    #[must_use]
+    pub fn data(&self) -> (serde_json::Value, Vec<Vec<f64>>) {
+        let columns = self.first().map_or_else(Vec::new, |first| json::table(first, 1, self.columns.len()));
+        (json::value(self, 1, json::Tables::Beside), columns)
+    }
+
     /// The variant that it begins with.
     fn first(&self) -> Option<&Variant<'_>> {
         let place = self.vary.iter().fold(0, |place, vary| place * vary.values.len() + vary.nearest);
@@ -134,6 +141,26 @@ impl Page<'_> {
         ];
         with_size(&filled(TEMPLATE, &parts))
     }
+}
+
+/// Bytes as Base64.
+#[must_use]
+pub fn base64(bytes: &[u8]) -> String {
+    base64::written(bytes)
+}
+
+/// A page without data, which asks the server that it comes from.
+#[must_use]
+pub fn shell() -> String {
+    let parts = [
+        ("version", env!("CARGO_PKG_VERSION").to_owned()),
+        ("title", "mechc".to_owned()),
+        ("connect", "; connect-src 'self'".to_owned()),
+        ("style", STYLE.to_owned()),
+        ("notices", NOTICES.trim_end().to_owned()),
+        ("script", SCRIPT.to_owned()),
+    ];
+    filled(TEMPLATE, &parts)
 }
 
 /// A page that knows how large it is: a number as wide as any takes the place of [`NO_SIZE`]'s.

@@ -1,42 +1,67 @@
-//! Dimensions: powers of length and time. Angles are pure numbers.
+//! Dimensions: powers of length, time and mass. Angles are pure numbers.
 
-/// `lengthᵃ · timeᵇ`; the powers may be fractions, as under a root.
+/// `lengthᵃ · timeᵇ · massᶜ`; the powers may be fractions, as under a root.
 #[derive(Clone, Copy, PartialEq, Debug)]
 pub struct Dimension {
     /// Power of length.
     pub length: f64,
     /// Power of time.
     pub time: f64,
+    /// Power of mass.
+    pub mass: f64,
 }
 
 impl Dimension {
     /// No dimension.
-    pub const PURE: Dimension = Dimension { length: 0.0, time: 0.0 };
+    pub const PURE: Dimension = Dimension::of(0.0, 0.0, 0.0);
     /// A length.
-    pub const LENGTH: Dimension = Dimension { length: 1.0, time: 0.0 };
+    pub const LENGTH: Dimension = Dimension::of(1.0, 0.0, 0.0);
     /// An area.
-    pub const AREA: Dimension = Dimension { length: 2.0, time: 0.0 };
+    pub const AREA: Dimension = Dimension::of(2.0, 0.0, 0.0);
     /// A time.
-    pub const TIME: Dimension = Dimension { length: 0.0, time: 1.0 };
+    pub const TIME: Dimension = Dimension::of(0.0, 1.0, 0.0);
     /// One over a time.
-    pub const RATE: Dimension = Dimension { length: 0.0, time: -1.0 };
+    pub const RATE: Dimension = Dimension::of(0.0, -1.0, 0.0);
+    /// A speed.
+    pub const SPEED: Dimension = Dimension::of(1.0, -1.0, 0.0);
+    /// An acceleration.
+    pub const ACCELERATION: Dimension = Dimension::of(1.0, -2.0, 0.0);
+    /// The acceleration of an angle.
+    pub const ANGULAR_ACCELERATION: Dimension = Dimension::of(0.0, -2.0, 0.0);
+    /// A mass.
+    pub const MASS: Dimension = Dimension::of(0.0, 0.0, 1.0);
+    /// A moment of inertia.
+    pub const INERTIA: Dimension = Dimension::of(2.0, 0.0, 1.0);
+    /// A force.
+    pub const FORCE: Dimension = Dimension::of(1.0, -2.0, 1.0);
+    /// An energy; and a torque, which is an energy for each radian, and a radian is the number 1.
+    pub const ENERGY: Dimension = Dimension::of(2.0, -2.0, 1.0);
+    /// A power.
+    pub const POWER: Dimension = Dimension::of(2.0, -3.0, 1.0);
+    /// A pressure.
+    pub const PRESSURE: Dimension = Dimension::of(-1.0, -2.0, 1.0);
+
+    const fn of(length: f64, time: f64, mass: f64) -> Dimension {
+        Dimension { length, time, mass }
+    }
 
     /// Whether two are the same, fractions being only nearly equal.
     #[must_use]
     pub fn is(self, other: Dimension) -> bool {
-        (self.length - other.length).abs() < 1e-9 && (self.time - other.time).abs() < 1e-9
+        let near = |a: f64, b: f64| (a - b).abs() < 1e-9;
+        near(self.length, other.length) && near(self.time, other.time) && near(self.mass, other.mass)
     }
 
     /// Whether it is one.
     #[must_use]
     pub fn is_finite(self) -> bool {
-        self.length.is_finite() && self.time.is_finite()
+        [self.length, self.time, self.mass].into_iter().all(f64::is_finite)
     }
 
     /// Of a product.
     #[must_use]
     pub fn times(self, other: Dimension) -> Dimension {
-        Dimension { length: self.length + other.length, time: self.time + other.time }
+        Dimension::of(self.length + other.length, self.time + other.time, self.mass + other.mass)
     }
 
     /// Of a quotient.
@@ -48,26 +73,48 @@ impl Dimension {
     /// Of a power.
     #[must_use]
     pub fn to_the(self, power: f64) -> Dimension {
-        Dimension { length: self.length * power, time: self.time * power }
+        Dimension::of(self.length * power, self.time * power, self.mass * power)
     }
 
     /// In words: `a length`, `a speed`, or the unit.
     #[must_use]
     pub fn in_words(self) -> String {
-        const WORDS: &[(f64, f64, &str)] = &[
-            (0.0, 0.0, "a pure number"),
-            (1.0, 0.0, "a length"),
-            (0.0, 1.0, "a time"),
-            (0.0, -1.0, "a rate (1/s)"),
-            (0.0, -2.0, "an angular acceleration (1/s^2)"),
-            (1.0, -1.0, "a speed (m/s)"),
-            (1.0, -2.0, "an acceleration (m/s^2)"),
-            (2.0, 0.0, "an area (m^2)"),
+        const WORDS: &[(Dimension, &str)] = &[
+            (Dimension::PURE, "a pure number"),
+            (Dimension::LENGTH, "a length"),
+            (Dimension::TIME, "a time"),
+            (Dimension::RATE, "a rate (1/s)"),
+            (Dimension::ANGULAR_ACCELERATION, "an angular acceleration (1/s^2)"),
+            (Dimension::SPEED, "a speed (m/s)"),
+            (Dimension::ACCELERATION, "an acceleration (m/s^2)"),
+            (Dimension::AREA, "an area (m^2)"),
+            (Dimension::MASS, "a mass"),
+            (Dimension::INERTIA, "a moment of inertia (kg*m^2)"),
+            (Dimension::FORCE, "a force (N)"),
+            (Dimension::ENERGY, "a torque or an energy (N*m)"),
+            (Dimension::POWER, "a power (W)"),
+            (Dimension::PRESSURE, "a pressure (Pa)"),
         ];
         WORDS
             .iter()
-            .find(|&&(length, time, _)| self.is(Dimension { length, time }))
-            .map_or_else(|| format!("a quantity in {}", self.unit()), |(.., words)| (*words).to_owned())
+            .find(|(known, _)| self.is(*known))
+            .map_or_else(|| format!("a quantity in {}", self.unit()), |(_, words)| (*words).to_owned())
+    }
+
+    /// As a product of SI units: `m^2/s`; `1` for a pure number. Where there is mass it is said by the force, so that a torque is
+    /// `N*m` and a stiffness `N/m`; but for what is a mass, or a moment of one, and a power in watts.
+    #[must_use]
+    pub fn unit(self) -> String {
+        if self.is(Dimension::POWER) {
+            return "W".to_owned();
+        }
+        let newtons = self.over(Dimension::FORCE.to_the(self.mass));
+        let is_of_force = self.mass.abs() > 1e-9 && self.time.abs() > 1e-9;
+        if is_of_force {
+            product(&[("N", self.mass), ("m", newtons.length), ("s", newtons.time)])
+        } else {
+            product(&[("kg", self.mass), ("m", self.length), ("s", self.time)])
+        }
     }
 
     /// As [`Dimension::unit`], angles told from other pure numbers: `rad/s` for a turning speed.
@@ -79,28 +126,27 @@ impl Dimension {
             _ => unit,
         }
     }
+}
 
-    /// As a product of SI units: `m^2/s`; `1` for a pure number.
-    #[must_use]
-    pub fn unit(self) -> String {
-        let part = |unit: &str, power: f64| match power {
-            p if (p - 1.0).abs() < 1e-9 => unit.to_owned(),
-            p if (p - p.round()).abs() < 1e-9 => format!("{unit}^{}", p.round()),
-            p => format!("{unit}^{p:.3}"),
-        };
-        let (mut above, mut below) = (Vec::new(), Vec::new());
-        for (unit, power) in [("m", self.length), ("s", self.time)] {
-            if power > 1e-9 {
-                above.push(part(unit, power));
-            } else if power < -1e-9 {
-                below.push(part(unit, -power));
-            }
+/// `m^2/s`; `1` where all powers are zero.
+fn product(factors: &[(&str, f64)]) -> String {
+    let part = |unit: &str, power: f64| match power {
+        p if (p - 1.0).abs() < 1e-9 => unit.to_owned(),
+        p if (p - p.round()).abs() < 1e-9 => format!("{unit}^{}", p.round()),
+        p => format!("{unit}^{p:.3}"),
+    };
+    let (mut above, mut below) = (Vec::new(), Vec::new());
+    for &(unit, power) in factors {
+        if power > 1e-9 {
+            above.push(part(unit, power));
+        } else if power < -1e-9 {
+            below.push(part(unit, -power));
         }
-        let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
-        match below.len() {
-            0 => above,
-            1 => format!("{above}/{}", below[0]),
-            _ => format!("{above}/({})", below.join("*")),
-        }
+    }
+    let above = if above.is_empty() { "1".to_owned() } else { above.join("*") };
+    match below.len() {
+        0 => above,
+        1 => format!("{above}/{}", below[0]),
+        _ => format!("{above}/({})", below.join("*")),
     }
 }

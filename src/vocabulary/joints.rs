@@ -37,6 +37,24 @@ impl JointKind {
             JointKind::FlatFollower => "flat_follower",
         }
     }
+
+    /// Whether it can exert a moment about the point that its force is reduced to; that of the others is zero.
+    #[must_use]
+    pub const fn has_torque(self) -> bool {
+        match self {
+            JointKind::Translational
+            | JointKind::Weld
+            | JointKind::RevoluteTranslational
+            | JointKind::Gear
+            | JointKind::InternalGear
+            | JointKind::RackPinion => true,
+            JointKind::Revolute
+            | JointKind::RevoluteRevolute
+            | JointKind::PointFollower
+            | JointKind::Cam
+            | JointKind::FlatFollower => false,
+        }
+    }
 }
 
 /// What is told of a kind of joint.

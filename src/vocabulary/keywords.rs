@@ -29,6 +29,8 @@ pub enum Role {
     Opener,
     /// Begins a declaration in a body or the ground; cannot be a name.
     Feature,
+    /// Begins a declaration in a body, where one can begin; a name elsewhere.
+    FeatureOpener,
     /// Joins parts of a formula; cannot be a name.
     Formula,
     /// Joins parts of a declaration, where a number may stand before it, whose unit it cannot be; a name elsewhere.
@@ -37,6 +39,14 @@ pub enum Role {
     Place,
     /// An argument of a joint; a name elsewhere.
     Side,
+}
+
+impl Role {
+    /// Whether it begins a declaration where one can begin, and is a name elsewhere.
+    #[must_use]
+    pub fn is_opener(self) -> bool {
+        matches!(self, Role::Opener | Role::FeatureOpener)
+    }
 }
 
 impl Keyword {
@@ -78,7 +88,13 @@ pub fn is_declaration(word: &str) -> bool {
 /// Whether a word begins a declaration in a body or the ground.
 #[must_use]
 pub fn is_feature(word: &str) -> bool {
-    Keyword::named(word).is_some_and(|keyword| keyword.role == Role::Feature)
+    Keyword::named(word).is_some_and(|keyword| matches!(keyword.role, Role::Feature | Role::FeatureOpener))
+}
+
+/// Whether what a word declares has a name, which stands behind it.
+#[must_use]
+pub fn is_before_a_name(keyword: &str) -> bool {
+    !matches!(keyword, "ground" | "analysis" | "gravity" | "mass")
 }
 
 const fn keyword(
@@ -113,6 +129,20 @@ part front: lever()
 part back:  lever(reach = 60 mm, turn = angle(front.arm)) on front.arm at (80 mm, 0, 90 deg) mirrored
 trace tip = back.arm.tip
 analysis from 0 s to 1 s every 0.1 s",
+);
+
+/// An arm that has weight.
+const WEIGHING: Example = Example::Whole(
+    "\
+ground { point O = (0, 0) }
+body arm {
+    point O = (0, 0)
+    mass 0.8 kg at (60 mm, 0) inertia 2.1e-3 kg * m^2
+}
+gravity (0, -9.81 m/s^2)
+joint main: revolute(ground.O, arm.O)
+driver motor: rotation(main) = 60 rpm * t
+measure torque = effort(motor)",
 );
 
 /// A rack and pinion of which no pose says on which side of the axis the pinion lies.
@@ -265,6 +295,16 @@ pub static KEYWORDS: &[Keyword] = &[
         Example::Of("point_follower"),
     ),
     keyword(
+        Role::FeatureOpener,
+        "mass",
+        &["mass M", "mass M at P", "mass M at P inertia I"],
+        "a mass of a body, with its centre and its moment of inertia about that",
+        "P is `(x, y)` in the frame of the body, or a point of it; the body's origin if it is not given. All are constants over params, \
+         none is negative, and several masses of a body add up. The ground has none. The word begins a declaration only where one begins \
+         in a body, and is a name elsewhere.",
+        WEIGHING,
+    ),
+    keyword(
         Role::Declaration,
         "joint",
         &["joint NAME: KIND(…)"],
@@ -289,6 +329,27 @@ pub static KEYWORDS: &[Keyword] = &[
         Example::Arm(
             "body hand at (100 mm, 0, 0) {\n    point O = (0, 0)\n}\njoint wrist: revolute(arm.tip, hand.O)\n\
          constraint level: angle(hand) = 0",
+        ),
+    ),
+    keyword(
+        Role::Opener,
+        "gravity",
+        &["gravity (gx, gy)"],
+        "the acceleration of free fall, in the outermost frame",
+        "Constants over params; there is none without it. That of a mechanism that serves as a part counts only when it runs alone. The word \
+         begins a declaration only where one begins, and is a name elsewhere.",
+        WEIGHING,
+    ),
+    keyword(
+        Role::Opener,
+        "load",
+        &["load NAME: FORMULA on QUANTITY"],
+        "a force or torque of which a formula is known: a spring, a damper, a weight, a pressure",
+        "The formula holds `t`, inputs, params, kinematic quantities and their `der(…)`. The quantity is one of `x`, `y`, `distance`, `angle`, \
+         `rotation` and `displacement`: on a length works a force, on an angle a torque, positive where the quantity grows. The word begins \
+         a declaration only where one begins, and is a name elsewhere.",
+        Example::Arm(
+            "load spring: -3 N * 1 m * rotation(main) on rotation(main)\nload push:   20 N on x(arm.tip)\nmeasure torque = effort(motor)",
         ),
     ),
     keyword(
@@ -469,11 +530,28 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
     ),
     keyword(
         Role::Separator,
+        "inertia",
+        &["mass M at P inertia I"],
+        "stands before the moment of inertia of a mass, about the centre of that mass",
+        "It is 0 if it is not given.",
+        WEIGHING,
+    ),
+    keyword(
+        Role::Separator,
         "from",
         &["analysis from A to B every H"],
         "stands before the first time of an analysis",
         "",
         Example::Arm("analysis from 0 s to 2 s every 10 ms"),
+    ),
+    keyword(
+        Role::Separator,
+        "on",
+        &["part NAME: MECHANISM(…) on BODY", "load NAME: FORMULA on QUANTITY"],
+        "stands before the body that carries a part, and before what a load works on",
+        "Any body, by its path: `on front.arm`. What is ground in the part is fixed on it. A load works on one kinematic quantity of \
+         positions, and its virtual work is the product of both.",
+        TWO_LEVERS,
     ),
     keyword(
         Role::Place,
@@ -493,14 +571,6 @@ driver motor: rotation(main) = direction(A, B) + 90 deg/s * t",
         "Units with powers, joined by `*` and `/`: `in mm/s^2`. The columns of the derivatives are in that unit per second. Formulas \
          and emitted code see SI. Behind a number `in` is the inch, unless a unit follows it.",
         Example::Arm("measure height = y(arm.tip) / 2 in mm\nmeasure tilt   = rotation(main) in deg"),
-    ),
-    keyword(
-        Role::Place,
-        "on",
-        &["part NAME: MECHANISM(…) on BODY"],
-        "stands before the body that carries a part",
-        "Any body, by its path: `on front.arm`. What is ground in the part is fixed on it.",
-        TWO_LEVERS,
     ),
     keyword(
         Role::Place,

@@ -20,7 +20,7 @@ pub use constants::{CONSTANTS, Constant, StandsFor};
 pub use dimension::Dimension;
 pub use functions::{FUNCTIONS, Function, Group};
 pub use joints::{JOINTS, JointKind, JointWord};
-pub use keywords::{KEYWORDS, Keyword, Role, is_declaration, is_feature};
+pub use keywords::{KEYWORDS, Keyword, Role, is_before_a_name, is_declaration, is_feature};
 pub use other_names::{KindOfName, another_name};
 pub use page::{OVERVIEWS, page};
 pub use quantities::{QUANTITIES, QuantityWord};

@@ -208,7 +208,7 @@ fn units() -> String {
 fn keywords() -> String {
     let parts: [(&str, &[Role]); 4] = [
         ("Declarations", &[Role::Declaration, Role::Opener]),
-        ("In a body or the ground", &[Role::Feature]),
+        ("In a body or the ground", &[Role::Feature, Role::FeatureOpener]),
         ("In formulas", &[Role::Formula]),
         ("Words in their places, and names elsewhere", &[Role::Opener, Role::Separator, Role::Place, Role::Side]),
     ];

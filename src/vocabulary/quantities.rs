@@ -1,4 +1,4 @@
-//! The kinematic quantities: numbers that depend on where the bodies are.
+//! The quantities: numbers that depend on where the bodies are, and on the forces that hold them there.
 
 use super::{Category, Example, Word};
 
@@ -12,6 +12,8 @@ pub struct QuantityWord {
     /// Whether a function or table of the mechanism that is called so means itself, as in texts that were written before there was
     /// this quantity. All of these stand in measures and traces alone.
     pub gives_way: bool,
+    /// Whether it is what comes out of forces, rather than of positions and their rates.
+    pub is_force: bool,
 }
 
 impl QuantityWord {
@@ -57,6 +59,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
         },
         takes: "one point, or two",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -70,6 +73,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
         },
         takes: "one point, or two",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -87,6 +91,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
         },
         takes: "one body or axis, or two; in a measure three points too",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -101,6 +106,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
         },
         takes: "two points",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -115,6 +121,7 @@ pub static QUANTITIES: &[QuantityWord] = &[
         },
         takes: "a joint, or a joint and two axes",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -138,6 +145,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one argument, a joint",
         gives_way: false,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -152,6 +160,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one point",
         gives_way: true,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -166,6 +175,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one body, or two",
         gives_way: true,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -180,6 +190,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one body, or two",
         gives_way: true,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -193,6 +204,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one point",
         gives_way: true,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -207,6 +219,7 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "a joint and a body",
         gives_way: true,
+        is_force: false,
     },
     QuantityWord {
         word: Word {
@@ -220,5 +233,80 @@ driver piston: displacement(guide) = 50 mm + 20 mm/s * t",
         },
         takes: "one argument, a joint",
         gives_way: true,
+        is_force: false,
+    },
+    force(
+        "effort",
+        &["effort(D)"],
+        "D a driver or constraint",
+        "what a driver or constraint supplies, in a measure or result",
+        "It works on the left side less the right side of D as written: a torque (N·m) on an angle, a force (N) on a length. For a driver \
+         `K = C(t)`, `effort(D) * der(K)` is its power.",
+        "one argument, a driver or constraint",
+        "measure torque = effort(motor)\nmeasure power  = effort(motor) * der(rotation(main)) in W",
+    ),
+    force(
+        "force_x",
+        &["force_x(J)"],
+        "J a joint",
+        "x of what a joint exerts on the body of its second argument, in a measure or result",
+        "In N, in the frame of who asks, and on the ground where that is the second. It is what the joint's own equations exert: no driver's \
+         effort, no load on its rotation or displacement.",
+        "one argument, a joint",
+        "measure bearing = hypot(force_x(main), force_y(main))",
+    ),
+    force(
+        "force_y",
+        &["force_y(J)"],
+        "J a joint",
+        "y of what a joint exerts on the body of its second argument, in a measure or result",
+        "In N, in the frame of who asks, and on the ground where that is the second. It is what the joint's own equations exert: no driver's \
+         effort, no load on its rotation or displacement.",
+        "one argument, a joint",
+        "measure bearing = hypot(force_x(main), force_y(main))",
+    ),
+    QuantityWord {
+        word: Word {
+            example: Example::Whole(
+                "\
+ground { axis way = (0, 0) along (1, 0) }
+body slide {
+    axis way = (0, 0) along (1, 0)
+    mass 2 kg at (0, 50 mm)
+}
+joint guide: translational(ground.way, slide.way)
+driver piston: displacement(guide) = 50 mm * sin(3 rad/s * t)
+measure tilt = torque(guide)",
+            ),
+            ..TORQUE.word
+        },
+        ..TORQUE
     },
 ];
+
+const TORQUE: QuantityWord = force(
+    "torque",
+    &["torque(J)"],
+    "J a joint that keeps its bodies from turning, a gear or a rack",
+    "the moment that a joint exerts on the body of its second argument, in a measure or result",
+    "In N·m, positive counter-clockwise: about the point of a `weld`, the second axis' point of `translational`, \
+     `revolute_translational` and `rack_pinion`, the second circle's centre of gears. That of a `revolute` is zero by its kind: what a \
+     motor supplies there is `effort(motor)`.",
+    "one argument, a joint",
+    "",
+);
+
+/// What comes out of forces.
+const fn force(
+    name: &'static str,
+    forms: &'static [&'static str],
+    letters: &'static str,
+    meaning: &'static str,
+    more: &'static str,
+    takes: &'static str,
+    example: &'static str,
+) -> QuantityWord {
+    let example = Example::Arm(example);
+    let word = Word { name, category: Category::Quantity, forms, letters, meaning, more, example };
+    QuantityWord { word, takes, gives_way: true, is_force: true }
+}

@@ -57,6 +57,61 @@ const fn turning(word: Word, factor: f64, denominator: f64, dimension: Dimension
     Unit { word, numerator: 1.0, denominator, factor, dimension, gives_way: false }
 }
 
+/// A unit of a quantity that has to do with mass.
+const fn dynamic(
+    name: &'static str,
+    form: &'static [&'static str],
+    meaning: &'static str,
+    [numerator, denominator]: [f64; 2],
+    dimension: Dimension,
+    example: &'static str,
+) -> Unit {
+    let word = Word { example: Example::Whole(example), ..word(name, form, meaning, "") };
+    Unit { word, numerator, denominator, factor: 1.0, dimension, gives_way: true }
+}
+
+/// An arm with a mass, and a measure.
+macro_rules! weighing {
+    ($mass:literal, $measure:literal) => {
+        concat!(
+            "\
+ground { point O = (0, 0) }
+body arm {
+    point O   = (0, 0)
+    point tip = (80 mm, 0)
+    mass ",
+            $mass,
+            " at (40 mm, 0)
+}
+gravity (0, -9.81 m/s^2)
+joint main: revolute(ground.O, arm.O)
+driver motor: rotation(main) = 60 rpm * t
+measure ",
+            $measure
+        )
+    };
+}
+
+/// A piston on which a pressure works.
+macro_rules! pressed {
+    ($pressure:literal) => {
+        concat!(
+            "\
+ground { axis way = (0, 0) along (1, 0) }
+body piston {
+    axis way = (0, 0) along (1, 0)
+    mass 0.5 kg
+}
+joint guide: translational(ground.way, piston.way)
+driver move: displacement(guide) = 50 mm + 20 mm/s * t
+load gas: -20 cm^2 * ",
+            $pressure,
+            " on displacement(guide)
+measure push = effort(move) in N"
+        )
+    };
+}
+
 /// All of them.
 pub static UNITS: &[Unit] = &[
     length("m", &["1.5 m"], "the metre", 1.0, 1.0, "measure beyond = x(arm.tip) - 0.05 m"),
@@ -151,6 +206,74 @@ pub static UNITS: &[Unit] = &[
         60.0,
         Dimension::RATE,
     ),
+    dynamic(
+        "kg",
+        &["5 kg"],
+        "the kilogram",
+        [1.0, 1.0],
+        Dimension::MASS,
+        weighing!("0.8 kg", "torque = effort(motor)"),
+    ),
+    dynamic(
+        "lbm",
+        &["2 lbm"],
+        "the pound, 0.45359237 kg",
+        [45_359_237.0, 1e8],
+        Dimension::MASS,
+        weighing!("2 lbm", "torque = effort(motor)"),
+    ),
+    dynamic(
+        "N",
+        &["20 N"],
+        "the newton, 1 kg·m/s²; a torque is in `N*m`",
+        [1.0, 1.0],
+        Dimension::FORCE,
+        weighing!("0.8 kg", "bearing = hypot(force_x(main), force_y(main)) in N"),
+    ),
+    dynamic(
+        "kN",
+        &["2 kN"],
+        "the kilonewton",
+        [1e3, 1.0],
+        Dimension::FORCE,
+        weighing!("800 kg", "bearing = force_y(main) in kN"),
+    ),
+    dynamic(
+        "lbf",
+        &["5 lbf"],
+        "the pound-force, 4.4482216152605 N",
+        [44_482_216_152_605.0, 1e13],
+        Dimension::FORCE,
+        weighing!("2 lbm", "bearing = force_y(main) in lbf"),
+    ),
+    dynamic(
+        "J",
+        &["5 J"],
+        "the joule, 1 N·m of work; a torque is in `N*m`",
+        [1.0, 1.0],
+        Dimension::ENERGY,
+        weighing!("0.8 kg", "work = effort(motor) * rotation(main) in J"),
+    ),
+    dynamic(
+        "W",
+        &["60 W"],
+        "the watt, 1 J/s",
+        [1.0, 1.0],
+        Dimension::POWER,
+        weighing!("0.8 kg", "power = effort(motor) * der(rotation(main)) in W"),
+    ),
+    dynamic(
+        "kW",
+        &["2 kW"],
+        "the kilowatt",
+        [1e3, 1.0],
+        Dimension::POWER,
+        weighing!("80 kg", "power = effort(motor) * der(rotation(main)) in kW"),
+    ),
+    dynamic("Pa", &["500 Pa"], "the pascal, 1 N/m²", [1.0, 1.0], Dimension::PRESSURE, pressed!("500 Pa")),
+    dynamic("kPa", &["100 kPa"], "the kilopascal", [1e3, 1.0], Dimension::PRESSURE, pressed!("100 kPa")),
+    dynamic("MPa", &["1.6 MPa"], "the megapascal, 1 N/mm²", [1e6, 1.0], Dimension::PRESSURE, pressed!("1.6 MPa")),
+    dynamic("bar", &["2 bar"], "the bar, 100 kPa", [1e5, 1.0], Dimension::PRESSURE, pressed!("2 bar")),
 ];
 
 impl Unit {
@@ -309,6 +432,10 @@ mod tests {
         assert_eq!(si(50.0, "Hz", 1), 50.0);
         assert_eq!(si(5.0, "mrad", 1), 0.005);
         assert_eq!(si(30.0, "s", -1), 30.0);
+        assert_eq!(si(2.0, "lbm", 1), 0.907_184_74);
+        assert_eq!(si(1.0, "lbf", 1), 4.448_221_615_260_5);
+        assert_eq!(si(1.6, "MPa", 1), 1.6e6);
+        assert_eq!(si(2.0, "bar", 1), 2e5);
         assert_eq!(si(7.0, "μm", 1), 7e-6, "the Greek letter serves too");
     }
 }

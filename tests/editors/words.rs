@@ -2,7 +2,7 @@
 
 use crate::holds;
 use mechc::rooms::vocabulary::{
-    CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, StandsFor, UNITS,
+    CONSTANTS, FUNCTIONS, JOINTS, KEYWORDS, Keyword, QUANTITIES, REDUCTIONS, Role, StandsFor, UNITS, is_before_a_name,
 };
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
@@ -25,8 +25,13 @@ fn list(name: &str) -> Vec<&'static str> {
         "declarations" => keywords(Keyword::begins_declaration),
         "formula" => with_role(Role::Formula),
         "separators" => with_role(Role::Separator),
-        "openers" => with_role(Role::Opener),
-        "places" => keywords(|keyword| matches!(keyword.role, Role::Separator | Role::Place)),
+        "openers" => keywords(|keyword| keyword.role.is_opener() && is_before_a_name(keyword.word.name)),
+        // what opens a declaration without a name is told by what follows, as what stands between parts is
+        "places" => keywords(|keyword| {
+            let is_nameless = keyword.role.is_opener() && !is_before_a_name(keyword.word.name);
+            is_nameless || matches!(keyword.role, Role::Separator | Role::Place)
+        }),
+        "all_openers" => keywords(|keyword| keyword.role.is_opener()),
         "sides" => with_role(Role::Side),
         "joints" => JOINTS.iter().map(|joint| joint.word.name).collect(),
         "quantities" => QUANTITIES.iter().map(|quantity| quantity.word.name).collect(),
@@ -88,7 +93,7 @@ fn filled(text: &str, render: impl Fn(&str) -> String) -> String {
 fn tree_sitter_grammar() {
     holds("tree-sitter/grammar.js", |text| {
         filled(text, |name| {
-            let words = quoted(&list(name), '\'');
+            let words = quoted(&list(if name == "openers" { "all_openers" } else { name }), '\'');
             let lines = lines(words.iter().map(String::as_str), ", ", "  ");
             format!("const {} = [\n{lines},\n];", name.to_uppercase())
         })

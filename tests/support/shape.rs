@@ -122,6 +122,8 @@ fn kind_shape(kind: &ItemKind) -> String {
         ItemKind::Equation { driver, name, left, right } => {
             format!("equation {driver} {} {} {}", name.text, shape(left), shape(right))
         }
+        ItemKind::Gravity { acceleration } => format!("gravity {}", shape(acceleration)),
+        ItemKind::Load { name, force, on } => format!("load {} {} {}", name.text, shape(force), shape(on)),
         ItemKind::Measure { name, value, unit } => {
             format!("measure {} {} {}", name.text, shape(value), unit_shape(unit.as_ref()))
         }
@@ -146,6 +148,10 @@ fn feature_shape(feature: &Feature) -> String {
         FeatureKind::Circle { center, radius } => format!("circle {} {}", shape(center), shape(radius)),
         FeatureKind::Curve { argument, at, estimate } => {
             format!("curve {} {} {:?}", argument.text, shape(at), estimate.as_ref().map(shape))
+        }
+        FeatureKind::Mass { mass, at, inertia } => {
+            let rest: Vec<_> = [at, inertia].map(|e| e.as_ref().map(shape)).into();
+            format!("mass {} {rest:?}", shape(mass))
         }
     };
     format!("    {:?} {} {text}", feature.docs, feature.name.text)

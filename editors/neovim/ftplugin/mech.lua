@@ -31,7 +31,7 @@ if vim.fn.executable('mechc') == 1 then
     cmd = { 'mechc', 'lsp' },
     root_dir = root,
     -- the server offers lenses for what plugin/mech.lua can do
-    init_options = { commands = { 'mechc.run', 'mechc.check' } },
+    init_options = { commands = { 'mechc.view', 'mechc.run', 'mechc.check' } },
     on_attach = show_lenses,
   }
   if vim.lsp.start then

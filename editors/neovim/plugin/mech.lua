@@ -1,3 +1,39 @@
+-- The page of a text, in the browser: it follows what is typed, and lights what is declared at the cursor. The address holds a key, and
+-- arguments of programs are for all users of a machine to see: so the browser is given a file that leads there.
+local function view(buffer, mechanism)
+  local document = { uri = vim.uri_from_bufnr(buffer) }
+  vim.lsp.buf_request(buffer, 'mechc/view', { textDocument = document, mechanism = mechanism }, function(fault, answer)
+    if fault or not answer then
+      return vim.notify('mechc: ' .. (fault and fault.message or 'no page'), vim.log.levels.ERROR)
+    end
+    local file = vim.fn.tempname() .. '.html'
+    vim.fn.writefile({ '<!doctype html><meta http-equiv="refresh" content="0; url=' .. answer.url .. '">' }, file)
+    local named = vim.g.mechc_browser
+    local open = named and function(path) vim.fn[named](path) end or vim.ui.open
+      or function(path) vim.fn.jobstart({ vim.fn.has('mac') == 1 and 'open' or 'xdg-open', path }, { detach = true }) end
+    open(file)
+  end)
+  local group = vim.api.nvim_create_augroup('mechc_view_' .. buffer, {})
+  local function tell()
+    for _, client in pairs((vim.lsp.get_clients or vim.lsp.get_active_clients)()) do
+      if client.name == 'mechc' then
+        local place = vim.lsp.util.make_position_params(0, client.offset_encoding)
+        client.notify('mechc/cursor', { textDocument = document, position = place.position })
+      end
+    end
+  end
+  vim.api.nvim_create_autocmd({ 'CursorMoved', 'CursorMovedI' }, { buffer = buffer, group = group, callback = tell })
+end
+
+vim.api.nvim_create_user_command('MechView', function(given)
+  view(vim.api.nvim_get_current_buf(), given.args ~= '' and given.args or nil)
+end, { nargs = '?' })
+
+vim.lsp.commands['mechc.view'] = function(command)
+  local uri, mechanism = unpack(command.arguments)
+  view(vim.uri_to_bufnr(uri), mechanism)
+end
+
 -- The commands of the code lenses above a mechanism. mechc reads files, so what was edited is saved first.
 for _, word in ipairs({ 'run', 'check' }) do
   vim.lsp.commands['mechc.' .. word] = function(command)

@@ -11,8 +11,8 @@
 
 [
   "use" "as" "mechanism" "param" "fn" "table" "input" "part" "ground" "body" "point" "axis" "circle" "curve" "joint" "driver"
-  "constraint" "measure" "trace" "result" "analysis" "periodic" "spline" "columns" "on" "at" "toward" "mirrored" "along" "to"
-  "radius" "from" "every" "in"
+  "constraint" "mass" "gravity" "load" "measure" "trace" "result" "analysis" "periodic" "spline" "columns" "on" "at" "toward"
+  "mirrored" "along" "to" "radius" "inertia" "from" "every" "in"
 ] @keyword
 ["if" "then" "else"] @keyword.conditional
 ["and" "or" "not"] @keyword.operator
@@ -36,6 +36,7 @@
   (driver name: (identifier) @variable)
   (constraint name: (identifier) @variable)
   (measure name: (identifier) @variable)
+  (load name: (identifier) @variable)
   (trace name: (identifier) @variable)
   (result name: (identifier) @variable)
 ]
@@ -66,7 +67,8 @@
 ; <words units>
 ((reference) @type.builtin
   (#any-of? @type.builtin
-    "m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm"))
+    "m" "mm" "cm" "um" "µm" "km" "in" "ft" "rad" "mrad" "deg" "rev" "s" "ms" "us" "µs" "Hz" "rpm" "kg" "lbm"
+    "N" "kN" "lbf" "J" "W" "kW" "Pa" "kPa" "MPa" "bar"))
 ; </words>
 
 ; <words functions>
@@ -81,7 +83,7 @@
 ((call name: (identifier) @function.builtin)
   (#any-of? @function.builtin
     "x" "y" "angle" "distance" "rotation" "displacement" "curvature" "pole_x" "pole_y" "speed"
-    "pressure_angle" "slip"))
+    "pressure_angle" "slip" "effort" "force_x" "force_y" "torque"))
 ; </words>
 
 ; <words reductions>

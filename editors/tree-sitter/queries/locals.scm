@@ -28,6 +28,7 @@
   (driver name: (identifier) @local.definition.var)
   (constraint name: (identifier) @local.definition.var)
   (measure name: (identifier) @local.definition.var)
+  (load name: (identifier) @local.definition.var)
   (trace name: (identifier) @local.definition.var)
   (result name: (identifier) @local.definition.var)
 ]

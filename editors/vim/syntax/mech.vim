@@ -24,7 +24,7 @@ syntax keyword mechFormula if then else and or not
 " </words>
 
 " <words called>
-syntax match mechFunction /\v<%(abs|acos|angle|argmax|argmin|asin|at|atan|atan2|cos|cosh|curvature|cycloidal|der|direction|displacement|distance|exp|first|harmonic|hypot|integral|last|length|ln|log10|max|mean|mid|min|mod|modsine|polar|pole_x|pole_y|poly|pressure_angle|rms|rotation|sign|sin|sinh|slip|speed|sqrt|step|step5|step7|tan|tanh|x|y)>\ze\s*\(/
+syntax match mechFunction /\v<%(abs|acos|angle|argmax|argmin|asin|at|atan|atan2|cos|cosh|curvature|cycloidal|der|direction|displacement|distance|effort|exp|first|force_x|force_y|harmonic|hypot|integral|last|length|ln|log10|max|mean|mid|min|mod|modsine|polar|pole_x|pole_y|poly|pressure_angle|rms|rotation|sign|sin|sinh|slip|speed|sqrt|step|step5|step7|tan|tanh|torque|x|y)>\ze\s*\(/
 " </words>
 
 " <words joints>
@@ -36,14 +36,15 @@ syntax keyword mechConstant t pi tau
 " </words>
 
 " <words units>
-syntax keyword mechUnit m mm cm um µm km ft rad mrad deg rev s ms us µs Hz rpm
+syntax keyword mechUnit m mm cm um µm km ft rad mrad deg rev s ms us µs Hz rpm kg lbm N kN lbf J W kW Pa kPa
+syntax keyword mechUnit MPa bar
 " </words>
 
 " the inch, unless another unit follows, in which something is printed
 syntax match mechUnit /\v%([0-9.]\s*)@8<=in>/
 " names too, which are none of these words where they are declared, called or set
 " <words contextual>
-syntax match mechPlace /\v<%(use|trace|result|input|part|to|every|along|at|toward|radius|from|spline|in|on|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
+syntax match mechPlace /\v<%(use|load|trace|result|input|part|mass|gravity|to|every|along|at|toward|radius|inertia|from|on|spline|in|mirrored|as|columns|periodic)>\ze\s+[^-+*\/^=<>: \t]/
 syntax match mechPlace /\v[^=,(]\s\zsmirrored>\ze\s*$/
 syntax match mechConstant /\v,\s*\zs%(left|right)>\ze\s*\)/
 " </words>

@@ -3,12 +3,15 @@
 const vscode = require('vscode');
 const { LanguageClient } = require('vscode-languageclient/node');
 const { argumentsOf, serverOf } = require('./commands');
+const { Panels } = require('./panel');
 const { quietAtStart } = require('./quiet');
 
 const QuietClient = quietAtStart(LanguageClient);
 
 /** @type {LanguageClient | undefined} */
 let client;
+
+const panels = new Panels(() => client);
 
 /** @returns {string} */
 function path() {
@@ -24,11 +27,12 @@ async function start() {
   client = new QuietClient('mechc', 'mechc', serverOf(path(), log), {
     documentSelector: [{ language: 'mech', scheme: 'file' }, { language: 'mech', scheme: 'untitled' }],
     // what the lenses above a mechanism may ask for
-    initializationOptions: { commands: ['mechc.run', 'mechc.check'] },
+    initializationOptions: { commands: ['mechc.view', 'mechc.run', 'mechc.check'] },
     synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher('**/*.{mech,csv}') },
   });
   try {
     await client.start();
+    panels.began(client);
   } catch (fault) {
     client = undefined;
     // not waited for: the rest of the extension works while the message stands
@@ -91,6 +95,14 @@ function executed(command) {
   };
 }
 
+/** The page of a text. @param {string | vscode.Uri | undefined} place @param {unknown} mechanism */
+async function view(place, mechanism) {
+  const uri = typeof place === 'string' ? vscode.Uri.parse(place) : place ?? vscode.window.activeTextEditor?.document.uri;
+  if (uri) {
+    await panels.show(uri, typeof mechanism === 'string' ? mechanism : undefined);
+  }
+}
+
 /** @param {vscode.TaskDefinition & { command?: 'check' | 'run', file?: string, mechanism?: string }} definition */
 function resolved({ command, file, mechanism }) {
   return command && file ? task(command, file, mechanism) : undefined;
@@ -99,6 +111,8 @@ function resolved({ command, file, mechanism }) {
 /** @param {vscode.ExtensionContext} context */
 async function activate(context) {
   context.subscriptions.push(
+    vscode.commands.registerCommand('mechc.view', view),
+    vscode.window.onDidChangeTextEditorSelection(({ textEditor }) => panels.point(textEditor)),
     vscode.commands.registerCommand('mechc.run', executed('run')),
     vscode.commands.registerCommand('mechc.check', executed('check')),
     vscode.commands.registerCommand('mechc.restart', restart),

@@ -49,3 +49,9 @@ function mostUsed(texts: readonly string[]): LengthUnit {
 export function inUnit(value: number, { times, by }: LengthUnit): number {
     return (value * times) / by;
 }
+
+/** A unit of length in metres; 1 of what is none. */
+export function unitOfLength(name: string): number {
+    const unit = UNITS.find((unit) => unit.name === name);
+    return unit ? unit.by / unit.times : 1;
+}

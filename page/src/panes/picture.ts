@@ -9,6 +9,8 @@ import { Traces } from "../layers/traces.ts";
 import { Vectors } from "../layers/vectors.ts";
 import { anchor } from "../motion/meetings.ts";
 import { placeOf, type Moment, type Motion, type Pair } from "../motion/motion.ts";
+import { Handles } from "../layers/handles.ts";
+import type { Grasp, Hold } from "../live/hand.ts";
 import { Camera } from "../picture/camera.ts";
 import { CanvasDrawing } from "../picture/canvas.ts";
 import type { Drawing } from "../picture/drawing.ts";
@@ -37,8 +39,11 @@ export class Picture implements Pane {
     private readonly over = svg("svg", { class: "over", role: "img", "aria-label": "the mechanism, drawn" });
     private readonly note = html("div", { class: "note", role: "presentation", hidden: true });
     private readonly pointsLayer = new Points();
+    private readonly handles = new Handles();
     private readonly layers: Layer[];
     private readonly bare: Layer[];
+    /** What takes hold of things, where the page can move them. */
+    hand: Grasp | undefined;
     private camera: Camera | undefined;
     private drawing: Drawing | undefined;
     private document: Document | undefined;
@@ -95,6 +100,7 @@ export class Picture implements Pane {
         this.element.classList.toggle("empty", moment.row < 0 && (this.document?.table.rows ?? 0) === 0 && this.document!.scene.nodes.length === 0);
         drawing.draw(moment, camera);
         for (const layer of this.shownLayers()) layer.draw(moment, camera);
+        this.handles.draw(this.hand?.points() ?? [], camera);
     }
 
     private shownLayers(): Layer[] {
@@ -115,7 +121,7 @@ export class Picture implements Pane {
         this.drawing = many ? new CanvasDrawing(document.scene, this.camera) : new SvgDrawing(document.scene, this.camera);
         if (many) this.element.prepend(this.drawing.element);
         const layers = this.shownLayers().map(({ element }) => element);
-        this.over.replaceChildren(...(many ? [] : [this.drawing.element]), ...layers);
+        this.over.replaceChildren(...(many ? [] : [this.drawing.element]), ...layers, this.handles.element);
         // to measure anew takes longer than all else
         if (before) this.looked();
         else this.resized();
@@ -176,15 +182,22 @@ export class Picture implements Pane {
     private listen(): void {
         let from: Pair | undefined;
         let moved = 0;
+        let hold: Hold | undefined;
         const over = this.over;
         over.addEventListener("pointerdown", (event) => {
             if (event.button !== 0) return;
             from = this.pixelOf(event);
             moved = 0;
+            hold = this.grasped(from, event);
+            if (hold) over.setPointerCapture(event.pointerId);
         });
         over.addEventListener("pointermove", (event) => {
             const at = this.pixelOf(event);
-            if (from && event.buttons === 1) {
+            if (from && hold && event.buttons === 1) {
+                moved += Math.hypot(at[0] - from[0], at[1] - from[1]);
+                if (moved > CLICK) hold.move(this.camera!.place(at));
+                from = at;
+            } else if (from && event.buttons === 1) {
                 moved += Math.hypot(at[0] - from[0], at[1] - from[1]);
                 if (moved > CLICK && event.pointerType === "mouse") {
                     this.camera?.move([at[0] - from[0], at[1] - from[1]]);
@@ -196,6 +209,8 @@ export class Picture implements Pane {
             }
         });
         over.addEventListener("pointerleave", () => this.pointNowhere());
+        over.addEventListener("pointerup", () => (hold = undefined));
+        over.addEventListener("pointercancel", () => (hold = undefined));
         over.addEventListener("click", (event) => {
             from = undefined;
             if (moved <= CLICK) this.choose(this.pixelOf(event), event);
@@ -211,6 +226,26 @@ export class Picture implements Pane {
             },
             { passive: false },
         );
+    }
+
+    /** What is under the pointer, in the hand. */
+    private grasped(at: Pair, event: Event): Hold | undefined {
+        const { hand, camera, moment } = this;
+        if (!hand || !camera || !moment) return undefined;
+        const handle = event.target instanceof Element ? event.target.closest("[data-handle]") : null;
+        if (handle) return hand.point(handle.getAttribute("data-handle")!);
+        const scene = this.document!.scene;
+        // where a pin holds several bodies, the one that can be turned
+        const near = scene.points.filter((point) => {
+            const [x, y] = camera.pixel(placeOf(moment, anchor(point)));
+            return Math.hypot(x - at[0], y - at[1]) < ON_A_PIN;
+        });
+        const hit = scene.frames.indexOf(this.declarationAt(at, event) ?? -1);
+        for (const frame of [hit, ...near.map(({ frame }) => frame)]) {
+            const hold = hand.body(frame, camera.place(at), moment);
+            if (hold) return hold;
+        }
+        return undefined;
     }
 
     private pointAt(at: Pair, event: Event): number | undefined {

@@ -52,6 +52,13 @@ export class Camera {
         return [left + this.pixels * x, top - this.pixels * y];
     }
 
+    /** The place in metres of a pixel. */
+    place([x, y]: Pair): Pair {
+        const [left, top] = this.origin;
+        const inUnits = [(x - left) / this.pixels, (top - y) / this.pixels];
+        return [inUnits[0]! / this.scale + this.middle[0], inUnits[1]! / this.scale + this.middle[1]];
+    }
+
     /** The pixel of the extent's middle. */
     get origin(): Pair {
         return [this.width / 2 + this.moved[0], this.height / 2 + this.moved[1]];

@@ -17,18 +17,6 @@ pub(super) enum Form {
 /// The forms by their endings.
 const FORMS: [(&str, Form); 3] = [("html", Form::Page), ("svg", Form::Picture), ("dxf", Form::Dxf)];
 
-/// The file to write.
-pub(super) fn output(arguments: &ViewArguments) -> Result<&str, Failure> {
-    arguments.output.as_deref().ok_or_else(|| {
-        let file = if arguments.input.file == "-" { "mechanism.mech" } else { &arguments.input.file };
-        let picture = Path::new(file).with_extension("svg");
-        let example = picture.file_name().map_or("picture.svg".into(), |name| name.to_string_lossy());
-        unusable("it is not said where the picture goes".to_owned())
-            .help(format!("name a file, as in `-o {example}`"))
-            .into()
-    })
-}
-
 /// What is drawn, by the name of a file and its ending.
 pub(super) fn form(output: &str, arguments: &ViewArguments) -> Result<Form, Failure> {
     let form = if output == "-" || endings::is_special(output) { Form::Picture } else { form_of_ending(output)? };

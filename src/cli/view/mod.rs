@@ -1,10 +1,11 @@
-//! `mechc view`: the mechanism as a picture, still or moving.
+//! `mechc view`: the mechanism as a picture, still or moving, or as a page that follows the file.
 
 mod form;
 mod frames;
-mod page;
+mod live;
 mod variants;
 mod wanted;
+mod watch;
 
 use super::arguments::ViewArguments;
 use super::failure::{Failure, unusable};
@@ -14,6 +15,7 @@ use super::report::Reporter;
 use super::times::Bounds;
 use crate::analysis::Times;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::live::page;
 use crate::scene::Motion;
 use crate::stages::{Checked, Compiled, RunOptions, Seen};
 use crate::view::dxf;
@@ -30,7 +32,7 @@ const MOST_ROWS: usize = 2000;
 const NO_ARROWS: &str = "there are no arrows: no pin, traced point or point that has a name moves\n";
 
 pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
-    let output = form::output(arguments)?;
+    let Some(output) = &arguments.output else { return live::view(arguments, reporter) };
     let form = form::form(output, arguments)?;
     if !arguments.vary.is_empty() {
         return variants::view(arguments, output, reporter);

@@ -1,6 +1,6 @@
 //! A page with sliders: a mechanism solved for each value of what varies.
 
-use super::{MOST_ROWS, page};
+use super::MOST_ROWS;
 use crate::analysis::Times;
 use crate::cli::arguments::ViewArguments;
 use crate::cli::failure::{Failure, unusable};
@@ -10,6 +10,7 @@ use crate::cli::progress::Progress;
 use crate::cli::report::Reporter;
 use crate::cli::times::Bounds;
 use crate::diag::{Diagnostic, Diagnostics};
+use crate::live::page;
 use crate::scene::{Motion, Pose, bounds};
 use crate::source::Sources;
 use crate::stages::{Checked, Choice, Compiled, Parsed, RunOptions, Seen, Varied};

@@ -290,7 +290,8 @@ impl<'s> Formulas<'s> {
                 Piece::new(name.text, name.width, Level::Atom)
             }
             Symbol::Shift(_) => Piece::new("0", 0.5, Level::Atom),
-            Symbol::Varied { .. } => {
+            Symbol::Multiplier(row) => Piece::new(format!(r"\lambda_{{{}}}", row + 1), 1.0, Level::Atom),
+            Symbol::Varied { .. } | Symbol::VariedMultiplier { .. } => {
                 let name = self.system.symbol_name(symbol);
                 Piece::new(format!(r"\mathtt{{{}}}", name.replace('_', r"\_")), 0.6 * name.len() as f64, Level::Atom)
             }

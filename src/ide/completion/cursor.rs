@@ -2,7 +2,7 @@
 
 use crate::ide::written::{Within, is_of_word, within};
 use crate::syntax::{Token, begins_declaration, tokens};
-use crate::vocabulary::{Dimension, Keyword, Role, Unit, is_feature};
+use crate::vocabulary::{Dimension, Keyword, Unit, is_feature};
 use std::ops::Range;
 
 /// Between which braces a place is.
@@ -263,7 +263,7 @@ fn begins(text: &str, tokens: &[Token<'_>], at: usize) -> bool {
     if begins_declaration(text, token) {
         return true;
     }
-    let is_opener = Keyword::named(token.text).is_some_and(|keyword| keyword.role == Role::Opener);
+    let is_opener = Keyword::named(token.text).is_some_and(|keyword| keyword.role.is_opener());
     let before = text[..token.start].trim_end_matches([' ', '\t']);
     let is_operand =
         at > 0 && tokens[at - 1].text.ends_with(['(', '[', ',', '=', '+', '-', '*', '/', '^', '<', '>', ':']);

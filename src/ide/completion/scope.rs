@@ -73,6 +73,7 @@ impl Scope<'_> {
             }
             Wanted::Body => items.filter_map(|item| self.body(item)).collect(),
             Wanted::Joint(quantity) => items.filter_map(|item| self.joint(item, quantity)).collect(),
+            Wanted::Equation => items.filter_map(|item| self.equation(item)).collect(),
             Wanted::Variable => {
                 let is_variable =
                     |item: &&Declaration| matches!(item.kind, Declared::Param { .. } | Declared::Input { .. });
@@ -191,11 +192,19 @@ impl Scope<'_> {
         }
     }
 
+    fn equation(&self, item: &Declaration) -> Option<Item> {
+        match &item.kind {
+            Declared::Equation { .. } => self.named(item, 1),
+            Declared::Part(_) => self.features_of(item, Wanted::Point).pop(),
+            _ => None,
+        }
+    }
+
     /// What is a number where the declaration around the cursor stands.
     fn numbers<'i>(&self, items: impl Iterator<Item = &'i Declaration>, cursor: &Cursor<'_>) -> Vec<Item> {
         let head = cursor.head();
         let has_time =
-            matches!(head, "input" | "driver" | "measure" | "trace" | "result" | "constraint" | "part" | "fn");
+            matches!(head, "input" | "driver" | "load" | "measure" | "trace" | "result" | "constraint" | "part" | "fn");
         let has_measures = matches!(head, "measure" | "trace" | "result");
         let rank = |item: &Declaration| match kind_of(item) {
             NameKind::Param => Some(1),
@@ -239,13 +248,16 @@ impl Scope<'_> {
     /// A name of a part, as it is seen from outside.
     fn of_part(&self, item: &Declaration, wanted: &[Wanted]) -> Option<Item> {
         let leads_on = |wanted: &Wanted| match item.kind {
-            Declared::Part(_) => wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Body),
+            Declared::Part(_) => {
+                wanted.is_feature() || matches!(wanted, Wanted::Joint(_) | Wanted::Equation | Wanted::Body)
+            }
             Declared::Body { .. } | Declared::Ground { .. } => wanted.is_feature(),
             _ => false,
         };
         let fits = |wanted: &Wanted| match (wanted, &item.kind) {
             (Wanted::Joint(quantity), Declared::Joint { kind, .. }) => has_quantity(&kind.text, quantity),
             (Wanted::Body, Declared::Body { .. } | Declared::Ground { .. })
+            | (Wanted::Equation, Declared::Equation { .. })
             | (Wanted::Number(_), Declared::Measure { .. } | Declared::Result { .. })
             | (Wanted::Number(_) | Wanted::Variable, Declared::Param { .. } | Declared::Input { .. }) => true,
             (Wanted::Point, Declared::Param { .. }) => is_point(item),

@@ -125,6 +125,8 @@ fn declarations_come_where_they_can_begin() {
     2 joint — what two bodies are joined by → joint «NAME»: «KIND»(«»)
     2 driver — an equation that holds time: what a motor or actuator prescribes → driver «NAME»: «FORMULA» = «FORMULA»
     2 constraint — an equation between kinematic quantities that always holds → constraint «NAME»: «FORMULA» = «FORMULA»
+    2 gravity — the acceleration of free fall, in the outermost frame → gravity («gx», «gy»)
+    2 load — a force or torque of which a formula is known: a spring, a damper, a weight, a pressure → load «NAME»: «FORMULA» on «QUANTITY»
     2 measure — a number that is printed for every time, with its first two derivatives → measure «NAME» = «FORMULA»
     2 trace — the path of a point: the columns `NAME.x` and `NAME.y`, with their first two derivatives → trace «NAME» = «P»
     2 result — one number for the whole analysis → result «NAME» = «FORMULA»
@@ -137,6 +139,7 @@ fn declarations_come_where_they_can_begin() {
     2 axis — a directed line of a body or the ground → axis «a» = «P» along («dx», «dy»)
     2 circle — a circle of a body or the ground: a gear's pitch circle, a roller, an eccentric → circle «c» = «P» radius «r»
     2 curve — a profile of a body or the ground → curve «k»(«u») = («x», «y»)
+    2 mass — a mass of a body, with its centre and its moment of inertia about that → mass «M»
     ");
     insta::assert_snapshot!(proposed(&format!("{FOUR_BAR}\nme$0"), 9), @r#"
     2 use — takes the mechanisms of another file, which may then serve as parts → use "«FILE».mech"
@@ -190,7 +193,7 @@ fn units_come_behind_numbers_those_that_fit_first() {
 
 #[test]
 fn formulas_know_what_may_stand_in_them() {
-    insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = $0\n    analysis"), 40), @r"
+    insta::assert_snapshot!(proposed(&with("    analysis", "    measure w = $0\n    analysis"), 44), @r"
     1 crank_length — param crank_length = 30 mm
     2 if — one formula or another → if «CONDITION» then «A» else «B»
     3 t — time, in seconds
@@ -208,6 +211,10 @@ fn formulas_know_what_may_stand_in_them() {
     4 speed(P) — the length of the velocity of a point, in a measure → speed(«P»)
     4 pressure_angle(J, b) — the angle between the common normal at a contact and the velocity of a body's point there, in a measure → pressure_angle(«J», «b»)
     4 slip(J) — the speed at which the two bodies of a contact slide on each other, in a measure → slip(«J»)
+    4 effort(D) — what a driver or constraint supplies, in a measure or result → effort(«D»)
+    4 force_x(J) — x of what a joint exerts on the body of its second argument, in a measure or result → force_x(«J»)
+    4 force_y(J) — y of what a joint exerts on the body of its second argument, in a measure or result → force_y(«J»)
+    4 torque(J) — the moment that a joint exerts on the body of its second argument, in a measure or result → torque(«J»)
     4 sin(a) — the sine of an angle → sin(«a»)
     4 cos(a) — the cosine of an angle → cos(«a»)
     4 tan(a) — the tangent of an angle → tan(«a»)

@@ -19,15 +19,15 @@ const TRIED: &[(&str, Dimension)] = &[
     ("deg", Dimension::PURE),
     ("s", Dimension::TIME),
     ("rpm", Dimension::RATE),
-    ("mm/s", Dimension { length: 1.0, time: -1.0 }),
+    ("mm/s", Dimension::SPEED),
 ];
 
 /// Rates, which are written with `/`.
 const RATES: &[(&str, Dimension, &str)] = &[
     ("deg/s", Dimension::RATE, "degrees in a second"),
     ("rad/s", Dimension::RATE, "radians in a second"),
-    ("mm/s", Dimension { length: 1.0, time: -1.0 }, "millimetres in a second"),
-    ("m/s", Dimension { length: 1.0, time: -1.0 }, "metres in a second"),
+    ("mm/s", Dimension::SPEED, "millimetres in a second"),
+    ("m/s", Dimension::SPEED, "metres in a second"),
 ];
 
 /// All units, in a good order for the number before the cursor.

@@ -17,6 +17,8 @@ pub(super) enum Wanted {
     Body,
     /// A joint that the quantity is about.
     Joint(&'static str),
+    /// A driver or constraint.
+    Equation,
     /// What derivatives are taken by.
     Variable,
     /// On which side of an axis.
@@ -31,7 +33,7 @@ impl Wanted {
             FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => self == Wanted::Axis,
             FeatureKind::Circle { .. } => matches!(self, Wanted::Circle | Wanted::Profile),
             FeatureKind::Curve { .. } => self == Wanted::Profile,
-            FeatureKind::Broken => false,
+            FeatureKind::Mass { .. } | FeatureKind::Broken => false,
         }
     }
 
@@ -47,6 +49,7 @@ pub(super) fn has_quantity(joint: &str, quantity: &str) -> bool {
         "rotation" => joint == "revolute",
         "displacement" => joint == "translational",
         "slip" | "pressure_angle" => matches!(joint, "point_follower" | "cam" | "flat_follower"),
+        "torque" => !matches!(joint, "revolute" | "revolute_revolute" | "point_follower" | "cam" | "flat_follower"),
         _ => true,
     }
 }
@@ -109,6 +112,7 @@ fn of_joint(letters: &str) -> Wanted {
 fn of_quantity(letters: &str, quantity: &'static str) -> Wanted {
     match letters {
         "J" | "joint" => Wanted::Joint(quantity),
+        "D" => Wanted::Equation,
         _ if letters.contains('.') => Wanted::Axis,
         _ if letters.starts_with(char::is_uppercase) => Wanted::Point,
         _ => Wanted::Body,
@@ -132,6 +136,8 @@ fn in_tuple(cursor: &Cursor<'_>, call: Call<'_>) -> Wanted {
         }
         ("body" | "part", Some("at"), 2) => Some(Dimension::PURE),
         ("analysis", ..) => Some(Dimension::TIME),
+        ("gravity", ..) => Some(Dimension::ACCELERATION),
+        ("mass", Some("at"), _) => Some(Dimension::LENGTH),
         _ => None,
     };
     Wanted::Number(dimension)
@@ -144,6 +150,10 @@ fn at_top(cursor: &Cursor<'_>) -> Vec<Wanted> {
         "trace" | "point" | "axis" | "circle" | "curve" | "body" => vec![Wanted::Point],
         "part" if cursor.has("on") && !cursor.has("at") => vec![Wanted::Body],
         "analysis" => vec![Wanted::Number(Some(Dimension::TIME))],
+        "gravity" => vec![Wanted::Number(Some(Dimension::ACCELERATION))],
+        "mass" if cursor.has("inertia") => vec![Wanted::Number(Some(Dimension::INERTIA))],
+        "mass" if cursor.has("at") => vec![Wanted::Point],
+        "mass" => vec![Wanted::Number(Some(Dimension::MASS))],
         "driver" | "constraint" => vec![Wanted::Number(driven(cursor))],
         _ => vec![Wanted::Number(None)],
     }

@@ -15,11 +15,14 @@ pub(super) fn lenses(texts: &Texts, params: &lsp::CodeLensParams) -> Option<Vec<
             (title.to_owned(), format!("mechc.{title}"), arguments)
         };
         let (title, command, arguments) = match lens.kind {
+            LensKind::View(name) => of_mechanism("view", name),
             LensKind::Run(name) => of_mechanism("run", name),
             LensKind::Check(name) => of_mechanism("check", name),
             LensKind::Result(title) => (title, String::new(), None),
         };
-        if !command.is_empty() && !texts.client.can_run {
+        let is_for_all = command.is_empty();
+        let can = if command == "mechc.view" { texts.client.can_view } else { texts.client.can_run };
+        if !is_for_all && !can {
             return None;
         }
         let command = lsp::Command { title, tooltip: None, command, arguments };

@@ -52,10 +52,13 @@ pub(super) enum Group {
     Joints,
     Constraints,
     Drivers,
+    Gravity,
+    Loads,
     Measures,
     Results,
     Analysis,
     Features,
+    Masses,
 }
 
 impl Group {
@@ -71,6 +74,8 @@ impl Group {
             ItemKind::Joint { .. } => Group::Joints,
             ItemKind::Equation { driver: false, .. } => Group::Constraints,
             ItemKind::Equation { driver: true, .. } => Group::Drivers,
+            ItemKind::Gravity { .. } => Group::Gravity,
+            ItemKind::Load { .. } => Group::Loads,
             ItemKind::Measure { .. } | ItemKind::Trace { .. } => Group::Measures,
             ItemKind::Result { .. } => Group::Results,
             ItemKind::Analysis { .. } => Group::Analysis,
@@ -228,7 +233,11 @@ impl Rows<'_> {
         let inside = features.first().map(|feature| feature.span.start);
         let end = self.begin_block(item.span, inside, INDENT);
         for feature in features {
-            let group = (feature.kind != FeatureKind::Broken).then_some(Group::Features);
+            let group = match feature.kind {
+                FeatureKind::Broken => None,
+                FeatureKind::Mass { .. } => Some(Group::Masses),
+                _ => Some(Group::Features),
+            };
             self.plain(feature.span, group, 2 * INDENT);
         }
         self.end_block(item.span, end, INDENT);

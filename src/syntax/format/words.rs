@@ -1,7 +1,7 @@
 //! What each lexeme of a declaration is to those around it, which decides the spaces between them.
 
 use super::lexemes::{Lexeme, Shape};
-use crate::vocabulary::{Keyword, Place, Role, Synonym, Unit};
+use crate::vocabulary::{Keyword, Place, Role, Synonym, Unit, is_before_a_name};
 use rustc_hash::FxHashSet;
 use std::ops::Range;
 
@@ -85,7 +85,9 @@ const BETWEEN_FEATURES: usize = 2;
 
 /// The words that a text declares as names, wherever: none of them means a unit in a formula.
 pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
-    let is_keyword = |lexeme: &Lexeme<'_>| Keyword::named(lexeme.text).is_some_and(|k| begins(k.role));
+    let is_keyword = |lexeme: &Lexeme<'_>| {
+        is_before_a_name(lexeme.text) && Keyword::named(lexeme.text).is_some_and(|k| begins(k.role))
+    };
     let behind_keywords = lexemes.windows(2).filter(|pair| is_keyword(&pair[0])).map(|pair| pair[1].text);
     let is_argument = |run: &&[Lexeme<'_>]| ["fn", "curve"].contains(&run[0].text) && run[2].text == "(";
     let arguments = lexemes.windows(4).filter(is_argument).map(|run| run[3].text);
@@ -93,7 +95,7 @@ pub(super) fn declared<'a>(lexemes: &[Lexeme<'a>]) -> FxHashSet<&'a str> {
 }
 
 fn begins(role: Role) -> bool {
-    matches!(role, Role::Declaration | Role::Opener | Role::Feature)
+    matches!(role, Role::Declaration | Role::Feature) || role.is_opener()
 }
 
 /// The words of a declaration, or of a block on one line. `printed` is the byte at which the unit behind `in` begins.
@@ -141,6 +143,8 @@ enum Cells {
     As,
     /// With the next keyword, and then as the next.
     At,
+    /// With every keyword.
+    Keywords,
     /// With the brace that opens a block.
     Brace,
 }
@@ -220,7 +224,7 @@ impl<'a> Reading<'a> {
     fn class_of_word(&mut self, k: usize) -> Class {
         let text = self.lexemes[k].text;
         let keyword = Keyword::named(text);
-        if self.before.is_none() || keyword.is_some_and(|keyword| keyword.role == Role::Feature) {
+        if self.before.is_none() || self.is_feature(k) {
             self.begin(text);
             return Class::Keyword;
         }
@@ -250,17 +254,18 @@ impl<'a> Reading<'a> {
     fn begin(&mut self, keyword: &'a str) {
         let is_first = self.before.is_none();
         self.keyword = keyword;
-        self.takes_name = !matches!(keyword, "ground" | "analysis" | "use");
+        self.takes_name = is_before_a_name(keyword) && keyword != "use";
         // what stands in a block on one line has no columns
         if is_first {
-            self.cells = if matches!(keyword, "ground" | "analysis" | "mechanism") { Cells::None } else { Cells::Next };
+            let has_cells = !matches!(keyword, "ground" | "analysis" | "gravity" | "mechanism");
+            self.cells = if has_cells { Cells::Next } else { Cells::None };
         }
     }
 
     fn is_unit(&self, k: usize, keyword: Option<&Keyword>) -> bool {
         let is_printed = || self.behind(k).is_some_and(|lexeme| Some(lexeme.start) == self.printed);
         let may_be =
-            |keyword: &Keyword| !keyword.is_reserved() && !matches!(keyword.role, Role::Separator | Role::Opener);
+            |keyword: &Keyword| !keyword.is_reserved() && keyword.role != Role::Separator && !keyword.role.is_opener();
         // an exponent has no unit
         let is_number = self.before == Some(Class::Number) && self.quantity != Quantity::Yes;
         is_number && keyword.is_none_or(may_be) && !(self.lexemes[k].text == "in" && is_printed())
@@ -345,7 +350,12 @@ impl<'a> Reading<'a> {
     }
 
     fn is_feature(&self, k: usize) -> bool {
-        Keyword::named(self.lexemes[k].text).is_some_and(|keyword| keyword.role == Role::Feature)
+        match Keyword::named(self.lexemes[k].text).map(|keyword| keyword.role) {
+            Some(Role::Feature) => true,
+            // elsewhere it is a name
+            Some(Role::FeatureOpener) => self.before == Some(Class::OpenBrace) || self.ends_operand(),
+            _ => false,
+        }
     }
 
     fn begins_cell(&mut self, class: Class) -> bool {
@@ -365,6 +375,7 @@ impl<'a> Reading<'a> {
                 (true, if self.cells == Cells::At { Cells::Brace } else { Cells::None })
             }
             (Cells::At | Cells::Brace, Class::OpenBrace) => (true, Cells::None),
+            (Cells::Keywords, Class::Keyword) if is_outside => (true, Cells::Keywords),
             (cells, _) => (false, cells),
         };
         self.cells = next;
@@ -375,10 +386,11 @@ impl<'a> Reading<'a> {
 /// Where columns begin behind the name of a declaration.
 fn cells_of(keyword: &str) -> Cells {
     match keyword {
-        "joint" | "part" => Cells::Colon,
+        "joint" | "part" | "load" => Cells::Colon,
         "driver" | "constraint" => Cells::ColonAndEquals,
         "use" => Cells::As,
         "body" => Cells::At,
+        "mass" => Cells::Keywords,
         _ => Cells::Equals,
     }
 }

@@ -64,6 +64,10 @@ fn item(item: &Item) -> String {
             let keyword = if *driver { "driver" } else { "constraint" };
             format!("{keyword} {}: {} {}", named(name), expression(left), defined(right))
         }
+        ItemKind::Gravity { acceleration } => format!("gravity {}", pair(acceleration)),
+        ItemKind::Load { name, force, on } => {
+            format!("load {}: {} on {}", named(name), expression(force), expression(on))
+        }
         ItemKind::Measure { name, value, unit } => {
             format!("measure {} {}{}", named(name), defined(value), in_unit(unit.as_ref()))
         }
@@ -175,6 +179,11 @@ fn feature(feature: &Feature) -> String {
         FeatureKind::Curve { argument, at, estimate } => {
             let estimate = estimate.as_ref().map_or_else(String::new, |e| format!(" at {}", expression(e)));
             format!("curve {name}({}) {}{estimate}", argument.text, defined(at))
+        }
+        FeatureKind::Mass { mass, at, inertia } => {
+            let at = at.as_ref().map_or_else(String::new, |at| format!(" at {}", expression(at)));
+            let inertia = inertia.as_ref().map_or_else(String::new, |of| format!(" inertia {}", expression(of)));
+            format!("mass {}{at}{inertia}", expression(mass))
         }
     }
 }

@@ -16,11 +16,31 @@ const MOST_DECIMALS: usize = 30;
 
 /// The data, of whose tables every so-manyth row is there, and the last. Nothing in it ends the element that it stands in.
 pub(super) fn written(page: &Page, every: usize) -> String {
+    // an element of a script ends at `</script`, and `<!--` begins something else
+    value(page, every, Tables::Within).to_string().replace('<', "\\u003c")
+}
+
+/// Where the numbers of tables are.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Tables {
+    Within,
+    Beside,
+}
+
+/// The data; null where there is no variant to show.
+pub(super) fn value(page: &Page, every: usize, tables: Tables) -> Value {
     let texts = Texts::of(&page.texts);
-    let Some(first) = page.first() else { return String::new() };
+    let Some(first) = page.first() else { return Value::Null };
     let scene = scene(first.scene, &texts);
-    let variants: Vec<Value> =
-        page.variants.iter().map(|variant| variant_with(variant, every, page.columns.len(), &texts, &scene)).collect();
+    let variants: Vec<Value> = page
+        .variants
+        .iter()
+        .map(|variant| {
+            let table = if tables == Tables::Within { table(variant, every, page.columns.len()) } else { Vec::new() };
+            let packed = if table.is_empty() { String::new() } else { columns::written(&table) };
+            variant_with(variant, every, &packed, &texts, &scene)
+        })
+        .collect();
     let mut all = json!({
         "format": FORMAT,
         "mechc": env!("CARGO_PKG_VERSION"),
@@ -38,8 +58,7 @@ pub(super) fn written(page: &Page, every: usize) -> String {
     if let (Some(said), Some(object)) = (thinned(first, every), all.as_object_mut()) {
         object.insert("thinned".to_owned(), said.into());
     }
-    // an element of a script ends at `</script`, and `<!--` begins something else
-    all.to_string().replace('<', "\\u003c")
+    all
 }
 
 /// A text by the name of its file: where that lies is nobody's business.
@@ -73,29 +92,35 @@ fn kept(rows: usize, every: usize) -> impl Iterator<Item = usize> {
     (0..rows).step_by(every).chain(last.filter(move |last| last % every != 0))
 }
 
-fn variant_with(variant: &Variant, every: usize, count: usize, texts: &Texts, shared: &Value) -> Value {
-    let (motion, table) = (variant.motion, variant.motion.rows());
+/// The columns of a table; none where there are no rows.
+pub(super) fn table(variant: &Variant, every: usize, count: usize) -> Vec<Vec<f64>> {
+    let table = variant.motion.rows();
     let rows: Vec<usize> = kept(table.len(), every).collect();
     let of_column = |column: usize| {
         // what is infinite has no place in a table either
         let finite = |value: f64| if value.is_finite() { value } else { f64::NAN };
         rows.iter().map(|row| finite(table[*row].get(column).copied().unwrap_or(f64::NAN))).collect()
     };
-    let columns: Vec<Vec<f64>> = (0..count).map(of_column).collect();
+    if rows.is_empty() { Vec::new() } else { (0..count).map(of_column).collect() }
+}
+
+fn variant_with(variant: &Variant, every: usize, packed: &str, texts: &Texts, shared: &Value) -> Value {
+    let motion = variant.motion;
+    let rows = kept(motion.rows().len(), every).count();
     let results = variant.results.iter().map(|(column, value)| {
         let mut object = column_of(column);
         object.insert("value".to_owned(), json!(value));
         Value::Object(object)
     });
     let mut object = json!({
-        "rows": rows.len(),
-        "data": if rows.is_empty() { String::new() } else { columns::written(&columns) },
+        "rows": rows,
+        "data": packed,
         "results": results.collect::<Vec<_>>(),
         "messages": variant.messages.iter().map(|said| message(said, texts)).collect::<Vec<_>>(),
         "edges": motion.edges,
     });
     if let Some(object) = object.as_object_mut() {
-        if rows.is_empty() && !motion.is_empty() {
+        if rows == 0 && !motion.is_empty() {
             let drawn: Vec<[f64; 3]> = motion.poses(0).iter().map(|pose| [pose.at[0], pose.at[1], pose.phi]).collect();
             object.insert("drawn".to_owned(), json!(drawn));
         }

@@ -66,6 +66,16 @@ pub fn derivatives_without_value(system: &ConstraintSystem, variable: usize, t: 
         .datum("rows", rows as usize)
 }
 
+/// The columns of reactions and efforts have no value in some rows.
+pub fn forces_without_value(system: &ConstraintSystem, t: f64, rows: u64) -> Diagnostic {
+    let how_many = if rows == 1 { "in 1 row".to_owned() } else { format!("in {rows} rows, first at {}", at(t)) };
+    Diagnostic::new(Code::W0603, format!("reactions and efforts have no value at {}", at(t)))
+        .at(system.span, format!("too near to a singular position {how_many}"))
+        .note("their cells are empty there; everything else is as good as ever")
+        .datum("t", t)
+        .datum("rows", rows as usize)
+}
+
 fn condition(system: &ConstraintSystem, index: usize, t: f64) -> Diagnostic {
     let condition = &system.conditions[index];
     let diagnostic = |code: Code, what: &str| Diagnostic::new(code, format!("{what} at {}", at(t))).datum("t", t);

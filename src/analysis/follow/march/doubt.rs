@@ -148,7 +148,7 @@ fn agree(kinematics: &Kinematics, row: &[f64], other: &[f64]) -> bool {
     let right = |column: usize| RIGHT[usize::from(column >= first as usize) + usize::from(column >= second as usize)];
     // a measure may have no value
     let is_near = |(column, (a, b)): (usize, (&f64, &f64))| {
-        !a.is_finite() || kinematics.is_varied(column) || (a - b).abs() <= right(column) * (1.0 + b.abs())
+        !a.is_finite() || kinematics.may_be_missing(column) || (a - b).abs() <= right(column) * (1.0 + b.abs())
     };
     row.iter().zip(other).enumerate().all(is_near)
 }

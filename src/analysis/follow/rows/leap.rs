@@ -288,12 +288,12 @@ impl Leap {
         // where both do not agree the position is too near to a singular one for the grid
         // a measure may have no value, and what is varied does not decide about the row
         let agrees = |(column, (a, b)): (usize, (&f64, &f64))| {
-            !a.is_finite() || kinematics.is_varied(column) || (a - b).abs() <= REFINED * (1.0 + a.abs())
+            !a.is_finite() || kinematics.may_be_missing(column) || (a - b).abs() <= REFINED * (1.0 + a.abs())
         };
         if is_solved && row.iter().zip(refined).enumerate().all(agrees) {
             for (column, (cell, refined)) in row.iter_mut().zip(refined).enumerate() {
                 // what could not be trusted before cannot be now
-                if cell.is_finite() || !kinematics.is_varied(column) {
+                if cell.is_finite() || !kinematics.may_be_missing(column) {
                     *cell = *refined;
                 }
             }

@@ -28,13 +28,13 @@ impl Gap {
     }
 }
 
-/// By measure, and then by variable that derivatives are taken by.
+/// By measure, then by variable that derivatives are taken by, and last of reactions and efforts.
 pub(super) struct Missing(Vec<Gap>);
 
 impl Missing {
     pub fn new(system: &ConstraintSystem) -> Missing {
         let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
-        Missing(vec![Gap::NONE; system.measures.len() + variables])
+        Missing(vec![Gap::NONE; system.measures.len() + variables + 1])
     }
 
     /// There is no number in a cell of a measure, or of a derivative by a variable, in the row of a time (s).
@@ -44,11 +44,15 @@ impl Missing {
 
     /// A warning for each, once.
     pub fn say(&mut self, system: &ConstraintSystem, remarks: &mut Remarks) {
+        let variables = system.variations.as_ref().map_or(0, |variations| variations.variables.len());
         for (index, gap) in self.0.iter_mut().enumerate().filter(|(_, gap)| gap.rows > 0 && !gap.is_told) {
             gap.is_told = true;
             remarks.push(match index.checked_sub(system.measures.len()) {
                 None => errors::measure_without_value(system, index, gap.first, gap.rows),
-                Some(variable) => errors::derivatives_without_value(system, variable, gap.first, gap.rows),
+                Some(variable) if variable < variables => {
+                    errors::derivatives_without_value(system, variable, gap.first, gap.rows)
+                }
+                Some(_) => errors::forces_without_value(system, gap.first, gap.rows),
             });
         }
     }

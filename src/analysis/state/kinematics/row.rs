@@ -1,9 +1,10 @@
-//! Rows of the result, with the variations of a state.
+//! Rows of the result, with the forces and the variations of a state.
 
 use super::derivatives::rates;
 use super::{Kinematics, State};
+use crate::analysis::state::linear::BlockLu;
 use crate::analysis::state::scoped::ScopedLu;
-use crate::expr::ExprId;
+use crate::expr::{Dependence, ExprId};
 use crate::ir::ConstraintSystem;
 use crate::layout::{self, Holds};
 use crate::program::{Program, Register, Registers, Stage};
@@ -17,26 +18,35 @@ use std::sync::Arc;
 pub(super) struct Varied {
     /// A variation of all coordinates.
     solution: Vec<f64>,
-    /// By column of a row, whether it is such a derivative.
+    /// By column of a row, whether it may have no value at a position.
     columns: Vec<bool>,
     /// Those by the equations of a part alone.
     scoped: ScopedLu,
 }
 
+/// Whether a column holds what is not known at every position: forces, and what is differentiated by something else than time.
+fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
+    let is_of_solution = |id: ExprId| {
+        let dependence = system.graph.dependence(id);
+        dependence.highest_varied_order().is_some()
+            || dependence.on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS))
+    };
+    match *holds {
+        Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
+        Holds::Reaction(_) => true,
+        Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_of_solution),
+        Holds::Appended(_) => true,
+    }
+}
+
 impl Varied {
     pub fn new(system: &ConstraintSystem, holds: &[Holds]) -> Varied {
         let scoped = ScopedLu::new(system);
-        if system.variations.is_none() {
+        if system.variations.is_none() && system.forces.is_none() {
             return Varied { solution: Vec::new(), columns: Vec::new(), scoped };
         }
-        let n = system.coordinates.len();
-        let is_varied = |id: ExprId| system.graph.dependence(id).highest_varied_order().is_some();
-        let is_varied_column = |holds: &Holds| match *holds {
-            Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied => false,
-            Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_varied),
-            Holds::Appended(_) => true,
-        };
-        Varied { solution: vec![0.0; n], columns: holds.iter().map(is_varied_column).collect(), scoped }
+        let columns = holds.iter().map(|holds| may_be_missing(system, holds)).collect();
+        Varied { solution: vec![0.0; system.coordinates.len()], columns, scoped }
     }
 }
 
@@ -47,8 +57,8 @@ impl Kinematics {
         self.write_columns(state, row);
     }
 
-    /// Whether a column of a row is a derivative by an input or parameter.
-    pub fn is_varied(&self, column: usize) -> bool {
+    /// Whether a column of a row may have no value: a force, or a derivative by an input or parameter.
+    pub fn may_be_missing(&self, column: usize) -> bool {
         self.variations.columns.get(column).copied().unwrap_or(false)
     }
 
@@ -79,9 +89,9 @@ impl Kinematics {
         [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
     }
 
-    /// Computes the variations of a state whose derivatives were just computed, where they can be trusted.
+    /// Computes the forces and variations of a state whose derivatives were just computed, where they can be trusted.
     fn vary(&mut self, state: &State) {
-        if self.system().variations().is_empty() {
+        if !self.has_more_to_solve() {
             return;
         }
         self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
@@ -89,19 +99,24 @@ impl Kinematics {
             self.leave_variations_out();
             return;
         }
-        let (linear, varied) = (&mut self.linear, &mut self.variations);
-        vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
-            linear.solve(|row| registers.get(right[row]), x);
-        });
+        solve_for_more(&self.determined, &self.program, &mut self.registers, &mut self.variations, &mut self.linear);
     }
 
-    /// There are no variations at this position.
+    /// Whether there is more to solve for than the motion.
+    fn has_more_to_solve(&self) -> bool {
+        self.system().forces.is_some() || !self.system().variations().is_empty()
+    }
+
+    /// There are no forces and variations at this position.
     fn leave_variations_out(&mut self) {
         let inputs = self.program.inputs;
-        for register in inputs.varied..inputs.varied(self.system().variations().len() as u32, 0) {
+        let (variations, has_forces) = (self.system().variations().len() as u32, self.system().forces.is_some());
+        let last = if has_forces { inputs.varied_multipliers(variations) } else { inputs.varied(variations, 0) };
+        for register in inputs.varied..last {
             self.registers.set(register, f64::NAN);
         }
         // what measures share with the right sides is computed there
+        self.program.run(Stage::Forces, &mut self.registers);
         self.program.run(Stage::Variation, &mut self.registers);
     }
 
@@ -111,8 +126,12 @@ impl Kinematics {
         registers.set_all(qdd, &state.qdd);
         program.run(Stage::Measures, registers);
         let outputs = &program.outputs;
-        let lists =
-            [(&state.q, &outputs.measures), (&state.qd, &outputs.measures_d), (&state.qdd, &outputs.measures_dd)];
+        let none = Vec::new();
+        let lists = [
+            (&state.q, &outputs.reactions, &outputs.measures),
+            (&state.qd, &none, &outputs.measures_d),
+            (&state.qdd, &none, &outputs.measures_dd),
+        ];
         let mut cells = row.iter_mut();
         let mut put = |value: f64| {
             if let Some(cell) = cells.next() {
@@ -121,11 +140,11 @@ impl Kinematics {
             }
         };
         put(state.t);
-        for (coordinates, measures) in lists {
+        for (coordinates, reactions, measures) in lists {
             for &value in coordinates {
                 put(value);
             }
-            for &register in measures {
+            for &register in reactions.iter().chain(measures) {
                 put(registers.get(register));
             }
         }
@@ -146,10 +165,7 @@ impl Kinematics {
         let is_finite = self.all_finite(state).is_ok();
         if is_finite {
             self.registers.set_all(self.program.inputs.coordinates[2], &state.qdd);
-            let varied = &mut self.variations;
-            vary(&self.determined, &self.program, &mut self.registers, varied, |registers, right, x| {
-                pivoting.solve(|row| registers.get(right[row]), x);
-            });
+            solve_for_more(&self.determined, &self.program, &mut self.registers, &mut self.variations, pivoting);
             self.write_columns(state, row);
         }
         is_finite
@@ -158,7 +174,7 @@ impl Kinematics {
     /// Writes a result row of a state whose derivatives were found otherwise than by solving; its position must have been set.
     pub fn write_given_row(&mut self, state: &State, row: &mut [f64]) {
         self.set_derivatives(state);
-        if !self.system().variations().is_empty() {
+        if self.has_more_to_solve() {
             match self.factor() {
                 Ok(()) => self.vary(state),
                 Err(_) => self.leave_variations_out(),
@@ -168,12 +184,15 @@ impl Kinematics {
     }
 
     /// The measure behind a column of a result row, which must be one of a measure; behind the last one follow the variables, for the
-    /// columns of derivatives by them.
+    /// columns of derivatives by them, and then all reactions and efforts together.
     pub fn measure_of_column(&self, column: usize) -> usize {
         let system = self.system();
         match self.holds.get(column) {
             Some(&Holds::Measure { index, .. }) => index,
             Some(&Holds::Appended(k)) => system.measures.len() + system.appended()[k].variable as usize,
+            Some(Holds::Reaction(_)) => {
+                system.measures.len() + system.variations.as_ref().map_or(0, |all| all.variables.len())
+            }
             _ => 0,
         }
     }
@@ -181,6 +200,61 @@ impl Kinematics {
     /// Length of a result row.
     pub fn row_length(&self) -> usize {
         self.holds.len()
+    }
+}
+
+/// What solves with `Φ_q` and with its transpose.
+trait BothWays {
+    /// `Φ_q x = b`, b by rows.
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]);
+    /// `Φ_qᵀ λ = p`, p by coordinates.
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]);
+}
+
+impl BothWays for BlockLu {
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) {
+        BlockLu::solve(self, right, x);
+    }
+
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        BlockLu::solve_for_multipliers(self, needed, multipliers);
+    }
+}
+
+impl BothWays for Pivoting {
+    fn solve(&mut self, right: impl Fn(usize) -> f64, x: &mut [f64]) {
+        Pivoting::solve(self, right, x);
+    }
+
+    fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        Pivoting::solve_for_multipliers(self, needed, multipliers);
+    }
+}
+
+/// What is wanted of a state beside its motion, whose derivatives are set: multipliers, variations, and how multipliers vary. All are left
+/// in their registers.
+fn solve_for_more(
+    determined: &Determined,
+    program: &Program,
+    registers: &mut Registers,
+    varied: &mut Varied,
+    factored: &mut impl BothWays,
+) {
+    let outputs = &program.outputs;
+    program.run(Stage::Forces, registers);
+    if !outputs.forces.is_empty() {
+        factored.solve_for_multipliers(|column| registers.get(outputs.forces[column]), &mut varied.solution);
+        registers.set_all(program.inputs.multipliers, &varied.solution);
+    }
+    vary(determined, program, registers, varied, |registers, right, x| {
+        factored.solve(|row| registers.get(right[row]), x);
+    });
+    if outputs.varied_forces.iter().any(|right| !right.is_empty()) {
+        program.run(Stage::Variation, registers);
+        for (variation, right) in (0..).zip(&outputs.varied_forces).filter(|(_, right)| !right.is_empty()) {
+            factored.solve_for_multipliers(|column| registers.get(right[column]), &mut varied.solution);
+            registers.set_all(program.inputs.varied_multipliers(variation), &varied.solution);
+        }
     }
 }
 

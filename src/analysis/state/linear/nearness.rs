@@ -76,7 +76,7 @@ impl BlockLu {
             right[self.columns[at + place] as usize] = block.right[place];
         }
         let (u, v) = (left.clone(), right.clone());
-        self.solve_transposed(&v, &mut left);
+        self.solve_transposed(|column, _| v[column], &mut left);
         let norms = self.row_norm.clone();
         let mut x = vec![0.0; n];
         self.solve(|row| u[row] * norms[row], &mut x);

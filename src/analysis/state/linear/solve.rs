@@ -81,15 +81,30 @@ impl BlockLu {
         largest
     }
 
-    /// Solves the transposed scaled system: `b` by coordinates, `w` by rows.
-    pub(super) fn solve_transposed(&self, b: &[f64], w: &mut [f64]) {
+    /// Solves `Φ_qᵀ λ = p`, `p` by coordinates and `λ` by rows of Φ, both unscaled.
+    pub fn solve_for_multipliers(&mut self, needed: impl Fn(usize) -> f64, multipliers: &mut [f64]) {
+        self.solve_transposed(|column, scale| scale * needed(column), multipliers);
+        for (multiplier, norm) in multipliers.iter_mut().zip(&self.row_norm) {
+            *multiplier /= norm;
+        }
+    }
+
+    /// Solves the transposed scaled system: the right side by coordinates, of which it is told the scale, and `w` by rows.
+    pub(super) fn solve_transposed(&mut self, right: impl Fn(usize, f64) -> f64, w: &mut [f64]) {
         let n = self.rows.len();
-        let (mut rest, mut work) = (b.to_vec(), vec![0.0; n]);
+        let (rest, work) = self.work.split_at_mut(n);
+        let (block, work) = work.split_at_mut(n);
+        for (column, (open, &scale)) in rest.iter_mut().zip(&self.column_scale).enumerate() {
+            *open = right(column, scale);
+        }
+        let factors = factors!(self);
         for part in self.parts.iter().rev() {
-            let mut block: Vec<f64> =
-                (0..part.size).map(|place| rest[self.columns[part.at + place] as usize]).collect();
-            self.factors().solve_transposed(part, &mut block, &mut work);
-            for (place, &value) in block.iter().enumerate() {
+            let b = &mut block[..part.size];
+            for (place, b) in b.iter_mut().enumerate() {
+                *b = rest[self.columns[part.at + place] as usize];
+            }
+            factors.solve_transposed(part, b, work);
+            for (place, &value) in b.iter().enumerate() {
                 let k = part.at + place;
                 w[self.rows[k] as usize] = value;
                 for index in self.starts[k]..self.starts[k + 1] {

@@ -5,21 +5,32 @@ use crate::source::Sources;
 use crate::stages::Seen;
 use crate::view::page::{Column, Page, Variant, Vary};
 
+pub use crate::view::page::{base64, shell};
+
 /// The page of one motion.
-pub(super) fn written(seen: &Seen, sources: &Sources) -> String {
+#[must_use]
+pub fn written(seen: &Seen, sources: &Sources) -> String {
     written_with(seen, Vec::new(), vec![variant(seen)], sources)
 }
 
 /// The page of what varies; `first` is the variant that it begins with.
-pub(super) fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
+#[must_use]
+pub fn written_with(first: &Seen, vary: Vec<Vary>, variants: Vec<Variant>, sources: &Sources) -> String {
+    made(first, vary, variants, sources).written()
+}
+
+/// The same, not yet written.
+pub(super) fn made<'a>(first: &'a Seen, vary: Vec<Vary>, variants: Vec<Variant<'a>>, sources: &'a Sources) -> Page<'a> {
     let kinds = first.kinds.iter().map(|kind| word(*kind));
     let columns = first.columns.iter().zip(&first.units).zip(kinds);
     let columns = columns.map(|((name, unit), kind)| Column { kind, ..column(name, unit) }).collect();
     let texts = first.texts.iter().map(|id| (*id, sources.get(*id))).collect();
-    Page { texts, columns, vary, variants }.written()
+    Page { texts, columns, vary, variants }
 }
 
-pub(super) fn variant(seen: &Seen) -> Variant<'_> {
+/// A motion among those of a page.
+#[must_use]
+pub fn variant(seen: &Seen) -> Variant<'_> {
     Variant {
         scene: &seen.scene,
         motion: &seen.motion,
@@ -38,6 +49,7 @@ fn word(kind: ColumnKind) -> &'static str {
         ColumnKind::Time => "time",
         ColumnKind::Body => "body",
         ColumnKind::Joint => "joint",
+        ColumnKind::Reaction => "reaction",
         ColumnKind::Measure => "measure",
         ColumnKind::Rate => "rate",
         ColumnKind::Variation => "variation",

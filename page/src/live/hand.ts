@@ -1,0 +1,126 @@
+// Taking hold of what is drawn: a crank, by the angle around its pivot; a point that a param of the file is.
+
+import type { Document } from "../data/document.ts";
+import type { Knob, Told } from "../data/live.ts";
+import { unitOfLength } from "../data/lengths.ts";
+import { OF_A_FRAME, placeOf, type Moment, type Pair } from "../motion/motion.ts";
+
+/** Something in the hand. */
+export interface Hold {
+    /** The hand is at another place (m). */
+    move(to: Pair): void;
+}
+
+/** What the picture asks of a hand. */
+export interface Grasp {
+    /** A body, if it can be turned. */
+    body(frame: number, at: Pair, moment: Moment): Hold | undefined;
+    point(name: string): Hold | undefined;
+    /** What can be moved, and where it is (m). */
+    points(): readonly { name: string; at: Pair }[];
+}
+
+interface Deeds {
+    crank(input: string, value: number): void;
+    point(name: string, at: Pair): void;
+    value(input: string): number;
+    seek(time: number): void;
+}
+
+/** A point of the drawing is where it is drawn to this part of the picture. */
+const NEAR = 1e-3;
+
+export class Hand implements Grasp {
+    private told: Told | undefined;
+    private document: Document | undefined;
+    private drawn: { name: string; at: Pair; units: [string, string] }[] = [];
+
+    constructor(private readonly deeds: Deeds) {}
+
+    /** There is another motion, with some params set. */
+    offer(told: Told, document: Document, set: ReadonlyMap<string, number>): void {
+        this.told = told;
+        this.document = document;
+        this.drawn = drawnPoints(told, document, set);
+    }
+
+    points(): readonly { name: string; at: Pair }[] {
+        return this.drawn;
+    }
+
+    point(name: string): Hold | undefined {
+        const drawn = this.drawn.find((point) => point.name === name);
+        if (!drawn) return undefined;
+        return {
+            move: (to) => {
+                drawn.at = to;
+                const inUnits = to.map((value, k) => rounded(value, drawn.units[k]!)) as Pair;
+                this.deeds.point(name, inUnits);
+            },
+        };
+    }
+
+    body(frame: number, at: Pair, moment: Moment): Hold | undefined {
+        const crank = frame > 0 ? this.told?.cranks?.find((crank) => crank.frame === frame) : undefined;
+        if (!crank) return undefined;
+        const pivot = placeOf(moment, [frame, ...crank.pivot]);
+        const angle = ([x, y]: Pair) => Math.atan2(y - pivot[1], x - pivot[0]);
+        let before = angle(at);
+        let turned = 0;
+        const { input } = crank;
+        const begin = input === null ? moment.frames[OF_A_FRAME * frame + 2]! : this.deeds.value(input);
+        return {
+            move: (to) => {
+                const now = angle(to);
+                turned += Math.atan2(Math.sin(now - before), Math.cos(now - before));
+                before = now;
+                if (input !== null) this.deeds.crank(input, begin + turned);
+                else this.seek(frame, begin + turned, moment.time);
+            },
+        };
+    }
+
+    /** To the time near to another one at which a body has an angle. */
+    private seek(frame: number, wanted: number, from: number): void {
+        const { document } = this;
+        const name = document?.scene.declarations[document.scene.frames[frame]!]?.[0];
+        const angles = name === undefined ? undefined : document!.table.named(`${name}.phi`);
+        if (!document || !angles) return;
+        const { times } = document.table;
+        const away = (row: number) => Math.abs(angles[row]! - wanted);
+        let row = document.table.nearest(from);
+        for (const step of [1, -1]) {
+            while (row + step >= 0 && row + step < angles.length && away(row + step) < away(row)) row += step;
+        }
+        const next = row + 1 < angles.length && (angles[row + 1]! - wanted) * (angles[row]! - wanted) <= 0 ? row + 1 : row - 1;
+        const span = (angles[next] ?? NaN) - angles[row]!;
+        const part = Number.isFinite(span) && span !== 0 ? (wanted - angles[row]!) / span : 0;
+        this.deeds.seek(times[row]! + Math.min(Math.max(part, 0), 1) * ((times[next] ?? times[row]!) - times[row]!));
+    }
+}
+
+/** The params that are points, where something is drawn there at first. */
+function drawnPoints(
+    { knobs = [] }: Told,
+    { motion, scene, table }: Document,
+    set: ReadonlyMap<string, number>,
+): { name: string; at: Pair; units: [string, string] }[] {
+    if (table.rows === 0) return [];
+    const first = motion.at(motion.from, motion.moment());
+    const places = scene.points.map(({ frame, at }) => placeOf(first, [frame, ...at]));
+    const size = Math.hypot(scene.extent[1][0] - scene.extent[0][0], scene.extent[1][1] - scene.extent[0][1]);
+    return knobs.flatMap((knob, k) => {
+        const other = knobs[k + 1];
+        if (!knob.name.endsWith(".x") || other?.name !== `${knob.name.slice(0, -1)}y` || knob.formula !== null || other.formula !== null) return [];
+        const units: [string, string] = [knob.unit || other.unit || "m", other.unit || knob.unit || "m"];
+        const now = ({ name, value }: Knob) => set.get(name) ?? value;
+        const at = [now(knob) * unitOfLength(units[0]), now(other) * unitOfLength(units[1])] as Pair;
+        const isThere = places.some(([x, y]) => Math.hypot(x - at[0], y - at[1]) < NEAR * size);
+        return isThere ? [{ name: knob.name.slice(0, -2), at, units }] : [];
+    });
+}
+
+/** A length (m) in a unit, to a thousandth of what a hand can tell. */
+function rounded(value: number, unit: string): number {
+    return Number((value / unitOfLength(unit)).toPrecision(4));
+}

@@ -1,0 +1,254 @@
+// A page that follows a file: what its reader has set, what was asked for that, and what is shown of the answers.
+
+import { App } from "../app.ts";
+import { answerOf, documentOf, jogged, type Answer, type Told } from "../data/live.ts";
+import type { Document } from "../data/document.ts";
+import type { Page } from "../data/format.ts";
+import { html } from "../elements.ts";
+import { embedding } from "../embedding.ts";
+import { Knobs, type Refusal } from "../panes/knobs.ts";
+import { Said } from "../panes/said.ts";
+import { Hand } from "./hand.ts";
+import type { News, State, Transport } from "./transport.ts";
+
+/** A question whose answer takes longer is given up for the next one, if there is one (ms). */
+const PATIENCE = 150;
+/** After a question that nobody answered (ms). */
+const PAUSE = 250;
+
+export class Live {
+    private readonly id = crypto.randomUUID();
+    private readonly said = new Said();
+    private readonly knobs: Knobs;
+    private readonly hand: Hand;
+    private app: App | undefined;
+    /** The version of the texts that there is, and the one that is shown. */
+    private newest = 0;
+    private shown = 0;
+    private told: Told | undefined;
+    private document: Document | undefined;
+    /** Params that are set, in their units; inputs that are moved by hand (SI), and the time that stands still for it. */
+    private readonly set = new Map<string, number>();
+    private readonly moved = new Map<string, number>();
+    private still: number | undefined;
+    /** With what the motion was asked for that is shown. */
+    private key = "";
+    private hasChanged = false;
+    private working: Promise<void> | undefined;
+
+    constructor(
+        private readonly transport: Transport,
+        private readonly place: HTMLElement,
+    ) {
+        this.knobs = new Knobs({
+            set: (name, value) => void this.turn(name, value),
+            value: (name) => this.inputNow(name),
+            asInFile: () => this.asInFile(),
+            timeAgain: () => this.timeAgain(),
+            write: (sure) => this.write(sure),
+        });
+        this.hand = new Hand({
+            crank: (input, value) => void this.turn(input, value),
+            point: (name, at) => void this.movePoint(name, at),
+            value: (input) => this.inputNow(input),
+            seek: (time) => void this.app?.seek(time),
+        });
+        place.append(this.said.element);
+        transport.listen(
+            (news) => this.hear(news),
+            (state) => this.turned(state),
+        );
+    }
+
+    private hear({ version, at }: News): void {
+        this.app?.point(at);
+        if (version === this.newest) return;
+        this.newest = version;
+        void this.change();
+    }
+
+    private turned(state: State): void {
+        this.said.state(state);
+        // what was asked while nobody was there is asked again
+        if (state === "there" && this.newest > 0) void this.change();
+    }
+
+    /** A param or an input has another value; settles when that is drawn. */
+    async turn(name: string, value: number): Promise<void> {
+        const isParam = this.told?.knobs?.some((knob) => knob.name === name) ?? false;
+        if (isParam) {
+            const own = this.told!.knobs!.find((knob) => knob.name === name)!;
+            if (value === own.value) this.set.delete(name);
+            else this.set.set(name, value);
+        } else if (this.told?.jogs?.some((jog) => jog.name === name)) {
+            this.app?.pause();
+            this.still ??= this.app?.time ?? 0;
+            this.moved.set(name, value);
+        } else {
+            throw new Error(`there is no param and no input that is called ${name}`);
+        }
+        this.knobs.at(this.set, this.moved);
+        await this.change();
+        await new Promise((resolve) => requestAnimationFrame(resolve));
+    }
+
+    private async movePoint(name: string, [x, y]: [number, number]): Promise<void> {
+        for (const [axis, value] of [["x", x], ["y", y]] as const) {
+            const knob = this.told?.knobs?.find((knob) => knob.name === `${name}.${axis}`);
+            if (knob) this.set.set(knob.name, value);
+        }
+        this.knobs.at(this.set, this.moved);
+        await this.change();
+    }
+
+    /** What an input is now (SI). */
+    private inputNow(name: string): number {
+        return this.moved.get(name) ?? this.app?.input(name) ?? NaN;
+    }
+
+    private asInFile(): void {
+        this.set.clear();
+        this.knobs.at(this.set, this.moved);
+        void this.change();
+    }
+
+    /** Inputs are again what their formulas say. */
+    private timeAgain(): void {
+        if (this.still === undefined) return;
+        this.still = undefined;
+        this.moved.clear();
+        this.knobs.at(this.set, this.moved);
+        this.said.jog(null);
+        this.app?.stand(undefined);
+    }
+
+    private async write(sure: boolean): Promise<Refusal | undefined> {
+        const changes = [...this.set].flatMap(([name, value]) => {
+            const text = this.told?.knobs?.find((knob) => knob.name === name)?.text;
+            return typeof text === "string" ? [{ name, old: text, value }] : [];
+        });
+        if (changes.length < this.set.size) {
+            return { says: "Some of these are not set in this file, and nothing was written." };
+        }
+        const written = await this.transport.write({ version: this.shown, changes, sure });
+        if ("asks" in written) return { says: written.asks, isQuestion: true };
+        if ("refused" in written) return { says: written.refused };
+        for (const { name, value } of changes) if (this.set.get(name) === value) this.set.delete(name);
+        this.knobs.at(this.set, this.moved);
+        return undefined;
+    }
+
+    /** Asks until what is shown is what is wanted. */
+    private change(): Promise<void> {
+        this.hasChanged = true;
+        this.working ??= this.work().finally(() => (this.working = undefined));
+        return this.working;
+    }
+
+    private async work(): Promise<void> {
+        while (this.hasChanged) {
+            this.hasChanged = false;
+            await this.once();
+        }
+    }
+
+    private async once(): Promise<void> {
+        const set = [...this.set].map(([name, value]) => [name, withUnit(value, this.unit(name))]);
+        const key = JSON.stringify(set);
+        // the motion first, then where inputs are in it
+        const isOfMotion = this.still === undefined || this.told?.version !== this.newest || key !== this.key;
+        const jog = isOfMotion ? null : { time: this.still, inputs: [...this.moved] };
+        const asked = { page: this.id, set, jog };
+        const abort = new AbortController();
+        const began = performance.now();
+        const watch = setInterval(() => {
+            if (this.hasChanged && performance.now() - began > PATIENCE) abort.abort();
+        }, 20);
+        try {
+            this.take(answerOf(await this.transport.ask(asked, abort.signal)), key);
+        } catch (error) {
+            if (abort.signal.aborted) return;
+            // nobody is there, which is said elsewhere, or what came cannot be shown
+            if (!(error instanceof TypeError)) console.error(error);
+            await new Promise((resolve) => setTimeout(resolve, PAUSE));
+        } finally {
+            clearInterval(watch);
+        }
+    }
+
+    private take(answer: Answer, key: string): void {
+        const { live, page } = answer;
+        if (live.superseded) {
+            this.hasChanged = true;
+            return;
+        }
+        // an answer of a version that is not told yet comes before its news
+        this.newest = Math.max(this.newest, live.version);
+        this.shown = live.version;
+        if (live.wrong !== undefined) {
+            this.said.wrong(live.wrong, this.app !== undefined);
+            return;
+        }
+        this.said.wrong(undefined, true);
+        if (live.jog) {
+            this.takeJog(answer);
+            return;
+        }
+        if (!page) return;
+        [this.told, this.key] = [live, key];
+        const document = documentOf(answer, page);
+        this.document = document;
+        const app = (this.app ??= this.begin(document));
+        head(page);
+        // those of a motion that is not there have no values
+        const values = (k: number) => answer.columns[page.columns.length + k] ?? new Float64Array(0);
+        app.takeInputs((live.jogs ?? []).map(({ name }, k) => [name, values(k)]));
+        this.knobs.offer(live.knobs ?? [], live.jogs ?? [], this.set);
+        this.knobs.at(this.set, this.moved);
+        this.hand.offer(live, document, this.set);
+        app.show(document);
+        if (this.still !== undefined) this.hasChanged = true;
+    }
+
+    private takeJog(answer: Answer): void {
+        const { reached, said } = answer.live.jog!;
+        if (this.still === undefined || !this.document) return;
+        this.said.jog(said);
+        for (const [name, value] of reached) {
+            // who has gone on meanwhile is not called back
+            if (!this.hasChanged) this.moved.set(name, value);
+        }
+        if (!this.hasChanged) this.knobs.at(this.set, this.moved);
+        const there = jogged(answer, this.document);
+        if (there) this.app?.stand(there);
+    }
+
+    private begin(document: Document): App {
+        const { page } = document;
+        const app = new App(page, { page, document: () => Promise.resolve(this.document!) }, { knobs: this.knobs, hand: this.hand, timeMoves: () => this.timeAgain(), show: (at) => this.transport.show?.(at) });
+        this.place.append(app.element);
+        window.mechc = embedding(app, (name, value) => this.turn(name, value));
+        app.show(document);
+        app.begin();
+        return app;
+    }
+
+    private unit(name: string): string {
+        return this.told?.knobs?.find((knob) => knob.name === name)?.unit ?? "";
+    }
+}
+
+/** The name and the first words of a mechanism, above all else. */
+function head({ name, docs }: Page): void {
+    document.title = name;
+    const [heading, said] = [document.querySelector(".head h1 bdi")!, document.querySelector(".head .docs")];
+    heading.textContent = name;
+    const words = html("div", { class: "docs" }, html("p", {}, docs));
+    if (said) said.replaceWith(words);
+    else document.querySelector(".head")!.append(words);
+}
+
+/** A value as `--set` takes it. */
+export function withUnit(value: number, unit: string): string {
+    return unit === "" || unit.startsWith("/") ? `${value}${unit}` : `${value} ${unit}`;
+}

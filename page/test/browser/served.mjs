@@ -1,0 +1,91 @@
+// `mechc view FILE` as a reader starts it: on a copy of a file in a folder of its own.
+
+import { execFileSync, spawn } from "node:child_process";
+import { mkdtempSync, renameSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { browser } from "./browser.mjs";
+
+export const MECHC = process.env.MECHC ?? "mechc";
+
+/** A file with a text, and a server that follows it. */
+export async function served(text, { name = "linkage.mech", options = [] } = {}) {
+    const folder = mkdtempSync(join(tmpdir(), "live-"));
+    const path = join(folder, name);
+    writeFileSync(path, text);
+    const process = spawn(MECHC, ["view", path, ...options], { stdio: ["ignore", "pipe", "pipe"] });
+    const ended = new Promise((resolve) => process.on("exit", (code, signal) => resolve(code ?? signal)));
+    let heard = "";
+    const url = await new Promise((resolve, reject) => {
+        process.stdout.on("data", (bytes) => {
+            heard += bytes;
+            if (heard.endsWith("\n")) resolve(heard.trim());
+        });
+        process.stderr.on("data", (bytes) => (heard += process.exitCode === null ? "" : bytes));
+        process.on("exit", () => reject(new Error(`it ended: ${heard}`)));
+    });
+    return {
+        path,
+        folder,
+        url,
+        process,
+        save: (text) => writeFileSync(path, text),
+        replace: (text) => {
+            writeFileSync(`${path}.new`, text);
+            renameSync(`${path}.new`, path);
+        },
+        async end() {
+            process.kill("SIGCONT");
+            process.kill("SIGTERM");
+            const code = await ended;
+            rmSync(folder, { recursive: true });
+            return code;
+        },
+    };
+}
+
+/** A page of a server, and what it did that it should not. */
+export async function looked(url, options = {}) {
+    const context = await (await browser()).newContext({ viewport: { width: 1280, height: 900 }, ...options });
+    const page = await context.newPage();
+    const faults = [];
+    page.on("pageerror", (error) => faults.push(`error: ${error.stack}`));
+    page.on("console", (message) => message.type() === "error" && faults.push(message.text()));
+    const { origin } = new URL(url);
+    context.on("request", (request) => request.url().startsWith(`${origin}/`) || faults.push(`request: ${request.url()}`));
+    await page.goto(url);
+    await page.waitForFunction(() => window.mechc && document.querySelector(".time")?.textContent);
+    await page.evaluate(() => mechc.pause());
+    return { page, faults, close: () => context.close() };
+}
+
+/** The table that `mechc run` prints: the names, and the rows. */
+export function table(path, options) {
+    const text = execFileSync(MECHC, ["run", path, ...options], { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"], maxBuffer: 1 << 28 });
+    const [head, ...rows] = text.trim().split("\n").map((line) => line.split(","));
+    return { columns: head, rows: rows.map((row) => row.map((cell) => (cell === "" ? NaN : Number(cell)))) };
+}
+
+/** A four-bar whose crank an input turns; its rocker's pivot is a point of the drawing. */
+export const CRANK = `/// A crank that an input turns.
+mechanism rocker {
+    param rod = 90 mm
+    param half = rod / 2
+    param C = (100 mm, 0)
+    input turn = 30 deg + 1 rev/s * t
+    ground { point O = (0, 0)  point C = C }
+    body crank at (0, 0, 30 deg) { point O = (0, 0)  point A = (30 mm, 0) }
+    body coupler at (26 mm, 15 mm, 40 deg) { point A = (0, 0)  point B = (2 * half, 0) }
+    body rocker at (100 mm, 0, 80 deg) { point C = (0, 0)  point B = (70 mm, 0) }
+    joint main:  revolute(ground.O, crank.O)
+    joint left:  revolute(crank.A, coupler.A)
+    joint right: revolute(coupler.B, rocker.B)
+    joint back:  revolute(ground.C, rocker.C)
+    driver motor: rotation(main) = turn
+    measure lift = y(coupler.B) in mm
+    analysis from 0 s to 1 s every 10 ms
+}
+`;
+
+/** The same with a ground so long that the crank cannot turn around. */
+export const ROCKING = CRANK.replaceAll("100 mm", "150 mm").replace("1 rev/s", "10 deg/s");

@@ -1,0 +1,151 @@
+//! `mechc view FILE`: a page that follows the file, from a server on this machine.
+
+use super::watch::Watch;
+use crate::analysis::Times;
+use crate::cli::arguments::{Interval, ViewArguments};
+use crate::cli::failure::{Failure, unusable};
+use crate::cli::files::{self, Disk, Output};
+use crate::cli::report::Reporter;
+use crate::cli::times::Bounds;
+use crate::cli::{input, interrupts};
+use crate::diag::Diagnostics;
+use crate::live::{Host, Server, Workshop};
+use crate::source::Sources;
+use crate::stages::{Compiled, Redundant};
+use crate::world::World;
+use std::io::Write;
+use std::process::{Command, Stdio};
+use std::sync::Arc;
+use std::thread;
+use std::time::Duration;
+
+/// A browser has read the file that leads it to the page after this time.
+const READ: Duration = Duration::from_secs(10);
+
+pub(super) fn view(arguments: &ViewArguments, reporter: &mut Reporter) -> Result<(), Failure> {
+    let given = &arguments.input;
+    if given.file == "-" {
+        let help = "name a file, or write a page with `-o OUT.html`";
+        return Err(unusable("a live page follows a file, and standard input is none").help(help).into());
+    }
+    if let Some(option) = not_of_live_pages(arguments) {
+        let help = "add `-o OUT.html` or another file, or leave it out";
+        return Err(unusable(format!("`{option}` is for what is written")).help(help).into());
+    }
+    // what is not there at the begin is a mistake; what goes later may come back
+    files::read(&given.file, &mut reporter.sources)?;
+    Bounds::of(&arguments.interval, None, &mut reporter.sources)?;
+    let desk = Desk { file: given.file.clone(), interval: arguments.interval.clone() };
+    let redundant = if arguments.allow_redundant { Redundant::LeftOut } else { Redundant::Refused };
+    let options = (redundant, arguments.pass_bifurcations);
+    let workshop = Workshop::new(input::path(given), input::choice(given), options, Box::new(desk));
+    let workshop = Arc::new(workshop);
+    let serving = Server::bind(arguments.port.unwrap_or(0)).and_then(|server| {
+        let port = server.port();
+        Ok((server.serve(&workshop)?, port))
+    });
+    let (serving, port) = serving.map_err(|error| {
+        let port = arguments.port.map_or_else(String::new, |port| format!(" at port {port}"));
+        unusable(format!("nothing can listen{port}: {error}")).help("leave `--port` out, or name another one")
+    })?;
+    files::print(&format!("{}\n", serving.url()))?;
+    Reporter::say(&told(&given.file, port));
+    if arguments.open {
+        open(serving.url());
+    }
+    let mut watch = Watch::new();
+    loop {
+        watch.wait(&workshop.files());
+        workshop.look();
+    }
+}
+
+/// What is asked for that a live page has not.
+fn not_of_live_pages(arguments: &ViewArguments) -> Option<&'static str> {
+    let ViewArguments { vary, plots, at, trace, vectors, labels, size, scale, body, .. } = arguments;
+    let asked = [
+        ("--vary", !vary.is_empty()),
+        ("--plots", *plots),
+        ("--at", !at.is_empty()),
+        ("--trace", !trace.is_empty()),
+        ("--vectors", *vectors),
+        ("--labels", *labels),
+        ("--size", size.is_some()),
+        ("--scale", scale.is_some()),
+        ("--body", body.is_some()),
+    ];
+    asked.into_iter().find(|(_, is_asked)| *is_asked).map(|(option, _)| option)
+}
+
+/// What is said beside the address.
+fn told(file: &str, port: u16) -> String {
+    let mut told = format!("the page follows {file}; Ctrl-C ends it\n");
+    // the third word is the address at which this machine was reached
+    let ssh = std::env::var("SSH_CONNECTION").unwrap_or_default();
+    if let Some(host) = ssh.split_whitespace().nth(2) {
+        let forwarded = format!("{port}:127.0.0.1:{port}");
+        told += &format!("from another machine: ssh -N -L {forwarded} {host}, then open the same address there\n");
+    }
+    told
+}
+
+/// The machine's files, and the options of the command.
+struct Desk {
+    file: String,
+    interval: Interval,
+}
+
+impl Host for Desk {
+    fn world(&self) -> Arc<dyn World> {
+        Arc::new(Disk)
+    }
+
+    fn times(&self, compiled: &Compiled, sources: &mut Sources) -> Result<Times, Diagnostics> {
+        let times = Bounds::of(&self.interval, compiled.analysis(), sources).and_then(|bounds| bounds.grid());
+        times.map_err(said)
+    }
+
+    fn write(&self, text: &str) -> Result<(), String> {
+        let written = Output::replace(&self.file, text);
+        written.map_err(|why| said(why).iter().map(|said| said.message.clone()).collect::<Vec<_>>().join("; "))
+    }
+}
+
+fn said(why: Failure) -> Diagnostics {
+    match why {
+        Failure::Said(said) => said,
+        Failure::ReaderGone => Diagnostics::default(),
+    }
+}
+
+/// Opens the browser, in words where that fails. Its address holds the token, and arguments of a process are for all users of a machine to
+/// see: so the browser is given a file that only this user can read, and that leads to the page.
+fn open(url: &str) {
+    const OPENERS: [&[&str]; 3] = [&["xdg-open"], &["open"], &["cmd", "/c", "start", ""]];
+    let opener = match std::env::consts::OS {
+        "macos" => OPENERS[1],
+        "windows" => OPENERS[2],
+        _ => OPENERS[0],
+    };
+    let opened = (|| {
+        let mut unfinished = interrupts::unfinished();
+        let mut file = tempfile::Builder::new().prefix("mechc-").suffix(".html").tempfile()?;
+        unfinished.push(file.path().to_owned());
+        drop(unfinished);
+        write!(file, "<!doctype html><meta http-equiv=\"refresh\" content=\"0; url={url}\">")?;
+        let mut command = Command::new(opener[0]);
+        command.args(&opener[1..]).arg(file.path()).stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::null());
+        // a browser that begins here goes on when Ctrl-C ends this
+        #[cfg(unix)]
+        std::os::unix::process::CommandExt::process_group(&mut command, 0);
+        let mut child = command.spawn()?;
+        thread::Builder::new().name("browser".to_owned()).spawn(move || {
+            thread::sleep(READ);
+            drop(file);
+            let _ = child.wait();
+        })
+    })();
+    if let Err(error) = opened {
+        Reporter::say(&format!("the browser does not open: {error}\n"));
+    }
+}

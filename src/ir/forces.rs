@@ -1,0 +1,84 @@
+//! What holds a determined motion: the multipliers `λ` of `Φ_qᵀ λ = p`, of which each equation has one.
+//!
+//! `p = M q̈ + … − Q` is what the inertia of the bodies asks for, less what weights and loads give (Lagrange's equations of the first
+//! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
+//! on the coordinates.
+
+use super::ConstraintSystem;
+use crate::expr::{ExprId, Symbol};
+use crate::source::Span;
+
+/// The equations for the multipliers.
+#[derive(Clone, Debug)]
+pub struct Forces {
+    /// `p`, one entry per coordinate [N for a length, N·m for an angle, J for a pure number].
+    pub needed: Vec<ExprId>,
+    /// What is tabulated of all joints, constraints and drivers, where that is asked for.
+    pub reactions: Vec<Reaction>,
+}
+
+/// A column of what a joint exerts, or of what a constraint or driver supplies.
+#[derive(Clone, Debug)]
+pub struct Reaction {
+    /// `big_end.fx`, `motor.effort`
+    pub name: String,
+    /// Its value in SI.
+    pub value: ExprId,
+    /// Its SI unit: `N`, `N*m`.
+    pub unit: String,
+    /// The place of the declaration's name.
+    pub span: Span,
+}
+
+impl ConstraintSystem {
+    /// `p` of `Φ_qᵀ λ = p`, one entry per coordinate; none where nobody asks for forces.
+    #[must_use]
+    pub fn needed_forces(&self) -> &[ExprId] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.needed)
+    }
+
+    /// The columns of reactions and efforts; none where they are not asked for.
+    #[must_use]
+    pub fn reactions(&self) -> &[Reaction] {
+        self.forces.as_ref().map_or(&[], |forces| &forces.reactions)
+    }
+
+    /// Multipliers get the numbers that their rows have when some are taken out; nobody asks for those of rows that are not kept.
+    pub(super) fn renumber_multipliers(&mut self, kept: &[usize]) {
+        if self.forces.is_none() {
+            return;
+        }
+        let mut number = vec![None; self.rows.len()];
+        for (new, &old) in (0..).zip(kept) {
+            number[old] = Some(self.graph.symbol(Symbol::Multiplier(new)));
+        }
+        let nothing = self.graph.constant(0.0);
+        let of = |symbol: Symbol| match symbol {
+            Symbol::Multiplier(row) => Some(number[row as usize].unwrap_or(nothing)),
+            _ => None,
+        };
+        let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
+        let reactions = self.forces.iter_mut().flat_map(|forces| &mut forces.reactions);
+        let places: Vec<&mut ExprId> = formulas.chain(reactions.map(|reaction| &mut reaction.value)).collect();
+        let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
+        for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
+            *place = id;
+        }
+    }
+
+    /// What is left of `Φ_qᵀ λ = p`, one entry per coordinate, where forces are asked for and varied.
+    pub(super) fn open_forces(&mut self) -> Vec<ExprId> {
+        let mut open = self.needed_forces().to_vec();
+        if open.is_empty() || self.variations.is_none() && self.results.variations.is_none() {
+            return Vec::new();
+        }
+        for row in 0..self.rows.len() {
+            let multiplier = self.graph.symbol(Symbol::Multiplier(row as u32));
+            for &(column, slope) in self.phi_q.row(row) {
+                let exerted = self.graph.mul(slope, multiplier);
+                open[column as usize] = self.graph.sub(open[column as usize], exerted);
+            }
+        }
+        open
+    }
+}

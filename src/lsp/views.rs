@@ -1,0 +1,244 @@
+//! Live pages of open texts: a workshop for each, whose files are the editor's buffers.
+//!
+//! What pages ask is answered in threads of their own, and new versions are looked at a moment after the last keystroke: who types waits
+//! for none of it.
+
+use crate::analysis::Times;
+use crate::diag::{Code, Diagnostic, Diagnostics};
+use crate::live::{Asked, Host, Server, Serving, Workshop, Write};
+use crate::source::Sources;
+use crate::stages::{Choice, Compiled, Redundant};
+use crate::world::World;
+use crossbeam_channel::{Receiver, Sender, bounded};
+use serde_json::{Value, json};
+use std::ops::Range;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::thread;
+use std::time::Duration;
+
+/// A page is told of another text once nobody has typed for so long.
+const DELAY: Duration = Duration::from_millis(120);
+/// How often it is looked whether a page is still there, of one that nothing is told.
+const PULSE: Duration = Duration::from_secs(2);
+
+/// What pages have for the client.
+pub(super) enum Event {
+    /// It is told something.
+    Tell(&'static str, Value),
+    /// A text is to stand in the place of that of a file.
+    Write(Arc<Path>, String),
+    /// A place of a file (UTF-16) is to be shown.
+    Show(Arc<Path>, u32),
+}
+
+/// The pages of a session.
+pub(super) struct Views {
+    shared: Arc<Shared>,
+    /// Says that some text is another one; made with the first page.
+    wake: Option<Sender<()>>,
+}
+
+struct Shared {
+    /// The editor's buffers as of now, with the files behind them.
+    buffers: Mutex<Arc<dyn World>>,
+    open: Mutex<Vec<Arc<View>>>,
+    tell: Sender<Event>,
+}
+
+struct View {
+    path: Arc<Path>,
+    mechanism: Option<String>,
+    workshop: Arc<Workshop>,
+    serving: Mutex<Option<Serving>>,
+}
+
+/// A text whose page is meant: the file, as the client calls it, and which mechanism of it.
+pub(super) struct Meant {
+    pub path: Arc<Path>,
+    pub uri: String,
+    pub mechanism: Option<String>,
+}
+
+impl Views {
+    pub fn new(buffers: Arc<dyn World>, tell: Sender<Event>) -> Views {
+        let shared = Shared { buffers: Mutex::new(buffers), open: Mutex::default(), tell };
+        Views { shared: Arc::new(shared), wake: None }
+    }
+
+    /// The buffers are others by now.
+    pub fn turn_to(&self, buffers: Arc<dyn World>) {
+        let Some(wake) = &self.wake else {
+            *lock(&self.shared.buffers) = buffers;
+            return;
+        };
+        *lock(&self.shared.buffers) = buffers;
+        // one that is full wakes anyway
+        let _ = wake.try_send(());
+    }
+
+    /// The address of a page in a browser.
+    pub fn address(&mut self, meant: Meant) -> Result<Value, String> {
+        let view = self.view(meant);
+        let mut serving = lock(&view.serving);
+        if serving.is_none() {
+            let served = Server::bind(0).and_then(|server| server.serve(&view.workshop));
+            *serving = Some(served.map_err(|error| error.to_string())?);
+        }
+        Ok(json!({ "url": serving.as_ref().map(Serving::url) }))
+    }
+
+    /// The page itself, for a panel of the editor, which asks in its name.
+    pub fn panel(&mut self, meant: Meant) -> Value {
+        let uri = meant.uri.clone();
+        let view = self.view(meant);
+        let (weak, told_of) = (Arc::downgrade(&view.workshop), self.shared.tell.clone());
+        let tell = move || {
+            let mut told = None;
+            while let Some(workshop) = weak.upgrade() {
+                let news = workshop.news(told.as_ref(), PULSE);
+                if let Some(news) = &news {
+                    let params = json!({ "uri": uri, "version": news.version, "at": news.at });
+                    if told_of.send(Event::Tell("mechc/view/news", params)).is_err() {
+                        return;
+                    }
+                }
+                told = news.or(told);
+            }
+        };
+        let _ = thread::Builder::new().name("live news".to_owned()).spawn(tell);
+        json!({ "html": crate::live::page::shell() })
+    }
+
+    /// What a panel asks; it is answered when it is known.
+    pub fn ask(&mut self, meant: Meant, asked: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+        let view = self.view(meant);
+        let body = asked.to_string();
+        let work = move || {
+            answer(match Asked::of(body.as_bytes()) {
+                Ok(asked) => Ok(json!({ "data": crate::live::page::base64(&view.workshop.answer(&asked)) })),
+                Err(why) => Err(why.to_owned()),
+            });
+        };
+        let _ = thread::Builder::new().name("live answer".to_owned()).stack_size(8 << 20).spawn(work);
+    }
+
+    /// Values that a panel writes.
+    pub fn write(&mut self, meant: Meant, write: &Value, answer: impl FnOnce(Result<Value, String>) + Send + 'static) {
+        let view = self.view(meant);
+        let body = write.to_string();
+        let work = move || {
+            answer(Write::of(body.as_bytes()).map(|write| view.workshop.write(&write)).map_err(str::to_owned));
+        };
+        let _ = thread::Builder::new().name("live write".to_owned()).stack_size(8 << 20).spawn(work);
+    }
+
+    /// The cursor is at a place of a file (UTF-16).
+    pub fn point(&self, path: &Path, at: Option<u32>) {
+        for view in lock(&self.shared.open).iter().filter(|view| *view.path == *path) {
+            view.workshop.point(at);
+        }
+    }
+
+    /// A text is closed: so are its pages.
+    pub fn close(&self, path: &Path) {
+        lock(&self.shared.open).retain(|view| *view.path != *path);
+    }
+
+    fn view(&mut self, meant: Meant) -> Arc<View> {
+        let Meant { path, mechanism, .. } = meant;
+        if self.wake.is_none() {
+            let (wake, woken) = bounded(1);
+            let shared = Arc::downgrade(&self.shared);
+            let look = move || look(&woken, &shared);
+            if thread::Builder::new().name("live look".to_owned()).spawn(look).is_ok() {
+                self.wake = Some(wake);
+            }
+        }
+        let mut open = lock(&self.shared.open);
+        if let Some(view) = open.iter().find(|view| view.path == path && view.mechanism == mechanism) {
+            return Arc::clone(view);
+        }
+        let choice = Choice { mechanism: mechanism.clone(), ..Choice::default() };
+        let host = Editor { shared: Arc::clone(&self.shared), path: Arc::clone(&path) };
+        let workshop = Arc::new(Workshop::new(&path, choice, (Redundant::Refused, false), Box::new(host)));
+        let view = Arc::new(View { path, mechanism, workshop, serving: Mutex::default() });
+        open.push(Arc::clone(&view));
+        view
+    }
+}
+
+impl Drop for Views {
+    fn drop(&mut self) {
+        // their hosts hold what holds them
+        lock(&self.shared.open).clear();
+    }
+}
+
+/// Looks at all texts that have pages, a moment after the last keystroke.
+fn look(woken: &Receiver<()>, shared: &std::sync::Weak<Shared>) {
+    while woken.recv().is_ok() {
+        while woken.recv_timeout(DELAY).is_ok() {}
+        let Some(shared) = shared.upgrade() else { return };
+        let open: Vec<Arc<View>> = lock(&shared.open).clone();
+        for view in open {
+            view.workshop.look();
+        }
+    }
+}
+
+/// The editor as the host of a page.
+struct Editor {
+    shared: Arc<Shared>,
+    path: Arc<Path>,
+}
+
+impl Host for Editor {
+    fn world(&self) -> Arc<dyn World> {
+        Arc::clone(&lock(&self.shared.buffers))
+    }
+
+    fn times(&self, compiled: &Compiled, _: &mut Sources) -> Result<Times, Diagnostics> {
+        compiled.times().ok_or_else(|| {
+            let said = Diagnostic::new(Code::E0705, "it is not said which times to compute");
+            said.help("add `analysis from 0 s to 1 s every 10 ms` to the file").into()
+        })
+    }
+
+    /// The editor changes its text, which its user saves.
+    fn write(&self, text: &str) -> Result<(), String> {
+        let event = Event::Write(Arc::clone(&self.path), text.to_owned());
+        self.shared.tell.send(event).map_err(|_| "the editor is gone".to_owned())
+    }
+
+    fn show(&self, at: u32) {
+        let _ = self.shared.tell.send(Event::Show(Arc::clone(&self.path), at));
+    }
+}
+
+/// What of a text is another one in a new text: where, and what stands there.
+pub(super) fn difference<'n>(old: &str, new: &'n str) -> (Range<u32>, &'n str) {
+    let same = |mut pairs: Box<dyn Iterator<Item = (char, char)> + '_>| -> usize {
+        pairs.by_ref().take_while(|(a, b)| a == b).map(|(a, _)| a.len_utf8()).sum()
+    };
+    let before = same(Box::new(old.chars().zip(new.chars())));
+    let behind = same(Box::new(old[before..].chars().rev().zip(new[before..].chars().rev())));
+    (before as u32..(old.len() - behind) as u32, &new[before..new.len() - behind])
+}
+
+fn lock<T: ?Sized>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::difference;
+
+    #[test]
+    fn only_what_differs_is_edited() {
+        assert_eq!(difference("a = 50 mm // µ", "a = 62.5 mm // µ"), (4..6, "62.5"));
+        assert_eq!(difference("aaa", "aa"), (2..3, ""));
+        assert_eq!(difference("µµ", "µaµ"), (2..2, "a"));
+        assert_eq!(difference("a", "a"), (1..1, ""));
+    }
+}

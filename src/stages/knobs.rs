@@ -1,0 +1,234 @@
+//! What of a mechanism can be turned by hand: its params, and its inputs.
+
+use super::varied::{is_of_angles, number_and_unit, rounded, si_unit};
+use super::{Checked, Compiled};
+use crate::check::Amount;
+use crate::expr::{ExprId, Symbol};
+use crate::ir::{BodyId, ConstraintSystem, Declaration, Input};
+use crate::model::Dimension;
+use crate::source::Span;
+use crate::syntax::ast::{Expr, ExprKind, ItemKind};
+
+/// A param, or a coordinate of one that is a point, as an option sets it.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Knob {
+    /// Its path.
+    pub name: String,
+    /// The unit that it is written in; SI where that is no single number. Empty for a pure number.
+    pub unit: String,
+    /// What it is by the text, in that unit.
+    pub value: f64,
+    /// What the text says, where that is more than a number.
+    pub formula: Option<String>,
+    /// Where the text says it; nothing of what another mechanism declares.
+    pub place: Option<Span>,
+    /// Whether a mechanism can be led from one value to another: what decides how often something is there jumps.
+    pub leads: bool,
+}
+
+/// An input.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Jog {
+    /// Its path.
+    pub name: String,
+    /// Its SI unit; empty for a pure number.
+    pub unit: String,
+    /// What it is at some times (SI).
+    pub values: Vec<f64>,
+    /// The formula, as it is written.
+    pub formula: String,
+}
+
+/// A body that a driver turns by its angle alone.
+#[derive(Clone, PartialEq, Debug)]
+pub struct Crank {
+    /// Its number among the bodies.
+    pub body: usize,
+    /// Around which of its points, where it is joined to the ground (m).
+    pub pivot: [f64; 2],
+    /// The input that its driver speaks of; nothing where time alone turns it.
+    pub input: Option<String>,
+}
+
+impl Checked {
+    /// What can be set of it, in the order of the text, then what can be set in parts; nothing where it is not sound.
+    #[must_use]
+    pub fn knobs(&self) -> Vec<Knob> {
+        let (Some(tree), Some(model)) = (self.tree(), self.model()) else { return Vec::new() };
+        let mut knobs = Vec::new();
+        for value in &self.known().values {
+            let declared = tree.items.iter().find_map(|item| match &item.kind {
+                ItemKind::Param { name, value: formula } if Some(name.span) == value.name => Some((name, formula)),
+                _ => None,
+            });
+            let Some((name, formula)) = declared else { continue };
+            match &value.amount {
+                Amount::Number { si, dimension, is_angle, unit } => {
+                    let unit = unit.as_ref().map(|unit| (unit.per_second(0), unit.scale()));
+                    knobs.push(self.knob(&name.text, formula, *si, (*dimension, *is_angle), unit));
+                }
+                Amount::Point(at) => {
+                    let parts = coordinates(formula);
+                    for (k, axis) in ["x", "y"].into_iter().enumerate() {
+                        let formula = parts.map_or(formula, |parts| &parts[k]);
+                        let knob = self.knob(&format!("{}.{axis}", name.text), formula, at[k], (LENGTH, false), None);
+                        // a plain 0 is of the unit beside it
+                        let beside = parts.and_then(|parts| number_and_unit(self.sources().text(parts[1 - k].span)));
+                        let is_plain = knob.unit.is_empty();
+                        let unit = beside.filter(|_| is_plain).map_or(knob.unit, |(_, unit)| unit.to_owned());
+                        knobs.push(Knob { unit, place: knob.place.filter(|_| parts.is_some()), ..knob });
+                    }
+                }
+            }
+        }
+        let own = knobs.len();
+        for param in &model.params {
+            let name = &param.declared.name;
+            if name.contains('.') && !knobs[..own].iter().any(|knob| knob.name == *name) {
+                let (value, unit) = (param.value, si_unit(param.dimension, [""; 2]));
+                knobs.push(Knob { name: name.clone(), unit, value, formula: None, place: None, leads: true });
+            }
+        }
+        knobs
+    }
+
+    fn knob(
+        &self,
+        name: &str,
+        formula: &Expr,
+        si: f64,
+        (dimension, is_angle): (Dimension, bool),
+        unit: Option<(String, [f64; 3])>,
+    ) -> Knob {
+        let text = self.sources().text(formula.span);
+        let place = Some(formula.span);
+        let is_param = self.param_in_part(name).is_some();
+        if let Some((value, unit)) = number_and_unit(text) {
+            return Knob { name: name.to_owned(), unit: unit.to_owned(), value, formula: None, place, leads: is_param };
+        }
+        let (unit, value) = match unit {
+            Some((unit, [over, times, by])) => (unit, rounded(si / over * times / by)),
+            None => (si_unit(dimension, [if is_angle { "rad" } else { "" }; 2]), si),
+        };
+        Knob { name: name.to_owned(), unit, value, formula: Some(text.to_owned()), place, leads: true }
+    }
+}
+
+const LENGTH: Dimension = Dimension::LENGTH;
+
+/// Both coordinates of a point that is written as such.
+fn coordinates(formula: &Expr) -> Option<&[Expr; 2]> {
+    match &formula.kind {
+        ExprKind::Tuple(parts) => parts.as_slice().try_into().ok(),
+        ExprKind::Paren(inner) => coordinates(inner),
+        _ => None,
+    }
+}
+
+impl Checked {
+    /// The inputs of what it was compiled to, with what they are at some times (s).
+    #[must_use]
+    pub fn jogs(&self, compiled: &Compiled, times: &[f64]) -> Vec<Jog> {
+        let system = compiled.system();
+        let formula = |span: Span| {
+            let items =
+                self.library().files().iter().flat_map(|file| &file.read.tree.mechanisms).flat_map(|m| &m.items);
+            let mut inputs = items.filter_map(|item| match &item.kind {
+                ItemKind::Input { name, value } if name.span == span => Some(self.sources().text(value.span)),
+                _ => None,
+            });
+            inputs.next().unwrap_or_default()
+        };
+        let jog = |input: &Input| Jog {
+            name: input.name.clone(),
+            unit: match input.unit.as_str() {
+                "1" if is_of_angles(formula(input.span)) => "rad".to_owned(),
+                "1" => String::new(),
+                unit => unit.to_owned(),
+            },
+            values: times.iter().map(|&t| at_time(system, input.formulas[0], t)).collect(),
+            formula: formula(input.span).to_owned(),
+        };
+        system.inputs.iter().map(jog).collect()
+    }
+}
+
+impl Compiled {
+    /// The bodies that can be turned by hand.
+    #[must_use]
+    pub fn cranks(&self) -> Vec<Crank> {
+        let system = self.system();
+        let crank = |row: usize| {
+            let [(column, _)] = system.phi_q.row(row) else { return None };
+            let body = system.body_of(*column as usize)?;
+            let [_, _, phi] = system.pose_of(body);
+            let written = self.sources().text(system.declaration_of(row).written?);
+            let is_name = |c: char| c.is_alphanumeric() || matches!(c, '_' | '.' | '[' | ']');
+            let speaks_of = |input: &&Input| written.split(|c| !is_name(c)).any(|word| word == input.name);
+            let input = system.inputs.iter().find(speaks_of).map(|input| input.name.clone());
+            let pivot = system.declarations.iter().find_map(|joint| self.pivot(joint, body))?;
+            (phi == *column as usize).then_some(Crank { body: body.index(), pivot, input })
+        };
+        (0..system.rows.len()).filter(|&row| system.is_driver(row)).filter_map(crank).collect()
+    }
+
+    /// Where a joint holds a body to the ground.
+    fn pivot(&self, joint: &Declaration, body: BodyId) -> Option<[f64; 2]> {
+        let system = self.system();
+        let [one, other] = joint.points.as_slice() else { return None };
+        let on_body = match [one, other].map(|point| system.points[*point].body) {
+            [None, Some(on)] if on == body => other,
+            [Some(on), None] if on == body => one,
+            _ => return None,
+        };
+        Some(system.points[*on_body].at.map(|id| system.value_at(id, &[])))
+    }
+}
+
+/// The value of a formula of time.
+fn at_time(system: &ConstraintSystem, formula: ExprId, t: f64) -> f64 {
+    system.graph.value(formula, |symbol| match symbol {
+        Symbol::Param(k) => system.params[k as usize].value,
+        Symbol::Time => t,
+        Symbol::Shift(_) => 0.0,
+        _ => f64::NAN,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::stages::{Choice, Parsed};
+    use crate::world::Memory;
+
+    #[test]
+    fn params_are_told_as_they_are_written() {
+        let text = "mechanism lever {
+            param length = 50 mm
+            param half = length / 2
+            param speed = -60 rpm
+            param turning = 90 deg/s
+            param count = 2
+            param A = (10 mm, 0)
+            ground { point O = A }
+            body bar[k in 0..count] at (0, 0, k * 1 deg) { point O = (half, 0) point P = (length, 0) }
+        }";
+        let checked = Parsed::of("lever.mech", text).check(&Choice::default(), &Memory::default());
+        let knobs = checked.knobs();
+        let told: Vec<_> = knobs.iter().map(|k| (k.name.as_str(), k.value, k.unit.as_str(), k.leads)).collect();
+        assert_eq!(
+            told,
+            [
+                ("length", 50.0, "mm", true),
+                ("half", 0.025, "m", true),
+                ("speed", -60.0, "rpm", true),
+                ("turning", 90.0, "deg/s", true),
+                ("count", 2.0, "", false),
+                ("A.x", 10.0, "mm", true),
+                ("A.y", 0.0, "mm", true),
+            ]
+        );
+        assert_eq!(knobs[1].formula.as_deref(), Some("length / 2"));
+        let place = knobs[5].place.expect("a place");
+        assert_eq!(checked.sources().text(place), "10 mm");
+    }
+}

@@ -1,0 +1,256 @@
+//! The server of `mechc view FILE`, over real connections: who is refused learns nothing and writes nothing, and others are answered all the
+//! while. What a browser makes of it is tested in `page/test/browser/live.test.mjs`.
+
+#![allow(clippy::expect_used, clippy::unwrap_used, clippy::panic)] // a test fails by panicking
+
+use std::fs;
+use std::io::{BufRead, BufReader, Read, Write};
+use std::net::{Ipv4Addr, Ipv6Addr, SocketAddr, TcpStream};
+use std::path::PathBuf;
+use std::process::{Child, Command, Stdio};
+use std::time::{Duration, Instant};
+
+const TEXT: &str = "mechanism disc {
+    param speed = 90 deg/s
+    ground { point O = (0, 0) }
+    body wheel { point O = (0, 0) point P = (20 mm, 0) }
+    joint axle: revolute(ground.O, wheel.O)
+    driver motor: rotation(axle) = speed * t
+    analysis from 0 s to 1 s every 10 ms
+}
+";
+
+/// A server that follows a file in a folder of its own.
+struct Served {
+    process: Child,
+    folder: tempfile::TempDir,
+    port: u16,
+    token: String,
+}
+
+impl Served {
+    fn new() -> Served {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("disc.mech");
+        fs::write(&file, TEXT).expect("it is written");
+        let mut process = Command::new(env!("CARGO_BIN_EXE_mechc"))
+            .arg("view")
+            .arg(&file)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .expect("it starts");
+        let mut url = String::new();
+        BufReader::new(process.stdout.as_mut().expect("its output")).read_line(&mut url).expect("an address");
+        let (address, token) = url.trim().split_once("/#").expect("a token");
+        let port = address.rsplit(':').next().expect("a port").parse().expect("a number");
+        Served { process, folder, port, token: token.to_owned() }
+    }
+
+    fn file(&self) -> PathBuf {
+        self.folder.path().join("disc.mech")
+    }
+
+    fn connection(&self) -> TcpStream {
+        let stream = TcpStream::connect((Ipv4Addr::LOCALHOST, self.port)).expect("it listens");
+        stream.set_read_timeout(Some(Duration::from_secs(20))).expect("a limit");
+        stream
+    }
+
+    /// What is answered to some bytes, until the connection ends.
+    fn answer(&self, sent: &[u8]) -> String {
+        let mut stream = self.connection();
+        // it may be refused before all of it is sent
+        let _ = stream.write_all(sent);
+        let mut answer = Vec::new();
+        let _ = stream.read_to_end(&mut answer);
+        String::from_utf8_lossy(&answer).into_owned()
+    }
+
+    /// What is answered to a request with some headers.
+    fn asked(&self, line: &str, headers: &[(&str, &str)], body: &str) -> String {
+        let headers: String = headers.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();
+        let length = body.len();
+        let sent = format!("{line} HTTP/1.1\r\nConnection: close\r\nContent-Length: {length}\r\n{headers}\r\n{body}");
+        self.answer(sent.as_bytes())
+    }
+
+    /// As a page of its own asks.
+    fn asked_well(&self, path: &str, body: &str) -> String {
+        let host = format!("127.0.0.1:{}", self.port);
+        let origin = format!("http://{host}");
+        let headers = [("Host", host.as_str()), ("Origin", &origin), ("X-Mechc-Token", &self.token)];
+        self.asked(&format!("POST {path}"), &headers, body)
+    }
+
+    fn is_well(&self) {
+        let answer = self.asked_well("/motion", r#"{"page":"test"}"#);
+        assert!(answer.starts_with("HTTP/1.1 200") && answer.contains("wheel.phi"), "{answer}");
+    }
+}
+
+impl Drop for Served {
+    fn drop(&mut self) {
+        let _ = self.process.kill();
+        let _ = self.process.wait();
+    }
+}
+
+const WRITE: &str = r#"{"version":1,"changes":[{"name":"speed","old":"90 deg/s","value":1}],"sure":true}"#;
+
+#[test]
+fn who_is_no_page_of_its_own_learns_nothing_and_writes_nothing() {
+    let served = Served::new();
+    let host = format!("127.0.0.1:{}", served.port);
+    let origin = format!("http://{host}");
+    let good = [("Host", host.as_str()), ("Origin", origin.as_str()), ("X-Mechc-Token", served.token.as_str())];
+    let wrong_token = "0".repeat(served.token.len());
+    for path in ["/motion", "/write", "/events"] {
+        let line = format!("POST {path}");
+        for headers in [
+            &[("Host", "evil.example"), good[1], good[2]][..],
+            &[("Host", "127.0.0.1"), good[1], good[2]],
+            &[good[0], ("Origin", "http://evil.example"), good[2]],
+            &[good[0], ("Origin", "null"), good[2]],
+            &[good[0], good[2]],
+            &[good[0], good[1]],
+            &[good[0], good[1], ("X-Mechc-Token", &wrong_token)],
+            &[good[0], good[1], ("X-Mechc-Token", "")],
+            &[],
+        ] {
+            let answer = served.asked(&line, headers, WRITE);
+            assert!(answer.starts_with("HTTP/1.1 403"), "{path} {headers:?}: {answer}");
+            let (head, body) = answer.split_once("\r\n\r\n").expect("a head");
+            assert!(body.is_empty(), "{body}");
+            assert!(head.contains("nosniff") && head.contains("frame-ancestors 'none'"), "{head}");
+            assert!(!head.to_lowercase().contains("access-control"), "{head}");
+        }
+        let answer = served.asked(&format!("OPTIONS {path}"), &[good[0], ("Origin", "http://evil.example")], "");
+        assert!(answer.starts_with("HTTP/1.1 405"), "{answer}");
+    }
+    assert_eq!(fs::read_to_string(served.file()).expect("it is there"), TEXT);
+    served.is_well();
+}
+
+#[test]
+fn no_file_is_served() {
+    let served = Served::new();
+    let host = format!("127.0.0.1:{}", served.port);
+    for target in ["/..", "/../disc.mech", "/disc.mech", "/%2e%2e/disc.mech", "//etc/passwd", "/./", "/favicon.ico"] {
+        let answer = served.asked(&format!("GET {target}"), &[("Host", &host)], "");
+        assert!(answer.starts_with("HTTP/1.1 404"), "{target}: {answer}");
+    }
+    let page = served.asked("GET /", &[("Host", &host)], "");
+    assert!(page.starts_with("HTTP/1.1 200") && page.contains("connect-src 'self'"));
+    assert!(!page.contains("axle") && !page.contains("disc.mech"), "the page holds something of the text");
+}
+
+#[test]
+fn long_and_slow_requests_are_ended() {
+    let served = Served::new();
+    let host = format!("127.0.0.1:{}", served.port);
+    let long = served.asked(&format!("GET /{}", "a".repeat(1 << 20)), &[("Host", &host)], "");
+    assert!(long.is_empty() || long.starts_with("HTTP/1.1 431"), "{long}");
+    let many = served.answer(format!("GET / HTTP/1.1\r\n{}\r\n", "a: b\r\n".repeat(10_000)).as_bytes());
+    assert!(many.is_empty() || many.starts_with("HTTP/1.1 431"), "{many}");
+    let body = served.answer(
+        format!(
+            "POST /write HTTP/1.1\r\nHost: {host}\r\nOrigin: http://{host}\r\nX-Mechc-Token: {}\r\nContent-Length: 99999999999\r\n\r\n",
+            served.token
+        )
+        .as_bytes(),
+    );
+    assert!(body.starts_with("HTTP/1.1 413"), "{body}");
+    // a byte now and then does not keep a connection
+    let mut slow = served.connection();
+    let began = Instant::now();
+    for byte in b"GET / HTTP/1.1\r\nHost: 127".iter().cycle() {
+        if slow.write_all(&[*byte]).is_err() || began.elapsed() > Duration::from_secs(15) {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(200));
+        served_is_quick(&served);
+    }
+    assert!(began.elapsed() < Duration::from_secs(12), "{:?}", began.elapsed());
+}
+
+fn served_is_quick(served: &Served) {
+    let began = Instant::now();
+    served.is_well();
+    assert!(began.elapsed() < Duration::from_secs(5));
+}
+
+#[test]
+fn a_thousand_connections_do_not_take_it_away_for_good() {
+    let served = Served::new();
+    let held: Vec<TcpStream> =
+        (0..1000).filter_map(|_| TcpStream::connect((Ipv4Addr::LOCALHOST, served.port)).ok()).collect();
+    assert!(held.len() > 64, "{}", held.len());
+    // those that are beyond its number are sent away at once
+    let ended = held.iter().rev().take(100).filter(|stream| {
+        let mut stream: &TcpStream = stream;
+        stream.set_read_timeout(Some(Duration::from_secs(5))).expect("a limit");
+        matches!(stream.read(&mut [0; 1]), Ok(0) | Err(_))
+    });
+    assert_eq!(ended.count(), 100);
+    drop(held);
+    let began = Instant::now();
+    while !served.asked_well("/motion", r#"{"page":"a"}"#).starts_with("HTTP/1.1 200") {
+        assert!(began.elapsed() < Duration::from_secs(10), "it does not come back");
+        std::thread::sleep(Duration::from_millis(20));
+    }
+}
+
+#[test]
+fn it_listens_on_this_machine_alone() {
+    let served = Served::new();
+    let listening = |path: &str| fs::read_to_string(path).unwrap_or_default();
+    let port = format!(":{:04X} ", served.port);
+    let both = listening("/proc/net/tcp") + &listening("/proc/net/tcp6");
+    let local: Vec<&str> = both
+        .lines()
+        .filter_map(|line| line.split_whitespace().nth(1).filter(|_| line.contains(" 0A ")))
+        .filter(|local| format!("{local} ").contains(&port))
+        .collect();
+    for address in &local {
+        assert!(
+            address.starts_with("0100007F:") || address.starts_with("00000000000000000000000001000000:"),
+            "{address}"
+        );
+    }
+    if TcpStream::connect_timeout(&SocketAddr::from((Ipv6Addr::LOCALHOST, served.port)), Duration::from_secs(1)).is_ok()
+    {
+        let host = format!("[::1]:{}", served.port);
+        let mut stream = TcpStream::connect((Ipv6Addr::LOCALHOST, served.port)).expect("it listens");
+        write!(stream, "GET / HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").expect("it is sent");
+        let mut answer = String::new();
+        stream.read_to_string(&mut answer).expect("an answer");
+        assert!(answer.starts_with("HTTP/1.1 200"), "{answer}");
+    }
+}
+
+#[test]
+fn values_are_written_with_their_unit_and_once_for_a_version() {
+    let served = Served::new();
+    let answer = served.asked_well("/write", WRITE);
+    assert!(answer.contains(r#"{"written":true}"#), "{answer}");
+    assert_eq!(fs::read_to_string(served.file()).expect("it is there"), TEXT.replace("90 deg/s", "1 deg/s"));
+    let again = served.asked_well("/write", WRITE);
+    assert!(again.contains("another by now"), "{again}");
+    let files: Vec<_> = fs::read_dir(served.folder.path()).expect("a folder").collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+}
+
+#[test]
+fn what_a_live_page_has_not_is_refused() {
+    let file = concat!(env!("CARGO_MANIFEST_DIR"), "/examples/slider_crank.mech");
+    for options in [&["-"][..], &[file, "--labels"], &[file, "--vary", "rod_length=1mm..2mm:3"], &[file, "--at", "0"]] {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+        let output = command.arg("view").args(options).stdin(Stdio::null()).output().expect("it runs");
+        assert_eq!(output.status.code(), Some(2), "{options:?}");
+        assert!(output.stdout.is_empty());
+    }
+    let mut command = Command::new(env!("CARGO_BIN_EXE_mechc"));
+    let output = command.args(["view", "there_is_none.mech"]).output().expect("it runs");
+    assert_eq!(output.status.code(), Some(4));
+}

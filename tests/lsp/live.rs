@@ -1,0 +1,109 @@
+//! Live pages of open texts: what an editor's panel asks, and a browser over the address.
+
+use super::client::Client;
+use super::{TEXT, URI, edit, position, pushed_to};
+use lsp_server::Message;
+use serde_json::{Value, json};
+use std::io::{Read, Write};
+use std::net::TcpStream;
+
+fn text() -> Value {
+    json!({ "textDocument": { "uri": URI } })
+}
+
+/// What a panel is answered: the JSON before the table.
+fn asked(client: &mut Client, set: &Value) -> String {
+    let params = json!({ "textDocument": { "uri": URI }, "asked": { "page": "panel", "set": set } });
+    let answer = client.request("mechc/view/ask", params);
+    decoded(answer["data"].as_str().expect("a text"))
+}
+
+/// The letters behind Base64, as far as they are some.
+fn decoded(text: &str) -> String {
+    let letters = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let (mut bits, mut count, mut bytes) = (0_u32, 0, Vec::new());
+    for letter in text.bytes().filter(|letter| *letter != b'=') {
+        bits = bits << 6 | letters.iter().position(|other| *other == letter).expect("a letter") as u32;
+        count += 6;
+        if count >= 8 {
+            count -= 8;
+            bytes.push((bits >> count) as u8);
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+fn news(client: &mut Client) -> Value {
+    match client.wait_for(|told| matches!(told, Message::Notification(told) if told.method == "mechc/view/news")) {
+        Message::Notification(told) => told.params,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn a_panel_follows_the_text_and_the_cursor() {
+    let (mut client, mut own) = (pushed_to(), TEXT.to_owned());
+    client.open(URI, &own);
+    let panel = client.request("mechc/view/panel", text());
+    assert!(panel["html"].as_str().is_some_and(|html| html.contains("<script>")));
+    assert_eq!(news(&mut client)["version"], 1);
+    assert!(asked(&mut client, &json!([])).contains("slider_crank"));
+    let change = edit(&mut own, "mechanism slider_crank", "mechanism another_name");
+    client.change(URI, &change);
+    assert_eq!(news(&mut client)["version"], 2);
+    assert!(asked(&mut client, &json!([])).contains("another_name"), "the page has the text of before");
+    let mut pointed = text();
+    pointed["position"] = position(&own, "another_name");
+    client.notify("mechc/cursor", pointed);
+    assert_eq!(news(&mut client)["at"], own.find("another_name").expect("it is there"));
+    client.end();
+}
+
+#[test]
+fn what_a_panel_writes_is_an_edit_of_the_text() {
+    let mut client = pushed_to();
+    client.open(URI, TEXT);
+    let line = TEXT.lines().find(|line| line.contains("param rod_length")).expect("a param");
+    let old = line.split_once("= ").expect("a value").1.split("//").next().expect("a value").trim();
+    let change = json!({ "name": "rod_length", "old": old, "value": 321.5 });
+    let write = json!({ "version": 1, "changes": [change], "sure": false });
+    let mut params = text();
+    params["asked"] = write;
+    assert_eq!(client.request("mechc/view/write", params.clone()), json!({ "written": true }));
+    let message =
+        client.wait_for(|sent| matches!(sent, Message::Request(sent) if sent.method == "workspace/applyEdit"));
+    let Message::Request(sent) = message else { panic!("it is one") };
+    let edit = &sent.params["edit"]["changes"][URI][0];
+    assert!("321.5".contains(edit["newText"].as_str().expect("a text")), "{edit}");
+    params["asked"]["version"] = json!(7);
+    let refused = client.request("mechc/view/write", params);
+    assert!(refused["refused"].as_str().is_some_and(|why| why.contains("another by now")), "{refused}");
+    client.end();
+}
+
+#[test]
+fn a_browser_has_the_same_page_by_its_address() {
+    let mut client = pushed_to();
+    client.open(URI, TEXT);
+    let url = client.request("mechc/view", text())["url"].as_str().expect("an address").to_owned();
+    assert_eq!(client.request("mechc/view", text())["url"], url.as_str(), "a text has one address");
+    let (address, token) = url.trim_start_matches("http://").split_once("/#").expect("a token");
+    let ask = |path: &str, body: &str| {
+        let mut stream = TcpStream::connect(address).expect("it listens");
+        let length = body.len();
+        let head =
+            format!("Host: {address}\r\nOrigin: http://{address}\r\nX-Mechc-Token: {token}\r\nConnection: close");
+        write!(stream, "POST {path} HTTP/1.1\r\n{head}\r\nContent-Length: {length}\r\n\r\n{body}").expect("it is sent");
+        let mut answer = Vec::new();
+        stream.read_to_end(&mut answer).expect("an answer");
+        String::from_utf8_lossy(&answer).into_owned()
+    };
+    assert!(ask("/motion", r#"{"page":"a"}"#).contains("slider_crank"));
+    let at = TEXT.find("body").expect("a body");
+    assert!(ask("/show", &json!({ "at": at }).to_string()).starts_with("HTTP/1.1 200"));
+    let message =
+        client.wait_for(|sent| matches!(sent, Message::Request(sent) if sent.method == "window/showDocument"));
+    let Message::Request(sent) = message else { panic!("it is one") };
+    assert_eq!(sent.params["selection"]["start"], position(TEXT, "body"));
+    client.end();
+}
