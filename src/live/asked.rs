@@ -9,7 +9,7 @@ const LONGEST: usize = 1000;
 
 /// A motion, or where a mechanism stands while its inputs are moved by hand.
 #[derive(Clone, PartialEq, Debug, Default)]
-pub struct Asked {
+pub struct Question {
     /// Which page asks: what it asks next takes the place of what it is waiting for.
     pub page: String,
     /// Params with what they are set to, as `--set` takes them.
@@ -52,12 +52,12 @@ pub struct Change {
 /// Why a body is none of these; said to nobody but who tries by hand.
 pub type Wrong = &'static str;
 
-impl Asked {
+impl Question {
     /// Reads the body of a request.
     ///
     /// # Errors
     /// It is none.
-    pub fn of(body: &[u8]) -> Result<Asked, Wrong> {
+    pub fn of(body: &[u8]) -> Result<Question, Wrong> {
         let body = object(body)?;
         let page = text(&body["page"])?.to_owned();
         let set = list(&body["set"])?.iter().map(|one| Ok((text(&one[0])?.to_owned(), text(&one[1])?.to_owned())));
@@ -69,7 +69,7 @@ impl Asked {
                 Some(Jogged { time: number(&jog["time"])?, inputs: inputs.collect::<Result<_, Wrong>>()? })
             }
         };
-        Ok(Asked { page, set: set.collect::<Result<_, Wrong>>()?, jog })
+        Ok(Question { page, set: set.collect::<Result<_, Wrong>>()?, jog })
     }
 }
 
@@ -124,14 +124,14 @@ fn number(value: &Value) -> Result<f64, Wrong> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Asked, Change, Jogged, Write};
+    use super::{Change, Jogged, Question, Write};
 
     #[test]
     fn bodies_are_read() {
-        let asked = Asked::of(br#"{"page":"a","set":[["rod","2 mm"]],"jog":{"time":0.5,"inputs":[["turn",1]]}}"#);
+        let asked = Question::of(br#"{"page":"a","set":[["rod","2 mm"]],"jog":{"time":0.5,"inputs":[["turn",1]]}}"#);
         let jog = Some(Jogged { time: 0.5, inputs: vec![("turn".into(), 1.0)] });
         let set = vec![("rod".to_owned(), "2 mm".to_owned())];
-        assert_eq!(asked, Ok(Asked { page: "a".into(), set, jog }));
+        assert_eq!(asked, Ok(Question { page: "a".into(), set, jog }));
         let write =
             Write::of(br#"{"version":3,"changes":[{"name":"rod","old":"2 mm","value":3}]}"#).expect("it is one");
         let rod = Change { name: "rod".into(), old: "2 mm".into(), value: 3.0 };
@@ -154,10 +154,10 @@ mod tests {
             r#"{"page":"a","jog":{"time":"0"}}"#,
             r#"{"page":"a","jog":{"time":0,"inputs":[["turn",null]]}}"#,
         ] {
-            assert!(Asked::of(body.as_bytes()).is_err(), "{body}");
+            assert!(Question::of(body.as_bytes()).is_err(), "{body}");
         }
         let long = format!(r#"{{"page":"{}"}}"#, "a".repeat(2000));
-        assert!(Asked::of(long.as_bytes()).is_err());
+        assert!(Question::of(long.as_bytes()).is_err());
         for body in [
             r#"{"version":1,"changes":[]}"#,
             r#"{"version":-1,"changes":[{"name":"a","old":"","value":1}]}"#,

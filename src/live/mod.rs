@@ -19,6 +19,6 @@ mod shelf;
 mod solved;
 mod workshop;
 
-pub use asked::{Asked, Write};
+pub use asked::{Question, Write};
 pub use server::{Server, Serving};
 pub use workshop::{Host, Workshop};

@@ -1,6 +1,6 @@
 //! The server: connections on this machine's own addresses, each with a thread, and no more of them than a few pages have.
 
-use super::asked::{Asked, Write as Written, place_of};
+use super::asked::{Question, Write as Written, place_of};
 use super::guard::{Call, Ours, admitted};
 use super::http::{Connection, Fault, Kind, Patient, head_of};
 use super::workshop::Workshop;
@@ -214,7 +214,7 @@ fn answered(connection: &mut Connection<TcpStream>, shared: &Shared) -> Result<b
             tell(connection.stream(), shared)?;
             return Ok(false);
         }
-        Call::Motion => (Kind::Bytes, workshop.answer(&Asked::of(&body).map_err(|_| Fault::Refused(400))?)),
+        Call::Motion => (Kind::Bytes, workshop.answer(&Question::of(&body).map_err(|_| Fault::Refused(400))?)),
         Call::Show => {
             workshop.show(place_of(&body).map_err(|_| Fault::Refused(400))?);
             (Kind::Json, b"{}".to_vec())

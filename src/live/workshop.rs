@@ -1,7 +1,7 @@
 //! The texts as of now, and what pages ask of them.
 
 use super::answer::framed;
-use super::asked::{Asked, Jogged, Write};
+use super::asked::{Jogged, Question, Write};
 use super::edit::{Edited, edited};
 use super::page;
 use super::shelf::Shelf;
@@ -165,7 +165,7 @@ impl Workshop {
 
     /// Answers a page. What it had asked before and is waiting for is given up.
     #[must_use]
-    pub fn answer(&self, asked: &Asked) -> Vec<u8> {
+    pub fn answer(&self, asked: &Question) -> Vec<u8> {
         let cancel = self.cancel_for(&asked.page);
         let texts = self.texts();
         let (answer, columns) = self.answered(&texts, asked, &cancel).unwrap_or_else(|| {
@@ -175,7 +175,7 @@ impl Workshop {
         framed(&answer, &columns)
     }
 
-    fn answered(&self, texts: &Texts, asked: &Asked, cancel: &Cancel) -> Option<(Value, Vec<Vec<f64>>)> {
+    fn answered(&self, texts: &Texts, asked: &Question, cancel: &Cancel) -> Option<(Value, Vec<Vec<f64>>)> {
         let own = self.own(texts)?;
         if !own.is_sound() {
             return Some((wrong(texts.version, &own), Vec::new()));

@@ -5,7 +5,7 @@
 
 use crate::analysis::Times;
 use crate::diag::{Code, Diagnostic, Diagnostics};
-use crate::live::{Asked, Host, Server, Serving, Workshop, Write};
+use crate::live::{Host, Question, Server, Serving, Workshop, Write};
 use crate::source::Sources;
 use crate::stages::{Choice, Compiled, Redundant};
 use crate::world::World;
@@ -115,7 +115,7 @@ impl Views {
         let view = self.view(meant);
         let body = asked.to_string();
         let work = move || {
-            answer(match Asked::of(body.as_bytes()) {
+            answer(match Question::of(body.as_bytes()) {
                 Ok(asked) => Ok(json!({ "data": crate::live::page::base64(&view.workshop.answer(&asked)) })),
                 Err(why) => Err(why.to_owned()),
             });
