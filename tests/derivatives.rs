@@ -271,7 +271,7 @@ fn along(system: &ConstraintSystem, id: ExprId, t: f64, path: [&[f64]; 4], tau: 
                 _ => c[k],
             }
         }
-        Symbol::Shift(_) => 0.0,
+        Symbol::Shift(_) | Symbol::Multiplier(_) | Symbol::VariedMultiplier { .. } => 0.0,
         Symbol::Varied { index, order, variation } => {
             // anything whose rates are its derivatives
             let rate = |order: u32| math::sin(1.3 * f64::from(index) + 0.7 * f64::from(variation) + f64::from(order));
