@@ -117,6 +117,7 @@ catalogue! {
         E0506 Error "equations that are redundant"
         E0507 Error "equations that conflict"
         E0508 Error "a derivative in a part that is not determined alone"
+        E0509 Error "a force in a loop with redundant equations"
         W0501 Warning "gears or racks that do not fit their radii"
         W0502 Warning "redundant equations that are left out"
     }

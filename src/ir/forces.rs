@@ -59,7 +59,9 @@ impl ConstraintSystem {
         };
         let formulas = self.measures.iter_mut().map(|measure| &mut measure.value);
         let reactions = self.forces.iter_mut().flat_map(|forces| &mut forces.reactions);
-        let places: Vec<&mut ExprId> = formulas.chain(reactions.map(|reaction| &mut reaction.value)).collect();
+        let reduced = self.results.reductions.iter_mut().map(|reduction| &mut reduction.of);
+        let reactions = reactions.map(|reaction| &mut reaction.value);
+        let places: Vec<&mut ExprId> = formulas.chain(reactions).chain(reduced).collect();
         let roots: Vec<ExprId> = places.iter().map(|place| **place).collect();
         for (place, id) in places.into_iter().zip(self.graph.substituted(&roots, of)) {
             *place = id;

@@ -5,6 +5,7 @@ use crate::analysis::{self, Horizon, Times};
 use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
+use crate::expr::Dependence;
 use crate::program::Program;
 use crate::solver::BlockTables;
 use std::sync::Arc;
@@ -63,6 +64,9 @@ impl Compiled {
         options: &RustOptions,
         make: impl FnOnce(&Unit<'_>, &mut Diagnostics) -> Result<T, Box<Diagnostic>>,
     ) -> (Option<T>, Diagnostics) {
+        if let Err(why) = self.has_no_forces() {
+            return (None, (*why).into());
+        }
         let by_params = if options.with_sensitivities { self.by_params().map(Some) } else { Ok(None) };
         let by_params = match by_params {
             Ok(compiled) => compiled,
@@ -94,6 +98,23 @@ impl Compiled {
                 let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
                 let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` and Rust code");
                 Err(Box::new(diagnostic.help("`mechc run` and emitted Rust compute it; leave the measure out here")))
+            }
+        }
+    }
+
+    /// Whether it can be written as code, JSON or LaTeX.
+    ///
+    /// # Errors
+    /// A measure holds a force, which only `run` computes.
+    pub(crate) fn has_no_forces(&self) -> Result<(), Box<Diagnostic>> {
+        let system = self.system();
+        let is_force = |id| system.graph.dependence(id).on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS));
+        match system.measures.iter().find(|measure| is_force(measure.value)) {
+            None => Ok(()),
+            Some(measure) => {
+                let message = format!("measure `{}` holds a force", measure.name);
+                let diagnostic = Diagnostic::new(Code::E0706, message).at(measure.span, "is for `run` alone");
+                Err(Box::new(diagnostic.help("leave the measure out here; `mechc run` computes it")))
             }
         }
     }

@@ -32,6 +32,9 @@ pub fn determine(
     if !(allow_redundant && holds && is_enough && refused.too_few.columns.is_empty()) {
         return Err(explain(refused, &anatomy));
     }
+    if let Some(why) = errors::force_in_a_loop(&refused.system, &anatomy.dependents) {
+        return Err(why.into());
+    }
     let said = errors::left_out(&refused.system, &anatomy.dependents);
     let mut system = refused.system;
     leave_out(&mut system, &anatomy.dependents);

@@ -3,7 +3,7 @@
 use super::places::Places;
 use super::smooth::Smooth;
 use crate::analysis::state::State;
-use crate::expr::{ExprId, Graph, Symbol};
+use crate::expr::{Dependence, ExprId, Graph, Symbol};
 use crate::ir::ConstraintSystem;
 use crate::program::{Inputs, Program, Range, Ranges, Register, Registers, Stage};
 use crate::tolerances::results::formulas::{MOVED, SAFETY, WAYS};
@@ -40,6 +40,8 @@ pub(super) enum Moving {
         /// The coordinate's.
         index: usize,
     },
+    /// The multiplier of a row, of which only the value is known.
+    Multiplier(usize),
 }
 
 impl Moving {
@@ -47,6 +49,7 @@ impl Moving {
         match symbol {
             Symbol::Coordinate { index, .. } => Some(Moving::Coordinate(index as usize)),
             Symbol::Varied { index, variation, .. } => Some(Moving::Varied { variation, index: index as usize }),
+            Symbol::Multiplier(row) => Some(Moving::Multiplier(row as usize)),
             _ => None,
         }
     }
@@ -55,6 +58,7 @@ impl Moving {
     fn registers(self, inputs: &Inputs) -> [Option<Register>; 4] {
         match self {
             Moving::Coordinate(index) => inputs.coordinates.map(|first| Some(first + index as Register)),
+            Moving::Multiplier(row) => [Some(inputs.multipliers + row as Register), None, None, None],
             Moving::Varied { variation, index } => [0, 1, 2, 3]
                 .map(|order| (order < VARIED_ORDERS).then(|| inputs.varied(variation, order) + index as Register)),
         }
@@ -82,7 +86,8 @@ pub(super) struct Point {
 pub(super) struct Cell {
     pub a: Rc<Point>,
     pub b: Rc<Point>,
-    /// By what moves of the formula: how far its second and third derivatives are from a straight line.
+    /// By what moves of the formula: how far its second and third derivatives are from a straight line; of a multiplier, how far its
+    /// value is.
     bends: Rc<[[f64; 2]]>,
 }
 
@@ -124,13 +129,16 @@ impl Formula {
     pub fn new(graph: &mut Graph, value: ExprId, system: &ConstraintSystem, variations: usize) -> Formula {
         let has_jerk = system.jerk().is_some();
         let dependence = graph.dependence(value);
-        let holds_rates = dependence.highest_order() > Some(0) || dependence.highest_varied_order().is_some();
+        let holds_rates = dependence.highest_order() > Some(0)
+            || dependence.highest_varied_order().is_some()
+            || dependence.on(Dependence::MULTIPLIERS);
         let (mut graph, value, smooth) = Smooth::out_of(graph, value, system);
         let mut formulas = vec![value];
         while formulas.len() < 3 {
             let last = formulas[formulas.len() - 1];
             let dependence = graph.dependence(last);
-            if dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2) {
+            let is_last = dependence.highest_order() == Some(3) || dependence.highest_varied_order() == Some(2);
+            if is_last || dependence.on(Dependence::MULTIPLIERS) {
                 break;
             }
             let next = ConstraintSystem::time_derivatives(&mut graph, &[last], 3)[0];
@@ -143,7 +151,8 @@ impl Formula {
         moving.sort_unstable();
         moving.dedup();
         let coordinates = system.coordinates.len();
-        let counts = [system.params.len(), coordinates + smooth.count(), variations];
+        let multipliers = if system.forces.is_some() { system.rows.len() } else { 0 };
+        let counts = [system.params.len(), coordinates + smooth.count(), variations, multipliers];
         let (program, roots) = Program::of_formulas(&graph, counts, &formulas);
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);
@@ -171,6 +180,9 @@ impl Formula {
         if self.is_varied() {
             places.vary(&state);
         }
+        if self.moving.iter().any(|moving| matches!(moving, Moving::Multiplier(_))) {
+            places.find_multipliers(&state);
+        }
         self.smooth.look(&state, |_| 1.0);
         let tower = |moving: &Moving| match *moving {
             Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
@@ -179,6 +191,7 @@ impl Formula {
                 let [place, first, second] = places.variation(variation, index);
                 [place, first, second, 0.0]
             }
+            Moving::Multiplier(row) => [places.multiplier(row), 0.0, 0.0, 0.0],
         };
         let moving: Vec<[f64; 4]> = self.moving.iter().map(tower).collect();
         self.run(state.t, &moving);
@@ -214,7 +227,9 @@ impl Formula {
             self.smooth.look(&point.state, moved);
             let tower = |(moving, tower): (&Moving, &[f64; 4])| match *moving {
                 Moving::Coordinate(k) if k >= self.coordinates => self.smooth.tower(k - self.coordinates),
-                Moving::Coordinate(k) | Moving::Varied { index: k, .. } => tower.map(|value| value * moved(k)),
+                Moving::Coordinate(k) | Moving::Varied { index: k, .. } | Moving::Multiplier(k) => {
+                    tower.map(|value| value * moved(k))
+                }
             };
             let moving: Vec<[f64; 4]> = self.moving.iter().zip(&point.moving).map(tower).collect();
             self.run(point.state.t, &moving);
@@ -234,6 +249,11 @@ impl Formula {
         self.ranges.set_times([cell.a.state.t, cell.b.state.t]);
         let ends = cell.a.moving.iter().zip(&cell.b.moving);
         for ((of, (a, b)), bends) in self.moving.iter().zip(ends).zip(cell.bends.iter()) {
+            if let Moving::Multiplier(row) = *of {
+                let register = self.program.inputs.multipliers + row as Register;
+                self.ranges.set(register, around(a[0], b[0], bends[0]));
+                continue;
+            }
             let third = around(a[3], b[3], bends[1]);
             let second = around(a[2], b[2], bends[0]);
             let first = between(a[1], b[1], second, h);
@@ -264,7 +284,10 @@ impl Formula {
                 let [a, middle, b] = [a, middle, b].map(|point| point.moving[k][order]);
                 (middle - 0.5 * a - 0.5 * b).abs()
             };
-            [off(2), if self.has_jerk { off(3) } else { 0.0 }]
+            match self.moving[k] {
+                Moving::Multiplier(_) => [off(0), 0.0],
+                _ => [off(2), if self.has_jerk { off(3) } else { 0.0 }],
+            }
         };
         (0..self.moving.len()).map(of).collect()
     }

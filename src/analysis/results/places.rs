@@ -78,6 +78,16 @@ impl Places {
         }
     }
 
+    /// Finds the multipliers at a state of the stretch.
+    pub fn find_multipliers(&mut self, state: &State) {
+        self.kinematics.vary_at(state);
+    }
+
+    /// The multiplier of a row, which has been found; none at a position where it cannot be trusted.
+    pub fn multiplier(&self, row: usize) -> f64 {
+        self.kinematics.multiplier(row)
+    }
+
     /// How a coordinate, its velocity and its acceleration change in a variation, which has been found.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         self.varying.as_ref().map_or([f64::NAN; 3], |varying| varying.variation(number, coordinate))

@@ -60,7 +60,7 @@ impl Smooth {
     fn new(graph: &Graph, towers: &[[Option<ExprId>; 4]], system: &ConstraintSystem) -> Smooth {
         let formulas: Vec<ExprId> = towers.iter().flatten().flatten().copied().collect();
         let (program, roots) =
-            Program::of_formulas(graph, [system.params.len(), system.coordinates.len(), 0], &formulas);
+            Program::of_formulas(graph, [system.params.len(), system.coordinates.len(), 0, 0], &formulas);
         let mut roots = roots.into_iter();
         let towers = towers.iter().map(|tower| tower.map(|formula| formula.and_then(|_| roots.next()))).collect();
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();

@@ -24,7 +24,7 @@ struct Beside {
 impl Beside {
     fn of(system: &ConstraintSystem, variations: usize) -> Option<Beside> {
         let (numbers, formulas): (Vec<u32>, Vec<_>) = system.results.varied_where.iter().copied().unzip();
-        let counts = [system.params.len(), system.coordinates.len(), variations];
+        let counts = [system.params.len(), system.coordinates.len(), variations, 0];
         let (program, roots) = Program::of_formulas(&system.graph, counts, &formulas);
         let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
         let registers = program.start(&params);

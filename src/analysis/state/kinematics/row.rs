@@ -72,7 +72,7 @@ impl Kinematics {
         Some(Kinematics { determined, program, registers, variations, holds, ..self.clone() })
     }
 
-    /// Computes the variations of a state that was solved for, where they can be trusted.
+    /// Computes the forces and variations of a state that was solved for, where they can be trusted.
     pub fn vary_at(&mut self, state: &State) {
         self.set_time(state.t);
         let is_regular = self.set_position(&state.q).is_ok() && self.factor().is_ok();
@@ -87,6 +87,11 @@ impl Kinematics {
     /// How a coordinate, its velocity and its acceleration change in a variation.
     pub fn variation(&self, number: u32, coordinate: usize) -> [f64; 3] {
         [0, 1, 2].map(|order| self.registers.get(self.program.inputs.varied(number, order) + coordinate as u32))
+    }
+
+    /// The multiplier of a row, where forces have been computed.
+    pub fn multiplier(&self, row: usize) -> f64 {
+        self.registers.get(self.program.inputs.multipliers + row as Register)
     }
 
     /// Computes the forces and variations of a state whose derivatives were just computed, where they can be trusted.
