@@ -32,7 +32,7 @@ fn has_blocks_that_hold(path: &Path) {
     for (language, block) in blocks(&text) {
         match language.as_str() {
             // sessions are run; commands of the shell and code for a crate of one's own have no output here
-            "console" | "sh" | "rust,ignore" => {}
+            "console" | "sh" | "rust,ignore" | "c" => {}
             "mech" => is_a_mechanism(&block, stem(path) == LANGUAGE || block.starts_with(USES_AN_EXAMPLE)),
             "text" => assert!(stem(path) == TIMINGS && !block.contains('$'), "nobody runs this `text`:\n{block}"),
             _ => panic!("a block of `{language}`:\n{block}"),

@@ -12,7 +12,7 @@ use super::tokens::{Token, begins_declaration, next_token};
 use crate::diag::{Applies, Fix, nearest};
 use crate::source::{FileId, Span};
 use crate::vocabulary::{
-    KEYWORDS, Keyword, Place, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
+    KEYWORDS, Keyword, Place, Role, Synonym, Unit, is_declaration, is_feature, is_one_argument_function,
 };
 use std::ops::Range;
 
@@ -148,7 +148,9 @@ impl Fault<'_> {
             }
             return Some(Mend::Words(synonym.say(&[])));
         }
-        let starts_operand = self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
+        // what joins the parts of a declaration is no factor
+        let joins = Keyword::named(self.found).is_some_and(|keyword| keyword.role == Role::Separator);
+        let starts_operand = !joins && self.found.starts_with(|c: char| c.is_alphanumeric() || c == '(' || c == '_');
         if !self.expects(Rule::infix) || !starts_operand || self.is_on_new_line() || !connecting.is_empty() {
             return None;
         }

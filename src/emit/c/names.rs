@@ -124,6 +124,6 @@ mod tests {
 
     #[test]
     fn nothing_ends_a_comment_too_early() {
-        assert_eq!(comment("a */ b /* c\n*/*/"), "/* a * / b / * c * /* / */");
+        assert_eq!(comment("a */ b /* c\n*/*/"), "/* a * / b / * c * / * / */");
     }
 }

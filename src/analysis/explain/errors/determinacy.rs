@@ -267,9 +267,10 @@ pub fn force_in_a_loop(system: &ConstraintSystem, dependents: &[Dependent]) -> O
     let mut of_loop: Vec<DeclarationId> =
         (0..system.rows.len()).filter(|&row| is_in_loop(row)).map(|row| system.rows[row].declaration).collect();
     of_loop.dedup();
+    of_loop.retain(|&declaration| system.declarations[declaration].span != span);
     let message = format!("{name} is not determined: its loop has redundant equations");
     let diagnostic = Diagnostic::new(Code::E0509, message).at(span, "asks how the load is shared");
-    let diagnostic = with_places(diagnostic, system, &of_loop, ["in the loop", "these share it in any way"]);
+    let diagnostic = with_places(diagnostic, system, &of_loop, ["shares it in any way", "these share it in any way"]);
     Some(
         diagnostic
             .help("replace a redundant joint by one that leaves more freedom, or ask for forces outside of the loop"),
