@@ -80,10 +80,7 @@ fn every_constant_of_a_table_is_in_its_file() {
     let mut looked_at = 0;
     for line in page.lines().filter(|line| line.starts_with("| ")) {
         let cells: Vec<&str> = line.trim_matches('|').split(" | ").map(str::trim).collect();
-        let (files, constants) = match cells.as_slice() {
-            [_, _, files, constants, _] | [constants, files, _] => (files, constants),
-            _ => continue,
-        };
+        let ([_, _, files, constants, _] | [constants, files, _]) = cells.as_slice() else { continue };
         let texts: Vec<String> = quoted(files)
             .filter(|path| Path::new(path).extension().is_some_and(|ending| ending == "rs"))
             .filter_map(|path| fs::read_to_string(place(path)?).ok())

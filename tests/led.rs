@@ -396,7 +396,7 @@ fn lengths_and_points_lead_as_well() {
         [at + cos(phi) * x - sin(phi) * y, to + sin(phi) * x + cos(phi) * y]
     };
     for (one, other) in [(place(0, [0.03, 0.01]), place(1, [0.0; 2])), (place(1, [0.1, 0.0]), place(2, [0.07, 0.0]))] {
-        assert!((one[0] - other[0]).hypot(one[1] - other[1]) < 1e-12, "{row:?}");
+        assert!(mechc::rooms::math::hypot(one[0] - other[0], one[1] - other[1]) < 1e-12, "{row:?}");
     }
     // at 145.5 mm coupler and rocker lie in one line
     let (rows, said) = run(&led_over(text, &["coupler_length=300mm"]), &Times::listed(0.0, vec![0.0]));

@@ -39,7 +39,7 @@ impl<'a> Checker<'a> {
             None => Some(self.origin_of(frame, feature.span)),
         };
         let inertia = self.not_negative(frame, inertia, "inertia", Dimension::INERTIA);
-        Some(Mass { body, mass: mass?, at: at?, inertia: inertia?, span: feature.span })
+        Some(Mass { body, amount: mass?, at: at?, inertia: inertia?, span: feature.span })
     }
 
     fn origin_of(&mut self, frame: Frame, span: Span) -> PointId {

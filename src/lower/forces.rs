@@ -79,7 +79,7 @@ impl Lowering<'_> {
     /// `d/dt ∂T/∂q̇ − ∂T/∂q + ∂V/∂q` of `T = ½ m ċᵀċ + ½ I φ̇²` and `V = −m gᵀc`, without the terms that cancel.
     fn add_mass(&mut self, of: &Mass, needed: &mut [ExprId]) {
         let frame = Frame::Body(of.body);
-        let (mass, inertia) = (self.formula(of.mass), self.formula(of.inertia));
+        let (mass, inertia) = (self.formula(of.amount), self.formula(of.inertia));
         let gravity = self.model.gravity.map(|gravity| gravity.map(|part| self.formula(part)));
         let (center, phi) = (self.global(of.at), self.frame_coordinate(frame, 2));
         for (part, place) in center.into_iter().enumerate() {

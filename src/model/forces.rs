@@ -10,7 +10,7 @@ pub struct Mass {
     /// Whose it is.
     pub body: BodyId,
     /// How much (kg), not negative; holds parameters only, as all of these do.
-    pub mass: ExprId,
+    pub amount: ExprId,
     /// Its centre, a point of the body.
     pub at: PointId,
     /// Its moment of inertia about that centre (kg·m²), not negative.

@@ -75,7 +75,7 @@ impl Text<'_> {
         let text = |id: ExprId| self.formula_text(id);
         for of in self.model.masses.iter().filter(|mass| mass.body == body) {
             let at = self.point_text(of.at, &text);
-            writeln!(f, "    mass {} at {at} inertia {}", text(of.mass), text(of.inertia))?;
+            writeln!(f, "    mass {} at {at} inertia {}", text(of.amount), text(of.inertia))?;
         }
         Ok(())
     }
@@ -216,7 +216,7 @@ impl Mechanism {
                 EquationForm::Distance(_, _, distance) => list.push(distance),
             }
         }
-        list.extend(self.masses.iter().flat_map(|mass| [mass.mass, mass.inertia]));
+        list.extend(self.masses.iter().flat_map(|mass| [mass.amount, mass.inertia]));
         list.extend(self.gravity.into_iter().flatten());
         list.extend(self.loads.iter().map(|load| load.force));
         list.extend(self.measures.iter().map(|measure| measure.value));

@@ -53,7 +53,7 @@ impl Orthonormal {
 
     /// The vector that was taken in last.
     pub fn last(&self) -> Option<DVector<f64>> {
-        self.vectors().column_iter().next_back().map(|vector| vector.into_owned())
+        self.vectors().column_iter().next_back().map(nalgebra::Matrix::into_owned)
     }
 
     /// How much of each axis is free of them.

@@ -33,9 +33,8 @@ fn may_be_missing(system: &ConstraintSystem, holds: &Holds) -> bool {
     };
     match *holds {
         Holds::Time | Holds::Coordinate { .. } | Holds::Slope { .. } | Holds::Varied | Holds::Multiplier => false,
-        Holds::Reaction(_) => true,
         Holds::Measure { index, order } => system.measures[index].derivative(order).is_some_and(is_of_solution),
-        Holds::Appended(_) => true,
+        Holds::Reaction(_) | Holds::Appended(_) => true,
     }
 }
 
