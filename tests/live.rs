@@ -69,7 +69,7 @@ impl Served {
 
     /// What is answered to a request with some headers.
     fn asked(&self, line: &str, headers: &[(&str, &str)], body: &str) -> String {
-        let headers: String = headers.iter().map(|(name, value)| format!("{name}: {value}\r\n")).collect();
+        let headers: String = headers.iter().flat_map(|&(name, value)| [name, ": ", value, "\r\n"]).collect();
         let length = body.len();
         let sent = format!("{line} HTTP/1.1\r\nConnection: close\r\nContent-Length: {length}\r\n{headers}\r\n{body}");
         self.answer(sent.as_bytes())

@@ -140,6 +140,8 @@ fn rule_of(kind: &ItemKind) -> Option<&'static str> {
         ItemKind::Joint { .. } => "joint",
         ItemKind::Equation { driver: true, .. } => "driver",
         ItemKind::Equation { driver: false, .. } => "constraint",
+        ItemKind::Gravity { .. } => "gravity",
+        ItemKind::Load { .. } => "load",
         ItemKind::Measure { .. } => "measure",
         ItemKind::Trace { .. } => "trace",
         ItemKind::Result { .. } => "result",
@@ -154,6 +156,7 @@ fn rule_of_feature(kind: &FeatureKind) -> Option<&'static str> {
         FeatureKind::AxisAlong { .. } | FeatureKind::AxisTo { .. } => "axis",
         FeatureKind::Circle { .. } => "circle",
         FeatureKind::Curve { .. } => "curve",
+        FeatureKind::Mass { .. } => "mass",
         FeatureKind::Broken => return None,
     })
 }
