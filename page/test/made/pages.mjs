@@ -15,6 +15,8 @@ export function pageOf(data) {
     const parts = {
         title: escaped(data.name),
         version: escaped(data.mechc),
+        // it asks nobody
+        connect: "",
         docs: `<div class="docs"><p>${escaped(data.docs)}</p></div>`,
         style: part("page.css"),
         script: part("page.js"),
