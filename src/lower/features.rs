@@ -102,7 +102,7 @@ mod tests {
                 driver motor: rotation(shaft) = 1 rad/s * t
             }",
         );
-        assert_eq!(places[2], [0.005, 0.02]);
+        assert_eq!(places[2].map(f64::to_bits), [0.005, 0.02].map(f64::to_bits));
     }
 
     #[test]
