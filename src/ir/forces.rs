@@ -4,8 +4,8 @@
 //! kind; E. J. Haug, *Computer-Aided Kinematics and Dynamics of Mechanical Systems*, 1989, 11.3). The equations exert `Φ_qᵀ λ`
 //! on the coordinates.
 
-use super::ConstraintSystem;
-use crate::expr::{ExprId, Symbol};
+use super::{ConstraintSystem, SparseRows};
+use crate::expr::{Dependence, ExprId, Symbol};
 use crate::source::Span;
 
 /// The equations for the multipliers.
@@ -30,7 +30,35 @@ pub struct Reaction {
     pub span: Span,
 }
 
+/// What multipliers have to hold, in the words of mechanics: `Φ_qᵀ λ = M q̈ − Q`.
+#[derive(Clone, Debug)]
+pub struct Mechanics {
+    /// `M`, by rows (kg, kg·m, kg·m²).
+    pub mass_matrix: SparseRows,
+    /// `Q`, by coordinate (N, N·m): weights, loads, and what turning bodies need whose centres are not at their origins.
+    pub applied: Vec<ExprId>,
+}
+
 impl ConstraintSystem {
+    /// What multipliers have to hold, in the words of mechanics; nothing where nobody asks for forces.
+    pub fn mechanics(&mut self) -> Option<Mechanics> {
+        let needed = self.forces.as_ref()?.needed.clone();
+        let mut mass_matrix = SparseRows::new();
+        for &of in &needed {
+            let gradient = self.graph.gradient(of, Dependence::coordinates(2));
+            mass_matrix.push(gradient.into_iter().filter_map(|(symbol, mass)| match symbol {
+                Symbol::Coordinate { index, order: 2 } => Some((index, mass)),
+                _ => None,
+            }));
+        }
+        let nothing = self.graph.constant(0.0);
+        let at_rest = self
+            .graph
+            .substituted(&needed, |symbol| matches!(symbol, Symbol::Coordinate { order: 2, .. }).then_some(nothing));
+        let applied = at_rest.into_iter().map(|of| self.graph.neg(of)).collect();
+        Some(Mechanics { mass_matrix, applied })
+    }
+
     /// `p` of `Φ_qᵀ λ = p`, one entry per coordinate; none where nobody asks for forces.
     #[must_use]
     pub fn needed_forces(&self) -> &[ExprId] {

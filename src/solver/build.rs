@@ -30,7 +30,7 @@ pub(super) fn build(
 ) -> Option<Solver> {
     let system = determined.system();
     let groups = Groups::new(determined);
-    let wanted = groups.wanted(system);
+    let wanted = groups.wanted(system, !program.outputs.reactions.is_empty());
     let across = groups.blocks.len();
     let mut builder = Builder::new(determined, program, values, &groups, purpose);
     builder.joined = joined(system, &builder.layout, &wanted[across]);
