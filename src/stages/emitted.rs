@@ -6,6 +6,7 @@ use crate::cancel::Cancel;
 use crate::diag::{Code, Diagnostic, Diagnostics};
 use crate::emit::{self, File, Following, LARGEST_STRAIGHT, Motion, Reference, Unit};
 use crate::expr::Dependence;
+use crate::layout::RowLayout;
 use crate::program::Program;
 use crate::solver::BlockTables;
 use std::sync::Arc;
@@ -213,7 +214,12 @@ impl Compiled {
         let Some(mut run) = run else {
             return Err(Box::new(remarks.into_iter().next_back().unwrap_or_else(too_large)));
         };
-        let columns = run.columns().to_vec();
+        let mut columns = run.columns().to_vec();
+        let reactions = {
+            let (layout, count) = (RowLayout::new(self.system()), self.system().reactions().len());
+            layout.reactions as usize..layout.reactions as usize + count
+        };
+        columns.drain(reactions.clone());
         let wanted = (MOST_NUMBERS / columns.len()).clamp(2, MOST_ROWS) as u64;
         // spread evenly, the first and the last among them
         let is_wanted = |k: u64| k == 0 || k * (wanted - 1) / (count - 1) > (k - 1) * (wanted - 1) / (count - 1);
@@ -237,9 +243,10 @@ impl Compiled {
         if rows.last().map(|row| row[0]) < last.first().copied() {
             rows.push(last);
         }
+        let forces = rows.iter_mut().map(|row: &mut Vec<f64>| row.drain(reactions.clone()).collect()).collect();
         said.extend(run.take_remarks());
         said.extend(why);
-        Ok(Reference { columns, rows, steps: number - 1, every, stopped })
+        Ok(Reference { columns, rows, forces, steps: number - 1, every, stopped })
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::Writer;
 use super::indices::numbered;
-use crate::emit::equations::{Given, Wanted};
+use crate::emit::equations::Wanted;
 use crate::emit::names::Case;
 use crate::emit::print::{Head, Page};
 use crate::emit::solution::Solution;
