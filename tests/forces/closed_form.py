@@ -1,0 +1,90 @@
+"""The slider-crank in closed form: what its bearings carry and its shaft needs, as textbooks write it down.
+
+closed_form.py
+
+Writes `slider_crank_closed_form.csv`. Nothing is solved for but one unknown after the other: piston, rod, crank. Needs mpmath; no mechc.
+
+Source: the dynamic force analysis of the slider-crank by Newton's and Euler's laws, as in R. L. Norton, Design of Machinery, and J. J. Uicker, G. R.
+Pennock, J. E. Shigley, Theory of Machines and Mechanisms; the rod's angle and its derivatives follow from l sin(phi) = e - r sin(theta).
+"""
+
+import csv
+from pathlib import Path
+
+from mpmath import cos, mp, mpf, nstr, pi, sin, sqrt
+
+mp.dps = 34
+
+r, l = mpf("0.042"), mpf("0.134")
+w, start = mpf(2900) * 2 * pi / 60, 25 * pi / 180
+area, inlet, top, bottom, exponent = mpf("0.0041"), mpf("1e5"), mpf("0.186"), mpf("0.092"), mpf("1.3")
+m_crank, m_rod, m_piston = mpf("3.1"), mpf("0.62"), mpf("0.47")
+u, v = mpf("-0.007"), mpf("0.002")  # the crank's centre of mass, in its frame
+b, I = mpf("0.039"), mpf("1.75e-3")  # the rod's, from the big end, and its inertia about it
+c = mpf("0.008")  # the piston's, before the wrist pin
+g = mpf("9.81")
+
+
+def forces(t, e):
+    """Forces on rod, piston and crank (big, small, barrel, main), the barrel's couple and the shaft's torque; the cylinder's axis is y = e."""
+    theta = start + w * t
+    S, C = sin(theta), cos(theta)
+
+    # the rod's angle and its derivatives, with the piston's and the rod's centres' accelerations
+    sn = (e - r * S) / l
+    cs = sqrt(1 - sn * sn)
+    w_rod = -r * w * C / (l * cs)
+    alpha = (r * w * w * S + l * w_rod**2 * sn) / (l * cs)
+    x = r * C + l * cs
+    a_piston = -r * w * w * C - l * (w_rod**2 * cs + alpha * sn)
+    a_x = -r * w * w * C - b * (w_rod**2 * cs + alpha * sn)
+    a_y = -r * w * w * S - b * (w_rod**2 * sn - alpha * cs)
+    a_crank_x, a_crank_y = -w * w * (C * u - S * v), -w * w * (S * u + C * v)
+
+    gas = area * inlet * (((top - bottom) / (top - x)) ** exponent - 1)
+    small_x = m_piston * a_piston + gas  # along the cylinder
+    small_y = sn / cs * small_x - (I * alpha + m_rod * b * (cs * (a_y + g) - sn * a_x)) / (l * cs)  # the rod, about the big end
+    barrel_y = m_piston * g - small_y
+    couple = m_piston * g * c
+    big_x, big_y = m_rod * a_x + small_x, m_rod * (a_y + g) + small_y
+    main_x, main_y = m_crank * a_crank_x + big_x, m_crank * (a_crank_y + g) + big_y
+    torque = r * (C * big_y - S * big_x) + m_crank * g * (C * u - S * v)
+
+    # no work is lost
+    v_piston = -r * w * S - l * w_rod * sn
+    v_x, v_y = -r * w * S - b * w_rod * sn, r * w * C + b * w_rod * cs
+    power = m_piston * a_piston * v_piston + m_rod * (a_x * v_x + (a_y + g) * v_y) + I * alpha * w_rod
+    power += gas * v_piston + m_crank * g * w * (C * u - S * v)
+    assert abs(torque * w - power) < mpf("1e-25") * abs(gas * r * w)
+
+    return {
+        "main": (main_x, main_y),
+        "big": (big_x, big_y),
+        "small": (small_x, small_y),
+        "barrel": (mpf(0), barrel_y, couple),
+        "torque": torque,
+    }
+
+
+def row(t):
+    machines = [forces(t, e) for e in (mpf(0), mpf("0.019"))]
+    cells = {"t": t}
+    for i, found in enumerate(machines):
+        for joint in ("main", "big", "small"):
+            cells |= {f"{joint}[{i}].{part}": value for part, value in zip(("fx", "fy"), found[joint])}
+        barrel = ("level", "above")[i]
+        cells |= {f"{barrel}.{part}": value for part, value in zip(("fx", "fy", "torque"), found["barrel"])}
+        cells[f"motor[{i}].effort"] = found["torque"]
+    return cells
+
+
+def main():
+    rows = [row(mpf("0.00035") * k) for k in range(61)]
+    with open(Path(__file__).parent / "slider_crank_closed_form.csv", "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(rows[0])
+        writer.writerows([nstr(cell, 20) for cell in cells.values()] for cells in rows)
+
+
+if __name__ == "__main__":
+    main()
