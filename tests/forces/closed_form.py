@@ -4,20 +4,22 @@ closed_form.py
 
 Writes `slider_crank_closed_form.csv`. Nothing is solved for but one unknown after the other: piston, rod, crank. Needs mpmath; no mechc.
 
+Its derivatives by params are differences of these forms, of second order, which 34 digits allow to be as exact as the rest.
+
 Source: the dynamic force analysis of the slider-crank by Newton's and Euler's laws, as in R. L. Norton, Design of Machinery, and J. J. Uicker, G. R.
 Pennock, J. E. Shigley, Theory of Machines and Mechanisms; the rod's angle and its derivatives follow from l sin(phi) = e - r sin(theta).
 """
 
 import csv
+from dataclasses import astuple, dataclass, replace
 from pathlib import Path
 
 from mpmath import cos, mp, mpf, nstr, pi, sin, sqrt
 
 mp.dps = 34
 
-r, l = mpf("0.042"), mpf("0.134")
-w, start = mpf(2900) * 2 * pi / 60, 25 * pi / 180
-area, inlet, top, bottom, exponent = mpf("0.0041"), mpf("1e5"), mpf("0.186"), mpf("0.092"), mpf("1.3")
+start = 25 * pi / 180
+inlet, top, bottom, exponent = mpf("1e5"), mpf("0.186"), mpf("0.092"), mpf("1.3")
 m_crank, m_rod, m_piston = mpf("3.1"), mpf("0.62"), mpf("0.47")
 u, v = mpf("-0.007"), mpf("0.002")  # the crank's centre of mass, in its frame
 b, I = mpf("0.039"), mpf("1.75e-3")  # the rod's, from the big end, and its inertia about it
@@ -25,8 +27,20 @@ c = mpf("0.008")  # the piston's, before the wrist pin
 g = mpf("9.81")
 
 
-def forces(t, e):
-    """Forces on rod, piston and crank (big, small, barrel, main), the barrel's couple and the shaft's torque; the cylinder's axis is y = e."""
+@dataclass(frozen=True)
+class Machine:
+    """What the two machines differ in, or derivatives are taken by: m, rad/s, m^2."""
+
+    offset: mpf  # of the cylinder's axis from the shaft
+    throw: mpf = mpf("0.042")
+    rod_length: mpf = mpf("0.134")
+    speed: mpf = mpf(2900) * 2 * pi / 60
+    area: mpf = mpf("0.0041")
+
+
+def forces(t, machine):
+    """Forces on rod, piston and crank (big, small, barrel, main), the barrel's couple and the shaft's torque."""
+    e, r, l, w, area = astuple(machine)
     theta = start + w * t
     S, C = sin(theta), cos(theta)
 
@@ -66,16 +80,29 @@ def forces(t, e):
     }
 
 
+def derivative(t, machine, param, of):
+    """Of a force, by a param."""
+    value = getattr(machine, param)
+    h = value / 10**10
+    more, less = (of(forces(t, replace(machine, **{param: value + d}))) for d in (h, -h))
+    return (more - less) / (2 * h)
+
+
 def row(t):
-    machines = [forces(t, e) for e in (mpf(0), mpf("0.019"))]
+    level, above = Machine(offset=mpf(0)), Machine(offset=mpf("0.019"))
     cells = {"t": t}
-    for i, found in enumerate(machines):
+    for i, found in enumerate((forces(t, level), forces(t, above))):
         for joint in ("main", "big", "small"):
             cells |= {f"{joint}[{i}].{part}": value for part, value in zip(("fx", "fy"), found[joint])}
         barrel = ("level", "above")[i]
         cells |= {f"{barrel}.{part}": value for part, value in zip(("fx", "fy", "torque"), found["barrel"])}
         cells[f"motor[{i}].effort"] = found["torque"]
-    return cells
+    return cells | {
+        "bearing_by_throw": derivative(t, above, "throw", lambda f: f["main"][0]),
+        "thrust_by_length": derivative(t, above, "rod_length", lambda f: f["barrel"][1]),
+        "torque_by_speed": derivative(t, above, "speed", lambda f: f["torque"]),
+        "torque_by_area": derivative(t, level, "area", lambda f: f["torque"]),
+    }
 
 
 def main():
