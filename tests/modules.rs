@@ -170,7 +170,7 @@ fn has_the_bits_of_the_interpreter(batch: &Batch, number: usize) {
 fn is_checked_on_its_way(batch: &Batch, number: usize) {
     let module = &batch.modules[number];
     let Made { emitted, rows, ends_well, .. } = module.made();
-    let checks = emitted.compiled.inside().0.system().checks.len();
+    let checks = emitted.compiled.inside().0.system().checks().len();
     assert!(checks > 0 && rows.len() > 2, "{checks} checks, {} rows", rows.len());
     assert_eq!(*ends_well, !module.name.ends_with("parts_later"));
 }

@@ -179,7 +179,7 @@ fn json_has_the_layout_of_its_page() {
         let (determined, _) = compiled.inside();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
         // inputs are told where there are any
-        let has_inputs = !determined.system().inputs.is_empty();
+        let has_inputs = !determined.system().inputs().is_empty();
         let is_there = |field: &str| field != "inputs" || has_inputs;
         let fields: Vec<&str> = FIELDS.iter().copied().filter(|field| is_there(field)).collect();
         assert_eq!(keys(&json), fields, "{name}");
@@ -198,13 +198,13 @@ fn json_has_the_layout_of_its_page() {
 /// Lists have the lengths, and numbers point to what there is.
 fn counts_agree(name: &str, json: &Value, system: &ConstraintSystem) {
     let length = |key: &str| list(json, key).len();
-    let m = system.rows.len();
+    let m = system.rows().len();
     assert_eq!([length("rows"), length("nu"), length("gamma"), length("coordinates")], [m; 4], "{name}");
-    assert_eq!(length("phi_q"), system.phi_q.entries().len());
+    assert_eq!(length("phi_q"), system.phi_q().entries().len());
     let declared: usize = list(json, "declarations").iter().map(|item| index(&item["rows"])).sum();
     assert_eq!(declared, m, "{name}");
     for (k, entry) in list(json, "phi_q").iter().enumerate() {
-        assert_eq!(index(&entry["row"]), system.phi_q.row_of(k));
+        assert_eq!(index(&entry["row"]), system.phi_q().row_of(k));
         assert!(index(&entry["column"]) < m);
     }
     for row in list(json, "rows") {
@@ -287,9 +287,9 @@ fn formulas_of_the_json_are_those_of_the_system() {
         let (determined, _) = compiled.inside();
         let system = determined.system();
         let json: Value = serde_json::from_str(&compiled.json("f.mech")).expect("JSON");
-        let mut graph = system.graph.clone();
+        let mut graph = system.graph().clone();
         let mut symbols: HashMap<String, ExprId> = HashMap::new();
-        for (_, node) in system.graph.nodes() {
+        for (_, node) in system.graph().nodes() {
             if let Node::Symbol(symbol) = node {
                 let id = graph.symbol(symbol);
                 let word = if symbol == Symbol::Time { "t".to_owned() } else { system.symbol_name(symbol) };
@@ -297,10 +297,10 @@ fn formulas_of_the_json_are_those_of_the_system() {
             }
         }
         let tables: HashMap<String, TableId> = system
-            .graph
+            .graph()
             .nodes()
             .filter_map(|(_, node)| match node {
-                Node::Table(table, ..) => Some((system.graph.tables()[table.index()].name.clone(), table)),
+                Node::Table(table, ..) => Some((system.graph().tables()[table.index()].name.clone(), table)),
                 _ => None,
             })
             .collect();
@@ -312,18 +312,18 @@ fn formulas_of_the_json_are_those_of_the_system() {
             let back = formula(&mut graph, text(value), &symbols, &tables);
             assert_eq!(back, id, "{name}: {value}");
         };
-        for (k, row) in system.rows.iter().enumerate() {
+        for (k, row) in system.rows().iter().enumerate() {
             same(&json["rows"][k]["phi"], row.phi);
             same(&json["nu"][k], system.nu()[k]);
             same(&json["gamma"][k], system.gamma()[k]);
         }
-        for (k, (_, id)) in system.phi_q.entries().iter().enumerate() {
+        for (k, (_, id)) in system.phi_q().entries().iter().enumerate() {
             same(&json["phi_q"][k]["value"], *id);
         }
-        for (k, coordinate) in system.coordinates.iter().enumerate() {
+        for (k, coordinate) in system.coordinates().iter().enumerate() {
             same(&json["coordinates"][k]["estimate"], coordinate.estimate);
         }
-        for (measure, item) in system.measures.iter().zip(list(&json, "measures")) {
+        for (measure, item) in system.measures().iter().zip(list(&json, "measures")) {
             same(&item["value"], measure.value);
             for (key, derivative) in [("first", measure.first), ("second", measure.second)] {
                 match derivative {
@@ -332,7 +332,7 @@ fn formulas_of_the_json_are_those_of_the_system() {
                 }
             }
         }
-        for (table, item) in system.graph.tables().iter().zip(list(&json, "tables")) {
+        for (table, item) in system.graph().tables().iter().zip(list(&json, "tables")) {
             let columns = [&table.knots, &table.values].into_iter().chain(&table.coefficients);
             let texts = [&item["knots"], &item["values"]].into_iter().chain(list(item, "coefficients"));
             for (ids, texts) in columns.zip(texts) {
@@ -341,13 +341,13 @@ fn formulas_of_the_json_are_those_of_the_system() {
                 }
             }
         }
-        for (condition, item) in system.conditions.iter().zip(list(&json, "conditions")) {
+        for (condition, item) in system.conditions().iter().zip(list(&json, "conditions")) {
             same(&item["positive"], condition.positive);
         }
-        for (watch, item) in system.watches.iter().zip(list(&json, "watches")) {
+        for (watch, item) in system.watches().iter().zip(list(&json, "watches")) {
             same(&item["value"], watch.value);
         }
-        for (check, item) in system.checks.iter().zip(list(&json, "left_out")) {
+        for (check, item) in system.checks().iter().zip(list(&json, "left_out")) {
             same(&item["phi"], check.phi);
         }
     }
@@ -391,7 +391,7 @@ fn every_document_is_sound() {
         let system = determined.system();
         let document = emit::latex(system, "a_b%c.mech");
         is_sound(&name, &document);
-        for row in 1..=system.rows.len() {
+        for row in 1..=system.rows().len() {
             assert!(document.contains(&format!("\\Phi_{{{row}}}")), "{name}: no row {row}");
         }
         // a term is written out once, and none without need
@@ -438,7 +438,7 @@ fn symbols(document: &str, system: &ConstraintSystem, value: &dyn Fn(Symbol) -> 
             assert!(symbols.insert(name, value).is_none(), "two coordinates of one symbol");
         }
     }
-    assert_eq!(symbols.len(), 1 + system.params.len() + 4 * system.coordinates.len());
+    assert_eq!(symbols.len(), 1 + system.params().len() + 4 * system.coordinates().len());
     symbols
 }
 
@@ -466,18 +466,18 @@ fn what_is_typeset_has_the_values_of_the_system() {
 fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
     let document = emit::latex(system, "f.mech");
     let value = |symbol: Symbol| match symbol {
-        Symbol::Param(k) => system.params[k as usize].value,
+        Symbol::Param(k) => system.params()[k as usize].value,
         symbol => some_number(symbol, seed),
     };
     let names: Vec<String> = entries(section(&document, "Tables")).map(|(name, _)| name.to_owned()).collect();
     let table = |name: &str, order: usize, x: f64| -> Option<f64> {
         let at = names.iter().position(|known| known == name)?;
-        let mut nodes = system.graph.nodes();
+        let mut nodes = system.graph().nodes();
         let table = nodes.find_map(|(_, node)| match node {
             Node::Table(table, ..) if table.index() == at => Some(table),
             _ => None,
         });
-        let mut graph = system.graph.clone();
+        let mut graph = system.graph().clone();
         let argument = graph.symbol(Symbol::Named(0));
         let id = graph.table(table?, u8::try_from(order).ok()?, argument);
         Some(graph.value(id, |symbol| if symbol == Symbol::Named(0) { x } else { value(symbol) }))
@@ -490,12 +490,12 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
         known: RefCell::default(),
     };
     let agrees = |what: &str, text: &str, id: ExprId| {
-        let (got, wanted) = (meaning.value(text), system.graph.value(id, value));
+        let (got, wanted) = (meaning.value(text), system.graph().value(id, value));
         let is_same = (got - wanted).abs() <= 1e-8 * (1.0 + wanted.abs()) || !wanted.is_finite();
         assert!(is_same, "{name}, {what}: {got} for {wanted}, {text}");
     };
     let equations = section(&document, "Equations");
-    for (k, row) in system.rows.iter().enumerate() {
+    for (k, row) in system.rows().iter().enumerate() {
         let of = |letter: &str, id: ExprId| {
             let wanted = format!("{letter}_{{{}}}", k + 1);
             // some of the right sides that vanish stand in one equation
@@ -509,7 +509,7 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
         of(r"\nu", system.nu()[k]);
         of(r"\gamma", system.gamma()[k]);
         let mut cells = cells(equations, k + 1);
-        for &(column, id) in system.phi_q.row(k) {
+        for &(column, id) in system.phi_q().row(k) {
             let symbol = column_symbol(&document, column as usize);
             let text = cells.remove(symbol).unwrap_or_else(|| panic!("{name}: no column {symbol}"));
             agrees(symbol, text, id);
@@ -517,7 +517,7 @@ fn values_agree(name: &str, system: &ConstraintSystem, seed: u64) {
         assert!(cells.values().all(|text| *text == "0"), "{name}: {cells:?}");
     }
     for (measure, (_, text)) in system
-        .measures
+        .measures()
         .iter()
         .zip(entries(section(&document, "Measures")).filter(|(name, _)| !name.starts_with(r"\mathcal")))
     {

@@ -46,7 +46,7 @@ pub(super) struct Names {
 impl Names {
     /// The names of a system whose parameters are reached by some paths, in bodies that may hold some arrays.
     pub fn new(system: &ConstraintSystem, paths: Vec<String>, arrays: &[String]) -> Names {
-        let params: Vec<String> = Case::Snake.names(system.params.iter().map(|param| param.name.as_str()));
+        let params: Vec<String> = Case::Snake.names(system.params().iter().map(|param| param.name.as_str()));
         let mut variables = Namer::default();
         for word in RESERVED {
             variables.snake(word);
@@ -65,10 +65,10 @@ impl Names {
         let param_variables =
             params.iter().enumerate().map(|(k, name)| variable(name.clone(), format!("p{k}"))).collect();
         let coordinates = [("q", ""), ("qd", "_d"), ("qdd", "_dd")].map(|(array, end)| {
-            let coordinates = system.coordinates.iter().enumerate();
+            let coordinates = system.coordinates().iter().enumerate();
             coordinates.map(|(k, c)| variable(words(&c.name).to_lowercase() + end, format!("{array}{k}"))).collect()
         });
-        let inputs = Case::Snake.names_of_inputs(&system.inputs);
+        let inputs = Case::Snake.names_of_inputs(system.inputs());
         let signals = ["", "_d", "_dd"].map(|end| {
             let signals = inputs.iter().enumerate();
             signals

@@ -137,7 +137,7 @@ impl Writer<'_> {
 
     /// Parameters as the file has them.
     fn params(&self) -> &'static str {
-        if self.unit.system.params.is_empty() { "Params" } else { "Params::default()" }
+        if self.unit.system.params().is_empty() { "Params" } else { "Params::default()" }
     }
 
     fn manifest(&self) -> String {
@@ -151,7 +151,7 @@ impl Writer<'_> {
             include_str!("package/Cargo.toml.txt"),
             mark = self.mark(),
             package = self.name,
-            mechanism = self.unit.system.name,
+            mechanism = self.unit.system.name(),
             kinds = kinds,
             dependencies = dependencies,
             features = features,
@@ -229,7 +229,7 @@ impl Writer<'_> {
         format!(
             include_str!("package/README.md.txt"),
             package = self.name,
-            mechanism = self.unit.system.name,
+            mechanism = self.unit.system.name(),
             mark = self.mark(),
             unsafety = unsafety,
             needs = needs,
@@ -254,7 +254,7 @@ impl Writer<'_> {
         if !self.unit.for_c {
             return String::new();
         }
-        let (given, params) = if self.unit.system.params.is_empty() {
+        let (given, params) = if self.unit.system.params().is_empty() {
             (String::new(), "")
         } else {
             (format!("    {0}_params params = {0}_params_default();\n", self.library), ", &params")
@@ -272,11 +272,11 @@ impl Writer<'_> {
     /// What the example prints, and what it needs for it.
     fn shown(&self) -> (&'static str, String) {
         let system = self.unit.system;
-        let names = Case::Constant.names(system.measures.iter().map(|of| of.name.as_str()));
+        let names = Case::Constant.names(system.measures().iter().map(|of| of.name.as_str()));
         if let Some(name) = names.first() {
             return ("Params, assemble, measure, step", format!("state.measures().values[measure::{name}]"));
         }
-        if let Some(name) = Case::Camel.names(system.bodies.iter().map(|body| body.name.as_str())).first() {
+        if let Some(name) = Case::Camel.names(system.bodies().iter().map(|body| body.name.as_str())).first() {
             return ("Body, Params, assemble, step", format!("state.pose(Body::{name})"));
         }
         ("Params, assemble, step", "state.q()".to_owned())
@@ -286,10 +286,10 @@ impl Writer<'_> {
     fn calls(&self) -> String {
         let system = self.unit.system;
         let mut text = String::new();
-        if !system.bodies.is_empty() {
+        if !system.bodies().is_empty() {
             text += "| `state.pose(body)`, `velocity(body)`, `acceleration(body)` | those of a body, as `x`, `y` and `phi` |\n";
         }
-        if !system.measures.is_empty() {
+        if !system.measures().is_empty() {
             text += "| `state.measures()` | the measures with their first and second time derivatives |\n";
         }
         if self.unit.following.is_some() {
@@ -309,7 +309,7 @@ impl Writer<'_> {
     }
 
     fn parameters(&self) -> String {
-        let params = &self.unit.system.params;
+        let params = self.unit.system.params();
         let Some(first) = params.first() else {
             return "The mechanism has none: `assemble(&Params)`.\n".to_owned();
         };
@@ -332,7 +332,7 @@ impl Writer<'_> {
 
     /// The fields of `Inputs`; nothing where there are none.
     fn inputs(&self) -> String {
-        let inputs = &self.unit.system.inputs;
+        let inputs = self.unit.system.inputs();
         if self.unit.following.is_none() {
             return String::new();
         }
@@ -346,7 +346,7 @@ impl Writer<'_> {
     }
 
     fn bodies(&self) -> String {
-        let bodies = &self.unit.system.bodies;
+        let bodies = self.unit.system.bodies();
         if bodies.is_empty() {
             return String::new();
         }
@@ -360,7 +360,7 @@ impl Writer<'_> {
     }
 
     fn coordinates(&self) -> String {
-        let coordinates = &self.unit.system.coordinates;
+        let coordinates = self.unit.system.coordinates();
         let names = Case::Constant.names(coordinates.iter().map(|coordinate| coordinate.name.as_str()));
         let rows = coordinates.iter().zip(names).map(|(coordinate, name)| {
             let index = format!("`coordinate::{name}`");
@@ -370,7 +370,7 @@ impl Writer<'_> {
     }
 
     fn measures(&self) -> String {
-        let measures = &self.unit.system.measures;
+        let measures = self.unit.system.measures();
         if measures.is_empty() {
             return String::new();
         }

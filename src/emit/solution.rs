@@ -94,7 +94,7 @@ impl<'s> Solution<'s> {
             .tears()
             .iter()
             .take(20)
-            .map(|&tear| format!("`{}`", self.unit.system.coordinates[tear as usize].name))
+            .map(|&tear| format!("`{}`", self.unit.system.coordinates()[tear as usize].name))
             .collect();
         let more = if solver.tears().len() > names.len() { " and others" } else { "" };
         let how = if names.is_empty() {

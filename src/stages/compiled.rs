@@ -66,7 +66,7 @@ impl Compiled {
         if cancel.is_cancelled() {
             return (None, Diagnostics::default());
         }
-        let horizon = Horizon::of_analysis(system.analysis);
+        let horizon = Horizon::of_analysis(system.analysis());
         match analysis::determine(system, redundant == Redundant::LeftOut, horizon) {
             _ if cancel.is_cancelled() => (None, Diagnostics::default()),
             Err(why) => (None, used_at.told(why)),
@@ -90,7 +90,7 @@ impl Compiled {
             return Ok(None);
         };
         let mut system = with_signals.system()?;
-        system.align_measures(&self.system().measures);
+        system.align_measures(self.system().measures());
         if self.system().by_params().len() > 0 {
             system.derive_by_params();
         }
@@ -124,13 +124,13 @@ impl Compiled {
     /// The name of the mechanism.
     #[must_use]
     pub fn name(&self) -> &str {
-        &self.system().name
+        self.system().name()
     }
 
     /// First time, last time and step of the file's analysis (s), if it has one.
     #[must_use]
     pub fn analysis(&self) -> Option<[f64; 3]> {
-        self.system().analysis
+        self.system().analysis()
     }
 
     /// The output times of the file's analysis, if it has one.
@@ -161,7 +161,7 @@ impl Compiled {
     #[must_use]
     pub fn columns_of_poses(&self) -> Vec<[[usize; 3]; 3]> {
         let (system, layout) = (self.system(), RowLayout::new(self.system()));
-        system.bodies.ids().map(|body| layout.pose(system, body)).collect()
+        system.bodies().ids().map(|body| layout.pose(system, body)).collect()
     }
 
     /// What is wrong with results of an analysis from one time to another (s).
@@ -187,7 +187,7 @@ impl Compiled {
     pub fn drivers(&self) -> Vec<(String, String)> {
         let written = |text: &str| text.split_whitespace().collect::<Vec<&str>>().join(" ");
         self.system()
-            .declarations
+            .declarations()
             .iter()
             .filter(|declaration| declaration.kind == DeclarationKind::Driver)
             .filter_map(|driver| Some((driver.name.clone(), written(self.sources.text(driver.written?)))))

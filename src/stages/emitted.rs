@@ -91,8 +91,8 @@ impl Compiled {
     /// A measure holds a derivative by an input or parameter, which only `run` and Rust code compute.
     pub(crate) fn has_no_variations(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let is_varied = |id| system.graph.dependence(id).highest_varied_order().is_some();
-        match system.measures.iter().find(|measure| is_varied(measure.value)) {
+        let is_varied = |id| system.graph().dependence(id).highest_varied_order().is_some();
+        match system.measures().iter().find(|measure| is_varied(measure.value)) {
             None => Ok(()),
             Some(measure) => {
                 let message = format!("measure `{}` holds a derivative by an input or parameter", measure.name);
@@ -108,8 +108,8 @@ impl Compiled {
     /// A measure holds a force, which only `run` computes.
     pub(crate) fn has_no_forces(&self) -> Result<(), Box<Diagnostic>> {
         let system = self.system();
-        let is_force = |id| system.graph.dependence(id).on(Dependence::MULTIPLIERS.or(Dependence::VARIED_MULTIPLIERS));
-        match system.measures.iter().find(|measure| is_force(measure.value)) {
+        let is_force = |id| system.graph().dependence(id).on(Dependence::FORCES);
+        match system.measures().iter().find(|measure| is_force(measure.value)) {
             None => Ok(()),
             Some(measure) => {
                 let message = format!("measure `{}` holds a force", measure.name);

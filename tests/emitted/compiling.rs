@@ -123,9 +123,9 @@ pub fn point(n: usize, seed: u64) -> (Vec<f64>, Vec<f64>, f64) {
 pub fn interpreted(compiled: &Compiled, seed: u64) -> Vec<u64> {
     let (determined, program) = compiled.inside();
     let system = determined.system();
-    let params: Vec<f64> = system.params.iter().map(|param| param.value).collect();
+    let params: Vec<f64> = system.params().iter().map(|param| param.value).collect();
     let mut registers = program.start(&params);
-    let (q, qd, t) = point(system.coordinates.len(), seed);
+    let (q, qd, t) = point(system.coordinates().len(), seed);
     registers.set(program.inputs.time, t);
     registers.set_all(program.inputs.coordinates[0], &q);
     registers.set_all(program.inputs.coordinates[1], &qd);

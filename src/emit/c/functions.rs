@@ -231,7 +231,7 @@ impl Interface<'_> {
         let Some(following) = &self.unit.following else {
             return Vec::new();
         };
-        let inputs = &following.unit.system.inputs;
+        let inputs = following.unit.system.inputs();
         let names = Case::Snake.names_of_inputs(inputs);
         let fields = inputs.iter().zip(names);
         fields

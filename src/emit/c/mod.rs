@@ -81,7 +81,7 @@ fn unit(unit: &str) -> &str {
 
 impl Interface<'_> {
     fn has_params(&self) -> bool {
-        !self.unit.system.params.is_empty()
+        !self.unit.system.params().is_empty()
     }
 
     fn has_inputs(&self) -> bool {
@@ -106,7 +106,7 @@ impl Interface<'_> {
             let (name, ColumnUnit { text, .. }) = (one_line(&column.name), &column.unit);
             match holds {
                 Holds::Measure { index, .. }
-                    if system.measures[index].units.si != system.measures[index].units.printed[0] =>
+                    if system.measures()[index].units.si != system.measures()[index].units.printed[0] =>
                 {
                     format!("{name} (SI; tables have it in {text})")
                 }

@@ -63,8 +63,8 @@ pub fn latex(system: &ConstraintSystem, file: &str) -> String {
 /// A measure's formula, without the condition under which it has a value: a reader sees from a table where that ends.
 fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
     let is_none =
-        |id: ExprId| system.graph.dependence(id).is_constant() && !system.graph.value(id, |_| 0.0).is_finite();
-    match system.graph.node(measure) {
+        |id: ExprId| system.graph().dependence(id).is_constant() && !system.graph().value(id, |_| 0.0).is_finite();
+    match system.graph().node(measure) {
         Node::Select(_, value, otherwise) if is_none(otherwise) => value,
         _ => measure,
     }
@@ -72,12 +72,12 @@ fn where_it_has_a_value(system: &ConstraintSystem, measure: ExprId) -> ExprId {
 
 /// Every formula that is written.
 fn roots(system: &ConstraintSystem) -> Vec<ExprId> {
-    let mut roots: Vec<ExprId> = system.rows.iter().map(|row| row.phi).collect();
-    roots.extend(system.phi_q.entries().iter().map(|&(_, id)| id));
+    let mut roots: Vec<ExprId> = system.rows().iter().map(|row| row.phi).collect();
+    roots.extend(system.phi_q().entries().iter().map(|&(_, id)| id));
     roots.extend(system.nu().iter().chain(system.gamma()));
-    roots.extend(system.inputs.iter().map(|input| input.formulas[0]));
-    roots.extend(system.measures.iter().map(|measure| where_it_has_a_value(system, measure.value)));
-    roots.extend(system.graph.tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
+    roots.extend(system.inputs().iter().map(|input| input.formulas[0]));
+    roots.extend(system.measures().iter().map(|measure| where_it_has_a_value(system, measure.value)));
+    roots.extend(system.graph().tables().iter().flat_map(|table| table.knots.iter().chain(&table.values).copied()));
     roots
 }
 
@@ -90,12 +90,12 @@ struct Writer<'s> {
 impl Writer<'_> {
     fn head(&mut self, file: &str) {
         let system = self.system;
-        let (n, m) = (system.coordinates.len(), system.rows.len());
+        let (n, m) = (system.coordinates().len(), system.rows().len());
         self.text += &format!("% Written by mechc {}; pdflatex sets it.\n{PREAMBLE}\n", env!("CARGO_PKG_VERSION"));
         self.text += &format!(
             "\\section*{{Constraint system of {}}}\n\nWritten by mechc {} from \\texttt{{{}}}. \
              {n} coordinates $q$, {m} equations:\n",
-            words(&system.name),
+            words(system.name()),
             env!("CARGO_PKG_VERSION"),
             words(file),
         );
@@ -105,8 +105,8 @@ impl Writer<'_> {
         self.text += "Of $\\Phi_q$ the columns are given that do not vanish.\n";
         self.text +=
             "Each $\\mathcal{T}_k$ stands for a part of a formula, and is written out where it is met first.\n";
-        let left_out = system.checks.chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
-            let name = words(&system.declarations[of[0].declaration].name);
+        let left_out = system.checks().chunk_by(|a, b| a.declaration == b.declaration).map(|of| {
+            let name = words(&system.declarations()[of[0].declaration].name);
             format!("{} of \\textbf{{{name}}}", of.len())
         });
         let left_out: Vec<String> = left_out.collect();
@@ -123,7 +123,7 @@ impl Writer<'_> {
     fn coordinates(&mut self) {
         self.section("Coordinates");
         let mut last = None;
-        for (k, of) in self.system.coordinates.iter().enumerate() {
+        for (k, of) in self.system.coordinates().iter().enumerate() {
             let start = if last == Some(of.owner) {
                 ",\n".to_owned()
             } else {
@@ -140,10 +140,10 @@ impl Writer<'_> {
     }
 
     fn params(&mut self) {
-        if !self.system.params.is_empty() {
+        if !self.system.params().is_empty() {
             self.section("Parameters");
         }
-        for (k, of) in self.system.params.iter().enumerate() {
+        for (k, of) in self.system.params().iter().enumerate() {
             let sign = if of.value < 0.0 { "-" } else { "" };
             let value = format!("{sign}{}", numeral(of.value.abs()).text);
             let unit = unit(&of.unit());
@@ -153,12 +153,12 @@ impl Writer<'_> {
 
     /// What inputs are by the text; equations hold these formulas.
     fn inputs(&mut self) {
-        if !self.system.inputs.is_empty() {
+        if !self.system.inputs().is_empty() {
             self.section("Inputs");
             self.text +=
                 "What each is as long as nobody says otherwise; the equations hold these formulas in its place.\n\n";
         }
-        for (k, input) in self.system.inputs.iter().enumerate() {
+        for (k, input) in self.system.inputs().iter().enumerate() {
             let text = self.formulas.text(input.formulas[0]);
             self.entry(&symbol(&input.name, Style::Italic, k).text, &text);
             self.terms();
@@ -166,7 +166,7 @@ impl Writer<'_> {
     }
 
     fn tables(&mut self) {
-        let tables = self.system.graph.tables();
+        let tables = self.system.graph().tables();
         if !tables.is_empty() {
             self.section("Tables");
             self.text += "A table is a cubic spline through its points, natural or periodic; \
@@ -199,11 +199,11 @@ impl Writer<'_> {
     /// Element by element, in the order of declaration.
     fn equations(&mut self) {
         self.section("Equations");
-        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations.map(|_| Vec::new());
-        for (k, row) in self.system.rows.iter().enumerate() {
+        let mut rows: IdVec<DeclarationId, Vec<usize>> = self.system.declarations().map(|_| Vec::new());
+        for (k, row) in self.system.rows().iter().enumerate() {
             rows[row.declaration].push(k);
         }
-        for (declaration, rows) in self.system.declarations.iter().zip(&rows) {
+        for (declaration, rows) in self.system.declarations().iter().zip(&rows) {
             if !rows.is_empty() {
                 self.element(declaration, rows);
             }
@@ -217,7 +217,7 @@ impl Writer<'_> {
         };
         self.text += &format!("\n\\element{{{}}}{{{kind}}}\n", words(&declaration.name));
         for &row in rows {
-            let phi = self.formulas.text(self.system.rows[row].phi);
+            let phi = self.formulas.text(self.system.rows()[row].phi);
             self.entry(&format!(r"\Phi_{{{}}}", row + 1), &phi);
         }
         self.terms();
@@ -229,7 +229,7 @@ impl Writer<'_> {
 
     /// The right sides of an element's rows; those that vanish in one equation.
     fn right_sides(&mut self, letter: &str, rows: &[usize], of: &[ExprId]) {
-        let is_zero = |row: &usize| of.get(*row).and_then(|&id| self.system.graph.as_const(id)) == Some(0.0);
+        let is_zero = |row: &usize| of.get(*row).and_then(|&id| self.system.graph().as_const(id)) == Some(0.0);
         let (zero, others): (Vec<usize>, Vec<usize>) = rows.iter().copied().partition(is_zero);
         let names: Vec<String> = zero.iter().map(|row| format!("{letter}_{{{}}}", row + 1)).collect();
         if let Some((first, rest)) = names.split_first() {
@@ -245,7 +245,7 @@ impl Writer<'_> {
     /// The columns of `Φ_q` in which an element's rows do not vanish, as many side by side as the line has room for.
     fn matrix(&mut self, rows: &[usize]) {
         let mut columns: Vec<u32> =
-            rows.iter().flat_map(|&row| self.system.phi_q.row(row)).map(|&(column, _)| column).collect();
+            rows.iter().flat_map(|&row| self.system.phi_q().row(row)).map(|&(column, _)| column).collect();
         columns.sort_unstable();
         columns.dedup();
         let mut group: Vec<Vec<Set>> = Vec::new();
@@ -271,7 +271,7 @@ impl Writer<'_> {
         let system = self.system;
         let mut cells = vec![coordinate(system, column as usize, 0)];
         for &row in rows {
-            let entries = system.phi_q.row(row);
+            let entries = system.phi_q().row(row);
             let entry = entries.binary_search_by_key(&column, |&(column, _)| column).ok().and_then(|k| entries.get(k));
             cells.push(match entry {
                 Some(&(_, id)) => self.formulas.confined(id, WIDEST_ENTRY),
@@ -297,10 +297,10 @@ impl Writer<'_> {
     }
 
     fn measures(&mut self) {
-        if !self.system.measures.is_empty() {
+        if !self.system.measures().is_empty() {
             self.section("Measures");
         }
-        for (k, measure) in self.system.measures.iter().enumerate() {
+        for (k, measure) in self.system.measures().iter().enumerate() {
             let text = self.formulas.text(where_it_has_a_value(self.system, measure.value));
             self.entry(&symbol(&measure.name, Style::Italic, k).text, &text);
             self.terms();

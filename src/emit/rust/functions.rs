@@ -73,7 +73,7 @@ impl Writer<'_> {
                 page,
             );
         }
-        if self.unit.system.coordinates.len() <= LARGEST_DENSE {
+        if self.unit.system.coordinates().len() <= LARGEST_DENSE {
             dense(page);
         }
         self.varied_lists(page);
@@ -123,16 +123,16 @@ impl Writer<'_> {
     /// Which equations were left out.
     fn left_out(&self, page: &mut Page) {
         let system = self.unit.system;
-        if system.checks.is_empty() {
+        if system.checks().is_empty() {
             return;
         }
         page.docs("Number of equations that were left out, since they follow from the others. Those of:");
-        for of in system.checks.chunk_by(|a, b| a.declaration == b.declaration) {
-            let declaration = &system.declarations[of[0].declaration];
+        for of in system.checks().chunk_by(|a, b| a.declaration == b.declaration) {
+            let declaration = &system.declarations()[of[0].declaration];
             let (kind, name, line) = (declaration.kind.noun(), &declaration.name, self.line(declaration.span));
             page.docs(&format!("- {kind} `{name}`: {}{line}", of.len()));
         }
-        page.line(&format!("pub const LEFT_OUT: usize = {};\n", system.checks.len()));
+        page.line(&format!("pub const LEFT_OUT: usize = {};\n", system.checks().len()));
     }
 
     /// Which derivatives by inputs and parameters measures hold.
@@ -181,7 +181,7 @@ impl Writer<'_> {
     /// The measures with their derivatives.
     pub fn measures(&self, kind: &str, page: &mut Page) {
         let (system, outputs) = (self.unit.system, &self.unit.program.outputs);
-        if system.measures.is_empty() {
+        if system.measures().is_empty() {
             return;
         }
         let (has_jerk, has_varied) = (system.jerk().is_some(), self.equations.has_varied());

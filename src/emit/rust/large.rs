@@ -41,7 +41,7 @@ impl Writer<'_> {
     ) {
         self.uses("tables", "Arrays");
         let runtime = if self.equations.is_led { "super::runtime" } else { "runtime" };
-        let (is_led, has_params) = (self.equations.is_led, !self.unit.system.params.is_empty());
+        let (is_led, has_params) = (self.equations.is_led, !self.unit.system.params().is_empty());
         let model = if solution.known.is_empty() && !has_params && !is_led { "_m" } else { "m" };
         let mut arguments = vec![("guess", "&[f64; TEARS]"), ("t", "f64"), (model, "&Model")];
         arguments.extend(self.has_sides().then_some(("sides", "&Sides")));

@@ -110,7 +110,7 @@ impl Writer<'_> {
         let (file, name, along) =
             if self.equations.is_led { ("way", "Slopes", "Slopes<Q, SIGNALS>") } else { ("state", "Time", "Time") };
         self.uses(file, name);
-        let measures = if self.unit.system.measures.is_empty() { "()" } else { "Measures" };
+        let measures = if self.unit.system.measures().is_empty() { "()" } else { "Measures" };
         page.item("impl Solved for Model", |page| {
             page.line("type Tears = [f64; TEARS];");
             page.line("type Turns = [bool; TURNS];");
@@ -139,7 +139,7 @@ impl Writer<'_> {
 
     /// The measures as a solution has them.
     fn measured(&self, page: &mut Page) {
-        if self.unit.system.measures.is_empty() {
+        if self.unit.system.measures().is_empty() {
             return;
         }
         self.uses("measured", "Measured");
@@ -166,7 +166,7 @@ impl Writer<'_> {
 
     /// Which of the measures, their rates and their accelerations hold derivatives by inputs and parameters.
     fn is_varied(&self) -> Vec<String> {
-        let (graph, measures) = (&self.unit.system.graph, &self.unit.system.measures);
+        let (graph, measures) = (self.unit.system.graph(), self.unit.system.measures());
         let is_varied = |id: ExprId| graph.dependence(id).highest_varied_order().is_some().to_string();
         let values = measures.iter().map(|measure| is_varied(measure.value));
         let rates = measures.iter().filter_map(|measure| measure.first.map(is_varied));

@@ -88,7 +88,7 @@ impl Writer<'_> {
 
     /// What is measured of the result.
     fn measured_by(&self, page: &mut Page) {
-        let (has_measures, has_varied) = (!self.unit.system.measures.is_empty(), self.equations.has_varied());
+        let (has_measures, has_varied) = (!self.unit.system.measures().is_empty(), self.equations.has_varied());
         let has_jerk = self.unit.system.jerk().is_some();
         let varied = if has_varied { "&[f64; VARIED]" } else { "&[f64; 0]" };
         let head = |arguments, result| Head { kind: "fn", name: "measured", arguments, result };

@@ -97,7 +97,7 @@ impl Writer<'_> {
             let docs = "What keeps its sign along a branch of the motion.";
             function("watched", docs, watches, &watches.len().to_string());
         }
-        let checks = &self.unit.system.checks;
+        let checks = self.unit.system.checks();
         if !checks.is_empty() {
             let scales: Vec<String> = checks.iter().map(|check| literal(check.scale)).collect();
             let docs = "What each equation that was left out is judged against.";
@@ -113,8 +113,8 @@ impl Writer<'_> {
 
     /// Whether anything must hold beside the equations.
     pub fn has_checks(&self) -> bool {
-        let is_left_out = !self.unit.system.checks.is_empty();
-        let is_watched = !self.unit.system.watches.is_empty();
+        let is_left_out = !self.unit.system.checks().is_empty();
+        let is_watched = !self.unit.system.watches().is_empty();
         self.has_sides() || is_left_out || is_watched || self.has_rims() || !self.open_conditions().is_empty()
     }
 
@@ -138,7 +138,7 @@ impl Writer<'_> {
                 let all = format!("let all = {};", call("conditions", Given::All));
                 answer(page, "conditions_hold", "bool", [&all, "all.iter().all(|value| *value > 0.0)"]);
             }
-            if !self.unit.system.checks.is_empty() {
+            if !self.unit.system.checks().is_empty() {
                 self.uses("left_out", "left_out_holds");
                 let left = format!("let left = {};", call(&self.on_sides("left_out"), Given::All));
                 answer(page, "left_out_holds", "bool", [&left, "left_out_holds(&left, &LEFT_OUT_SCALES)"]);
