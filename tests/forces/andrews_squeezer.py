@@ -5,8 +5,8 @@ andrews_squeezer.py [--check]
 Writes `andrews_squeezer_motion.csv`, the crank's angle in time, which the text reads, and `andrews_squeezer.csv`, the reactions of the published motion;
 with --check nothing is written, and the published numbers are compared with those of this computation. README.md explains both. Needs mpmath; no mechc.
 
-Data, start and solution: W. Schiehlen (ed.), Multibody Systems Handbook, 1990; E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, VII.7;
-Test Set for Initial Value Problem Solvers, Andrews' squeezing mechanism. Points, velocities and forces are complex numbers here.
+Data, start and solution are those of `andrews.f` in the Test Set for Initial Value Problem Solvers; the mechanism is described in W. Schiehlen (ed.), Multibody
+Systems Handbook, 1990, and in E. Hairer, G. Wanner, Solving Ordinary Differential Equations II, VII.7. Points, velocities and forces are complex numbers here.
 """
 
 import csv
@@ -40,13 +40,11 @@ START = mpf("-0.0617138900142764496358948458001")
 # at the end, which is the Test Set's y(1) to y(27): angles, their rates, those of these, the forces at E on K3, K4 and K6
 ANGLES = "beta Theta gamma Phi delta Omega epsilon".split()
 QUANTITIES = [*ANGLES, *(f"{a}.d" for a in ANGLES), *(f"{a}.dd" for a in ANGLES), "J3.fx", "J3.fy", "J4.fx", "J4.fy", "J5.fx", "J5.fy"]
-PUBLISHED = map(
-    mpf,
-    """15.81077119629904 -15.75637105984298 0.04082224013073101 -0.5347301163226948 0.5244099658805304 0.5347301163226948 1.048080741042263
+PUBLISHED_NUMBERS = """15.81077119629904 -15.75637105984298 0.04082224013073101 -0.5347301163226948 0.5244099658805304 0.5347301163226948 1.048080741042263
     1139.920302151208 -1424.379294994111 11.03291221937134 19.29337464421385 0.5735699284790808 -19.29337464421385 0.3231791658026955
     -24631.76316945196 51850.37701610329 324102.5686413781 566749.3645176213 16743.62929479361 -566749.3645176222 9826.520791458422
-    199.1753333731910 -29.75531228015052 23.06654119098399 31.45271365475927 22.64249232082739 11.61740700019673""".split(),
-)
+    199.1753333731910 -29.75531228015052 23.06654119098399 31.45271365475927 22.64249232082739 11.61740700019673"""
+PUBLISHED_END = dict(zip(QUANTITIES, map(mpf, PUBLISHED_NUMBERS.split())))
 PUBLISHED_START = {
     "beta.dd": mpf("14222.4439199541138705911625887"),
     "J3.fx": mpf("98.5668703962410896057654982170"),
@@ -207,7 +205,7 @@ def force_of(r, moment_r, s, moment_s):
 
 def forces(ks):
     """What each pin exerts on its second body, and the motor's effort: body by body, m a and I alpha with the moments about a pin."""
-    k1, k2, k3, k4, k5, k6, k7 = ks
+    _, k2, k3, k4, _, k6, _ = ks
     E, F, G, H = k2.point(-DD).place, k2.origin.place, k4.origin.place, k6.origin.place
     masses = list(zip(MASSES, INERTIAS, ks, centres(ks)))
     ma = [m * c.acceleration for m, _, _, c in masses]
@@ -256,9 +254,9 @@ def check(motion):
         print(f"start {name:10} {float(value):22.15g} off by {float(abs(start[name] / value - 1)):.1e} of it")
     ks, beta = at(motion, END)
     found = row(motion, END) | angles(ks, beta)
-    published = dict(zip(QUANTITIES, PUBLISHED))
-    print(f"end   energy makes of the published angle another speed, by {float(abs(speed(published['beta']) / published['beta.d'] - 1)):.1e} of it")
-    for name, value in published.items():
+    other = speed(PUBLISHED_END["beta"]) / PUBLISHED_END["beta.d"] - 1
+    print(f"end   energy makes of the published angle another speed, by {float(abs(other)):.1e} of it")
+    for name, value in PUBLISHED_END.items():
         gap = found[name] - value
         gap -= 2 * pi * round(gap / (2 * pi)) if name == "Theta" else 0
         print(f"end   {name:10} {float(value):22.15g} off by {float(abs(gap / value)):.1e} of it")
