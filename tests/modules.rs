@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::{Arc, OnceLock};
 use support::listed::{Tests, is_asked_for};
-use support::{files, mechanisms, stem};
+use support::{files, mechanisms, stem, without_forces};
 
 /// Modules that one run of rustc compiles: few, so that several runs share the machine, and enough that they are not many.
 const BATCH: usize = 12;
@@ -85,7 +85,7 @@ fn determined() -> Vec<Module> {
         .map(|folder| files(folder, "mech"))
         .concat();
     let mut list: Vec<Module> = Vec::new();
-    for path in paths {
+    for path in without_forces(paths) {
         let names = mechanisms(&fs::read_to_string(&path).expect("a text"));
         let name = format!("{}_{}", stem(path.parent().expect("a folder")), stem(&path));
         for number in (0..names.len()).filter(|&number| names[number] != HELD_BY_OTHERS) {

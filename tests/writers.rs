@@ -16,7 +16,7 @@ use std::fs;
 use support::random::Random;
 use support::reading::{Names, parse, read};
 use support::tex::Meaning;
-use support::{compile_number, compiled, files, mechanisms, stem};
+use support::{compile_number, compiled, files, mechanisms, stem, without_forces};
 
 struct Emitted {
     name: String,
@@ -28,7 +28,7 @@ fn all() -> Vec<Emitted> {
     let paths =
         ["examples", "tests/cases", "tests/stages", "tests/following"].map(|folder| files(folder, "mech")).concat();
     let mut list = Vec::new();
-    for path in paths {
+    for path in without_forces(paths) {
         let text = fs::read_to_string(&path).expect("a text");
         for number in 0..mechanisms(&text).len() {
             let (compiled, _) = compile_number(&path, &text, number);

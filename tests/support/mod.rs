@@ -205,6 +205,13 @@ pub fn passing(text: &str, every: Option<f64>) -> (Outcome, Vec<f64>) {
     (outcome, passed)
 }
 
+/// Without the texts whose measures hold forces, which code, LaTeX and JSON refuse.
+pub fn without_forces(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
+    let holds_force = |text: &str| ["effort(", "force_x(", "force_y("].iter().any(|call| text.contains(call));
+    paths.retain(|path| !holds_force(&std::fs::read_to_string(path).expect("a text")));
+    paths
+}
+
 /// All files below a folder with an ending, in order.
 pub fn files(folder: &str, ending: &str) -> Vec<PathBuf> {
     let mut found = Vec::new();
