@@ -39,7 +39,7 @@ mod variations;
 
 pub use crate::vocabulary::JointKind;
 pub use features::{Axis, Circle, Point};
-pub use forces::{Forces, Reaction};
+pub use forces::{Forces, LoadForce, Press, Reaction};
 pub use ids::{AxisId, BodyId, CircleId, DeclarationId, IdVec, PointId};
 pub use results::{Outcome, Reduction, ReductionKind, Results};
 pub use right_sides::{RightSide, With};
